@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_base_exceptions_h
+#define ricochet_base_exceptions_h
+
+#include <stdexcept>
+#include <string>
+
+namespace Ricochet
+{
+  /**
+   * What the user asked for cannot be done: a typo in a parameter, a value out
+   * of range, a combination of methods that has no meaning, a file that cannot
+   * be read or written. The text is a complete sentence for the user; it is
+   * printed once, without a stack trace, and the program ends with code 1.
+   */
+  class InputError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /**
+   * A computation failed although the input was valid: Newton's method did not
+   * converge, or the state is not finite. What was computed before is on disk.
+   * The program ends with code 2.
+   */
+  class ComputationError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /**
+   * Newton's method did not converge in one stage of one step. The time loop
+   * catches this, halves the step as often as it may, and only then gives up.
+   */
+  class NewtonFailure : public ComputationError
+  {
+  public:
+    using ComputationError::ComputationError;
+  };
+} // namespace Ricochet
+
+#endif

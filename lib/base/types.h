@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_base_types_h
+#define ricochet_base_types_h
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+/**
+ * Ricochet: what happens, in time, when an elastic body hits something.
+ */
+namespace Ricochet
+{
+  /// Distributed vector of all unknowns (displacements, then multipliers).
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+  /// Distributed sparse matrix on the same unknowns.
+  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_contact_law_h
+#define ricochet_contact_contact_law_h
+
+#include <deal.II/base/tensor.h>
+
+namespace Ricochet
+{
+  /**
+   * All that a frictionless contact law may look at in one point of the contact
+   * boundary. Signs: gap > 0 is separated, pressures are positive in
+   * compression.
+   */
+  template <typename Number = double>
+  struct ContactPointState
+  {
+    /// Distance to the obstacle (m); negative when penetrating.
+    Number gap{};
+    /// Pressure of the body's own stress, -sigma_n(u_h) (Pa).
+    Number stress_pressure{};
+    /// Contact multiplier (Pa), where the treatment has one.
+    Number multiplier{};
+  };
+
+  /// The generalised forces that a law answers with, per unit of area:
+  /// the virtual work is gap * delta(gap) + stress_pressure *
+  /// delta(stress_pressure) + multiplier * delta(multiplier).
+  template <typename Number = double>
+  struct ContactPointForce
+  {
+    Number gap{};
+    Number stress_pressure{};
+    Number multiplier{};
+  };
+
+  /// Derivatives of the three forces (rows: gap, stress pressure, multiplier)
+  /// with respect to the three state variables (columns, same order).
+  using ContactPointTangent = dealii::Tensor<2, 3>;
+
+  /// Positive part.
+  template <typename Number>
+  Number
+  positive_part(const Number &x)
+  {
+    return x > 0. ? x : Number(0.);
+  }
+
+  /// Heaviside function with H(0) = 1/2.
+  inline double
+  heaviside(const double x)
+  {
+    return x > 0. ? 1. : (x < 0. ? 0. : .5);
+  }
+
+  /// Where a law is evaluated and which unknowns it needs.
+  struct ContactLawTraits
+  {
+    /// Nodes with a lumped boundary mass instead of quadrature points.
+    bool nodal = false;
+    /// The law brings a multiplier field.
+    bool needs_multiplier = false;
+    /// The law reads the old state too, as a discrete derivative does; only
+    /// the midpoint scheme can use it.
+    bool is_two_point = false;
+    /// The tangent depends on nothing but branch(): factorisations can be kept
+    /// while the branches stay the same.
+    bool piecewise_linear = true;
+    /// potential() is the potential of force(), so that a modified energy
+    /// exists.
+    bool has_potential = true;
+  };
+
+  /**
+   * A pointwise contact law: a pure function of the state of one point, which
+   * knows nothing of meshes, materials and time schemes.
+   *
+   * Concrete laws derive from ContactLawImplementation and are listed in
+   * contact_law_table.cc.
+   */
+  class ContactLaw
+  {
+  public:
+    virtual ~ContactLaw() = default;
+
+    virtual ContactLawTraits
+    traits() const = 0;
+
+    /**
+     * @param new_state state at the point where the law is enforced.
+     * @param old_state state at the beginning of the step, for two-point laws.
+     * @param cell_diameter h_T (m), by which some laws scale.
+     */
+    virtual ContactPointForce<>
+    force(const ContactPointState<> &new_state,
+          const ContactPointState<> &old_state,
+          const double               cell_diameter) const = 0;
+
+    /// Derivative of force() with respect to @p new_state.
+    virtual ContactPointTangent
+    tangent(const ContactPointState<> &new_state,
+            const ContactPointState<> &old_state,
+            const double               cell_diameter) const = 0;
+
+    /// Which smooth branch of the law the state is on; 0 means no contact.
+    virtual int
+    branch(const ContactPointState<> &new_state,
+           const ContactPointState<> &old_state,
+           const double               cell_diameter) const = 0;
+
+    /// Energy stored by the law per unit of area (J/m^2).
+    virtual double
+    potential(const ContactPointState<> &state,
+              const double               cell_diameter) const = 0;
+
+    /// The contact pressure that the law itself stands for at a state (Pa).
+    virtual double
+    pressure(const ContactPointState<> &state,
+             const double               cell_diameter) const = 0;
+
+    /// Stiffness (Pa/m) that makes the multiplier's equation comparable with
+    /// the forces; 1 for laws without multiplier.
+    virtual double
+    multiplier_scale(const double /*cell_diameter*/) const
+    {
+      return 1.;
+    }
+  };
+
+  /**
+   * Turns a struct with a templated force into a ContactLaw. The template lets
+   * the tests differentiate the very force that the programs use by automatic
+   * differentiation.
+   */
+  template <typename Law>
+  class ContactLawImplementation : public ContactLaw
+  {
+  public:
+    explicit ContactLawImplementation(const Law &law)
+      : law(law)
+    {}
+
+    ContactLawTraits
+    traits() const override
+    {
+      return Law::traits();
+    }
+
+    ContactPointForce<>
+    force(const ContactPointState<> &new_state,
+          const ContactPointState<> &old_state,
+          const double               cell_diameter) const override
+    {
+      return law.template force<double>(new_state, old_state, cell_diameter);
+    }
+
+    ContactPointTangent
+    tangent(const ContactPointState<> &new_state,
+            const ContactPointState<> &old_state,
+            const double               cell_diameter) const override
+    {
+      return law.tangent(new_state, old_state, cell_diameter);
+    }
+
+    int
+    branch(const ContactPointState<> &new_state,
+           const ContactPointState<> &old_state,
+           const double               cell_diameter) const override
+    {
+      return law.branch(new_state, old_state, cell_diameter);
+    }
+
+    double
+    potential(const ContactPointState<> &state,
+              const double               cell_diameter) const override
+    {
+      return law.potential(state, cell_diameter);
+    }
+
+    double
+    pressure(const ContactPointState<> &state,
+             const double               cell_diameter) const override
+    {
+      return law.pressure(state, cell_diameter);
+    }
+
+    double
+    multiplier_scale(const double cell_diameter) const override
+    {
+      if constexpr (Law::traits().needs_multiplier)
+        return law.stiffness(cell_diameter);
+      else
+        return 1.;
+    }
+
+  private:
+    const Law law;
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <contact/contact_points.h>
+
+#include <deal.II/fe/fe_values.h>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    const Function<dim> &
+    obstacle_of(const Obstacles<dim> &   obstacles,
+                const types::boundary_id boundary_id)
+    {
+      const auto entry = obstacles.find(boundary_id);
+      AssertThrow(entry != obstacles.end(),
+                  ExcMessage("Contact boundary " + std::to_string(boundary_id) +
+                             " has no obstacle."));
+      return *entry->second;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  ContactPoints
+  make_quadrature_contact_points(const Body<dim> &     body,
+                                 const LinearElastic & material,
+                                 const Obstacles<dim> &obstacles)
+  {
+    const FEValuesExtractors::Vector displacement(0);
+    const FiniteElement<dim> &       element = body.dof_handler().get_fe();
+    FEFaceValues<dim> face_values(body.mapping(),
+                                  element,
+                                  body.face_quadrature(),
+                                  update_values | update_gradients |
+                                    update_quadrature_points |
+                                    update_normal_vectors | update_JxW_values);
+
+    std::unique_ptr<FEFaceValues<dim>>   multiplier_values;
+    std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
+    std::vector<types::global_dof_index> multiplier_indices;
+    if (body.has_multipliers())
+      {
+        multiplier_values = std::make_unique<FEFaceValues<dim>>(
+          body.mapping(),
+          body.multiplier_dof_handler().get_fe(),
+          body.face_quadrature(),
+          update_values);
+        multiplier_indices.resize(multiplier_values->dofs_per_cell);
+      }
+
+    ContactPoints points;
+    for (const auto &cell : body.dof_handler().active_cell_iterators())
+      {
+        if (!cell->is_locally_owned())
+          continue;
+        for (const unsigned int f : cell->face_indices())
+          {
+            const auto face = cell->face(f);
+            if (!face->at_boundary() ||
+                body.contact_boundary_ids().count(face->boundary_id()) == 0)
+              continue;
+
+            face_values.reinit(cell, f);
+            cell->get_dof_indices(indices);
+            if (body.has_multipliers())
+              {
+                const auto multiplier_cell = body.multiplier_cell(cell);
+                multiplier_values->reinit(multiplier_cell, f);
+                multiplier_cell->get_dof_indices(multiplier_indices);
+              }
+            const Function<dim> &distance =
+              obstacle_of(obstacles, face->boundary_id());
+
+            for (const unsigned int q : face_values.quadrature_point_indices())
+              {
+                const Point<dim> &x = face_values.quadrature_point(q);
+                Tensor<1, dim>    obstacle_normal = distance.gradient(x);
+                obstacle_normal /= obstacle_normal.norm();
+
+                ContactPoint point;
+                point.weight        = face_values.JxW(q);
+                point.initial_gap   = distance.value(x);
+                point.cell_diameter = cell->diameter();
+                point.boundary_id   = face->boundary_id();
+                point.begin         = points.index.size();
+                for (const unsigned int i : face_values.dof_indices())
+                  {
+                    const SymmetricTensor<2, dim> stress = material.stress(
+                      face_values[displacement].symmetric_gradient(i, q));
+                    points.index.push_back(body.system_index(indices[i]));
+                    points.gap_coefficient.push_back(
+                      obstacle_normal * face_values[displacement].value(i, q));
+                    points.stress_pressure_coefficient.push_back(
+                      obstacle_normal *
+                      (stress * face_values.normal_vector(q)));
+                    points.multiplier_coefficient.push_back(0.);
+                  }
+                for (unsigned int i = 0; i < multiplier_indices.size(); ++i)
+                  {
+                    const types::global_dof_index index =
+                      body.multiplier_system_index(multiplier_indices[i]);
+                    const double value = multiplier_values->shape_value(i, q);
+                    // Multipliers off the contact boundary do not exist, and
+                    // the shape functions of the others sum up to 1 on it.
+                    if (index == numbers::invalid_dof_index || value == 0.)
+                      continue;
+                    points.index.push_back(index);
+                    points.gap_coefficient.push_back(0.);
+                    points.stress_pressure_coefficient.push_back(0.);
+                    points.multiplier_coefficient.push_back(value);
+                  }
+                point.end = points.index.size();
+                points.points.push_back(point);
+              }
+          }
+      }
+    return points;
+  }
+
+
+
+  template <int dim>
+  ContactPoints
+  make_nodal_contact_points(const Body<dim> &     body,
+                            const Obstacles<dim> &obstacles)
+  {
+    const FiniteElement<dim> &element = body.dof_handler().get_fe();
+    if (body.has_multipliers() && element.degree > 1)
+      throw InputError("Multipliers in the nodes need displacements of degree "
+                       "1; with degree " +
+                       std::to_string(element.degree) +
+                       " take the proximal augmented Lagrangian or the active "
+                       "set.");
+
+    // What is known of each owned node, by the system index of its first
+    // displacement. Ghost cells are visited too: an owned node may lie on
+    // contact faces of cells of other ranks only.
+    struct Node
+    {
+      ContactPoint                                 point;
+      std::array<types::global_dof_index, dim + 1> index;
+      Tensor<1, dim>                               obstacle_normal;
+    };
+    std::map<types::global_dof_index, Node> nodes;
+
+    // The lumped boundary mass, on the first displacement of each node.
+    Vector lumped_boundary_mass = body.make_vector();
+
+    FEFaceValues<dim> face_values(body.mapping(),
+                                  element,
+                                  body.face_quadrature(),
+                                  update_values | update_JxW_values);
+    std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
+    std::vector<types::global_dof_index> multiplier_indices(
+      body.has_multipliers() ?
+        body.multiplier_dof_handler().get_fe().n_dofs_per_cell() :
+        0);
+    for (const auto &cell : body.dof_handler().active_cell_iterators())
+      {
+        if (cell->is_artificial())
+          continue;
+        for (const unsigned int f : cell->face_indices())
+          {
+            const auto face = cell->face(f);
+            if (!face->at_boundary() ||
+                body.contact_boundary_ids().count(face->boundary_id()) == 0)
+              continue;
+
+            cell->get_dof_indices(indices);
+            if (cell->is_locally_owned())
+              face_values.reinit(cell, f);
+            if (body.has_multipliers())
+              body.multiplier_cell(cell)->get_dof_indices(multiplier_indices);
+
+            for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
+              {
+                const auto [component, node] =
+                  element.system_to_component_index(i);
+                if (component != 0 || !element.has_support_on_face(i, f))
+                  continue;
+                const types::global_dof_index first =
+                  body.system_index(indices[i]);
+
+                if (cell->is_locally_owned())
+                  {
+                    double mass = 0.;
+                    for (const unsigned int q :
+                         face_values.quadrature_point_indices())
+                      mass +=
+                        face_values.shape_value(i, q) * face_values.JxW(q);
+                    lumped_boundary_mass(first) += mass;
+                  }
+                if (!body.owned_indices().is_element(first))
+                  continue;
+
+                Node &info = nodes[first];
+                info.point.cell_diameter =
+                  std::max(info.point.cell_diameter, cell->diameter());
+                info.point.boundary_id = face->boundary_id();
+                for (unsigned int c = 0; c < dim; ++c)
+                  info.index[c] = body.system_index(
+                    indices[element.component_to_system_index(c, node)]);
+                if (body.has_multipliers())
+                  info.index[dim] =
+                    body.multiplier_system_index(multiplier_indices[node]);
+
+                const Point<dim> x =
+                  body.mapping().transform_unit_to_real_cell(
+                    cell, element.unit_support_point(i));
+                const Function<dim> &distance =
+                  obstacle_of(obstacles, face->boundary_id());
+                info.point.initial_gap = distance.value(x);
+                info.obstacle_normal   = distance.gradient(x);
+                info.obstacle_normal /= info.obstacle_normal.norm();
+              }
+          }
+      }
+    lumped_boundary_mass.compress(VectorOperation::add);
+
+    ContactPoints points;
+    bool          positive = true;
+    for (auto &[first, node] : nodes)
+      {
+        node.point.weight = lumped_boundary_mass(first);
+        positive          = positive && node.point.weight > 0.;
+        node.point.begin  = points.index.size();
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            points.index.push_back(node.index[c]);
+            points.gap_coefficient.push_back(node.obstacle_normal[c]);
+            points.stress_pressure_coefficient.push_back(0.);
+            points.multiplier_coefficient.push_back(0.);
+          }
+        if (body.has_multipliers())
+          {
+            points.index.push_back(node.index[dim]);
+            points.gap_coefficient.push_back(0.);
+            points.stress_pressure_coefficient.push_back(0.);
+            points.multiplier_coefficient.push_back(1.);
+          }
+        node.point.end = points.index.size();
+        points.points.push_back(node.point);
+      }
+    if (Utilities::MPI::min(positive ? 1 : 0, body.communicator) == 0)
+      throw InputError("Nodal contact needs nodes with a positive lumped "
+                       "boundary mass; elements of degree " +
+                       std::to_string(element.degree) +
+                       " on this mesh have others. Take degree 1, or one of "
+                       "the treatments that integrate over the boundary.");
+    return points;
+  }
+
+
+  template ContactPoints
+  make_quadrature_contact_points(const Body<1> &,
+                                 const LinearElastic &,
+                                 const Obstacles<1> &);
+  template ContactPoints
+  make_quadrature_contact_points(const Body<2> &,
+                                 const LinearElastic &,
+                                 const Obstacles<2> &);
+  template ContactPoints
+  make_quadrature_contact_points(const Body<3> &,
+                                 const LinearElastic &,
+                                 const Obstacles<3> &);
+  template ContactPoints
+  make_nodal_contact_points(const Body<1> &, const Obstacles<1> &);
+  template ContactPoints
+  make_nodal_contact_points(const Body<2> &, const Obstacles<2> &);
+  template ContactPoints
+  make_nodal_contact_points(const Body<3> &, const Obstacles<3> &);
+} // namespace Ricochet

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_contact_points_h
+#define ricochet_contact_contact_points_h
+
+#include <contact/contact_law.h>
+#include <discretization/body.h>
+#include <materials/linear_elastic.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * The rigid obstacle that a part of the boundary can touch: its signed
+   * distance (m), positive outside, by boundary id. Kinematics are linearised
+   * about the reference position, which is exact for planes:
+   * gap(u) = distance(x) + grad distance(x) . u.
+   */
+  template <int dim>
+  using Obstacles =
+    std::map<dealii::types::boundary_id,
+             std::shared_ptr<const dealii::Function<dim>>>;
+
+  /**
+   * One point of the contact boundary: gap, stress pressure and multiplier are
+   * affine functions of the unknowns, given here by their coefficients.
+   */
+  struct ContactPoint
+  {
+    /// Area that the point stands for (m^(dim-1)): JxW of a quadrature point,
+    /// lumped boundary mass of a node.
+    double weight = 0.;
+    /// Gap at zero displacement (m).
+    double initial_gap = 0.;
+    /// h_T (m).
+    double                     cell_diameter = 0.;
+    dealii::types::boundary_id boundary_id   = 0;
+
+    /// Coefficients [begin, end) in ContactPoints::index, gap_coefficient, ...
+    unsigned int begin = 0, end = 0;
+  };
+
+  /**
+   * All contact points of this rank, with their coefficients in three flat
+   * arrays that the hot loops run through. Made once: linear kinematics.
+   */
+  struct ContactPoints
+  {
+    std::vector<ContactPoint> points;
+
+    /// System index of each coefficient.
+    std::vector<dealii::types::global_dof_index> index;
+    std::vector<double>                          gap_coefficient;
+    std::vector<double>                          stress_pressure_coefficient;
+    std::vector<double>                          multiplier_coefficient;
+  };
+
+  /**
+   * Quadrature points of all contact faces of owned cells.
+   *
+   * The stress pressure is that of @p material on the face, along the normal
+   * of the obstacle: p = normal . sigma(u) n, with n the outward normal of the
+   * body.
+   */
+  template <int dim>
+  ContactPoints
+  make_quadrature_contact_points(const Body<dim> &     body,
+                                 const LinearElastic & material,
+                                 const Obstacles<dim> &obstacles);
+
+  /**
+   * Owned nodes of the contact boundary, each with its lumped boundary mass.
+   * The multiplier of a node is the one of that node; nodes know no stress
+   * pressure.
+   *
+   * @throws InputError when a lumped boundary mass is not positive (vertices of
+   * quadratic tetrahedra), and for nodal multipliers with degree > 1.
+   */
+  template <int dim>
+  ContactPoints
+  make_nodal_contact_points(const Body<dim> &     body,
+                            const Obstacles<dim> &obstacles);
+} // namespace Ricochet
+
+#endif

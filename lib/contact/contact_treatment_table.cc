@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <contact/active_set_contact.h>
+#include <contact/contact_treatment.h>
+#include <contact/laws/augmented_lagrangian.h>
+#include <contact/laws/nitsche.h>
+#include <contact/laws/nitsche_hybrid.h>
+#include <contact/laws/penalty.h>
+#include <contact/laws/signorini_multiplier.h>
+#include <contact/pointwise_contact.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    struct Treatment
+    {
+      std::string      name;
+      ContactLawTraits traits;
+      /// Makes the pointwise law; empty for the active set, which is none.
+      std::function<std::unique_ptr<ContactLaw>(const ContactParameters &)>
+        make_law;
+    };
+
+    template <typename Law>
+    std::unique_ptr<ContactLaw>
+    pointwise(const Law &law)
+    {
+      return std::make_unique<ContactLawImplementation<Law>>(law);
+    }
+
+    /// Nodal, no multipliers, no potential: a constraint.
+    constexpr ContactLawTraits
+    active_set_traits()
+    {
+      ContactLawTraits traits;
+      traits.nodal         = true;
+      traits.has_potential = false;
+      return traits;
+    }
+
+    // The table of all contact treatments: a new pointwise law is one file in
+    // laws/ and one line here.
+    const std::vector<Treatment> &
+    table()
+    {
+      using P = ContactParameters;
+      static const std::vector<Treatment> treatments = {
+        {"Nitsche",
+         Nitsche::traits(),
+         [](const P &p) {
+           return pointwise(Nitsche{p.nitsche_gamma_0, p.nitsche_theta});
+         }},
+        {"Nitsche-hybrid",
+         NitscheHybrid::traits(),
+         [](const P &p) {
+           return pointwise(NitscheHybrid{p.nitsche_gamma_0, p.nitsche_theta});
+         }},
+        {"penalty",
+         Penalty::traits(),
+         [](const P &p) { return pointwise(Penalty{p.penalty_epsilon_0}); }},
+        {"proximal augmented Lagrangian",
+         ProximalAugmentedLagrangian::traits(),
+         [](const P &p) {
+           return pointwise(ProximalAugmentedLagrangian{p.augmentation});
+         }},
+        {"Signorini multipliers",
+         SignoriniMultiplier::traits(),
+         [](const P &p) {
+           return pointwise(SignoriniMultiplier{p.augmentation});
+         }},
+        {"Signorini active set", active_set_traits(), {}}};
+      return treatments;
+    }
+
+    const Treatment &
+    find(const ContactParameters &parameters)
+    {
+      for (const Treatment &treatment : table())
+        if (treatment.name == parameters.treatment)
+          return treatment;
+      AssertThrow(false,
+                  ExcMessage("unknown contact treatment " +
+                             parameters.treatment));
+      return table().front();
+    }
+  } // namespace
+
+
+
+  std::string
+  contact_treatment_names()
+  {
+    std::string names;
+    for (const Treatment &treatment : table())
+      names += (names.empty() ? "" : "|") + treatment.name;
+    return names;
+  }
+
+
+
+  MultiplierSpace
+  multiplier_space(const ContactParameters &parameters)
+  {
+    return find(parameters).traits.needs_multiplier ? MultiplierSpace::linear :
+                                                      MultiplierSpace::none;
+  }
+
+
+
+  std::vector<std::string>
+  schemes_allowed(const ContactParameters &parameters,
+                  const bool               redistributed_mass)
+  {
+    const ContactLawTraits traits = find(parameters).traits;
+    if (traits.is_two_point)
+      return {"midpoint"};
+    std::vector<std::string> schemes = {"Crank-Nicolson",
+                                        "HHT",
+                                        "TR-BDF2",
+                                        "midpoint"};
+    // A differential equation with an invertible mass and a potential from
+    // which the work against contact can be read.
+    const bool symmetric =
+      parameters.treatment != "Nitsche" || parameters.nitsche_theta == 1.;
+    if (!redistributed_mass && !traits.needs_multiplier &&
+        traits.has_potential && symmetric)
+      schemes.push_back("ARKODE");
+    return schemes;
+  }
+
+
+
+  void
+  check_combination(const ContactParameters &parameters,
+                    const std::string &      scheme,
+                    const bool               redistributed_mass)
+  {
+    const std::vector<std::string> allowed =
+      schemes_allowed(parameters, redistributed_mass);
+    if (std::find(allowed.begin(), allowed.end(), scheme) != allowed.end())
+      return;
+
+    std::string message =
+      "The contact treatment '" + parameters.treatment +
+      (parameters.treatment == "Nitsche" ?
+         "' with theta = " + Utilities::to_string(parameters.nitsche_theta) :
+         "'") +
+      " and the " + (redistributed_mass ? "redistributed" : "consistent") +
+      " mass cannot be combined with the time scheme '" + scheme +
+      "'.\nAllowed with them: ";
+    for (unsigned int i = 0; i < allowed.size(); ++i)
+      message += (i == 0 ? "" : ", ") + allowed[i];
+    message += ".\n";
+    if (scheme == "ARKODE")
+      message += "ARKODE integrates ordinary differential equations with a "
+                 "potential: Nitsche with theta = 1 or penalty, with the "
+                 "consistent mass.";
+    else
+      message += "A discrete derivative needs the two ends of a midpoint step.";
+    throw InputError(message);
+  }
+
+
+
+  template <int dim>
+  std::unique_ptr<ContactOperator>
+  make_contact(const ContactParameters &parameters,
+               const Body<dim> &        body,
+               const LinearElastic &    material,
+               const Obstacles<dim> &   obstacles)
+  {
+    const Treatment &treatment = find(parameters);
+    ContactPoints    stress_points =
+      make_quadrature_contact_points(body, material, obstacles);
+    ContactPoints points = treatment.traits.nodal ?
+                             make_nodal_contact_points(body, obstacles) :
+                             stress_points;
+    if (!treatment.make_law)
+      return std::make_unique<ActiveSetContact>(body,
+                                                std::move(points),
+                                                std::move(stress_points),
+                                                parameters.augmentation);
+    return std::make_unique<PointwiseContact>(body,
+                                              treatment.make_law(parameters),
+                                              std::move(points),
+                                              std::move(stress_points));
+  }
+
+
+
+  void
+  ContactParameters::add_parameters(ParameterHandler &parameters)
+  {
+    parameters.enter_subsection("Contact");
+    parameters.add_parameter("Treatment",
+                             treatment,
+                             "How the Signorini condition is treated.",
+                             Patterns::Selection(contact_treatment_names()));
+    parameters.add_parameter(
+      "Nitsche gamma0",
+      nitsche_gamma_0,
+      "Parameter gamma_0 (Pa) of Nitsche's method; gamma = gamma_0/h_T (paper "
+      "C, (7)). Used by Nitsche and Nitsche-hybrid.",
+      Patterns::Double(1e-30));
+    parameters.add_parameter(
+      "Nitsche theta",
+      nitsche_theta,
+      "Variant of Nitsche's method: 1 symmetric, -1 skew-symmetric, 0 "
+      "non-symmetric. Used by Nitsche and Nitsche-hybrid.",
+      Patterns::Selection("1|-1|0"));
+    parameters.add_parameter(
+      "Penalty epsilon0",
+      penalty_epsilon_0,
+      "Parameter epsilon_0 (1/Pa) of the penalty method; epsilon = epsilon_0 "
+      "h_T (paper C, (14)). Used by penalty.",
+      Patterns::Double(1e-30));
+    parameters.add_parameter(
+      "Augmentation",
+      augmentation,
+      "Parameter gamma_a (Pa) of the proximal augmented Lagrangian (paper C, "
+      "(18)). For the Signorini treatments it steers the choice of the active "
+      "set and leaves the solution alone.",
+      Patterns::Double(1e-30));
+    parameters.leave_subsection();
+  }
+
+
+  template std::unique_ptr<ContactOperator>
+  make_contact(const ContactParameters &,
+               const Body<1> &,
+               const LinearElastic &,
+               const Obstacles<1> &);
+  template std::unique_ptr<ContactOperator>
+  make_contact(const ContactParameters &,
+               const Body<2> &,
+               const LinearElastic &,
+               const Obstacles<2> &);
+  template std::unique_ptr<ContactOperator>
+  make_contact(const ContactParameters &,
+               const Body<3> &,
+               const LinearElastic &,
+               const Obstacles<3> &);
+} // namespace Ricochet

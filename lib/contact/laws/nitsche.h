@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_laws_nitsche_h
+#define ricochet_contact_laws_nitsche_h
+
+#include <contact/contact_law.h>
+
+namespace Ricochet
+{
+  /**
+   * Nitsche's method for the Signorini condition (paper C, (6)-(9); variants
+   * after Chouly, Hild and Renard 2015): with the trial pressure
+   * q = p - gamma g, where p = -sigma_n(u) and gamma = gamma_0 / h_T (C, (7)),
+   *
+   *     ( [q]_+ , theta p(v) - gamma g(v) ) / gamma  -  theta ( p , p(v) ) /
+   *     gamma .
+   *
+   * theta = 1 is the symmetric method, which has the potential
+   * ([q]_+^2 - p^2) / (2 gamma) of C, (13); theta = -1 the skew-symmetric and
+   * theta = 0 the non-symmetric one.
+   */
+  struct Nitsche
+  {
+    /// gamma_0 (Pa).
+    double gamma_0 = 1.;
+    /// theta: 1, -1 or 0.
+    double theta = 1.;
+
+    static constexpr ContactLawTraits
+    traits()
+    {
+      return {};
+    }
+
+    double
+    stiffness(const double cell_diameter) const
+    {
+      return gamma_0 / cell_diameter;
+    }
+
+    template <typename Number>
+    ContactPointForce<Number>
+    force(const ContactPointState<Number> &state,
+          const ContactPointState<double> & /*old_state*/,
+          const double cell_diameter) const
+    {
+      const double gamma = stiffness(cell_diameter);
+      const Number q =
+        positive_part(Number(state.stress_pressure - gamma * state.gap));
+      return {Number(-q),
+              Number(theta / gamma * (q - state.stress_pressure)),
+              Number(0.)};
+    }
+
+    ContactPointTangent
+    tangent(const ContactPointState<> &state,
+            const ContactPointState<> &old_state,
+            const double               cell_diameter) const
+    {
+      const double gamma = stiffness(cell_diameter);
+      const double on    = branch(state, old_state, cell_diameter);
+      return ContactPointTangent({{on * gamma, -on, 0.},
+               {-theta * on, theta / gamma * (on - 1.), 0.},
+               {0., 0., 0.}});
+    }
+
+    int
+    branch(const ContactPointState<> &state,
+           const ContactPointState<> & /*old_state*/,
+           const double cell_diameter) const
+    {
+      return state.stress_pressure - stiffness(cell_diameter) * state.gap > 0.;
+    }
+
+    double
+    potential(const ContactPointState<> &state,
+              const double               cell_diameter) const
+    {
+      const double q = pressure(state, cell_diameter);
+      return (q * q - state.stress_pressure * state.stress_pressure) /
+             (2. * stiffness(cell_diameter));
+    }
+
+    double
+    pressure(const ContactPointState<> &state, const double cell_diameter) const
+    {
+      return positive_part(state.stress_pressure -
+                           stiffness(cell_diameter) * state.gap);
+    }
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/pointwise_contact.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <limits>
+
+namespace Ricochet
+{
+  using dealii::VectorOperation;
+
+  void
+  PointwiseContact::begin_stage(const Vector &old_solution,
+                                const Vector & /*old_contact_force*/,
+                                const double weight_)
+  {
+    weight = weight_;
+    evaluator.evaluate(old_solution, old_state);
+  }
+
+
+
+  void
+  PointwiseContact::evaluate_force(
+    const std::vector<ContactPointState<>> &new_states,
+    const std::vector<ContactPointState<>> &old_states,
+    Vector &                                result)
+  {
+    result = 0.;
+    for (unsigned int p = 0; p < new_states.size(); ++p)
+      evaluator.add(p,
+                    law->force(new_states[p],
+                               old_states[p],
+                               evaluator.contact_points()[p].cell_diameter),
+                    result);
+    result.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  PointwiseContact::complete_residual(const Vector &solution, Vector &residual)
+  {
+    evaluator.evaluate(solution, state);
+    evaluate_force(state, old_state, force);
+    residual.add(weight, force);
+
+    // What is kept is a force on displacements; the equations of the
+    // multipliers hold at the end of a stage and are never averaged.
+    double *values = force.trilinos_vector()[0];
+    for (unsigned int i = n_displacements_owned; i < force.locally_owned_size();
+         ++i)
+      values[i] = 0.;
+  }
+
+
+
+  void
+  PointwiseContact::complete_tangent(Matrix &tangent) const
+  {
+    for (unsigned int p = 0; p < state.size(); ++p)
+      evaluator.add(
+        p,
+        weight,
+        law->tangent(state[p],
+                     old_state[p],
+                     evaluator.contact_points()[p].cell_diameter),
+        tangent);
+    tangent.compress(VectorOperation::add);
+  }
+
+
+
+  std::vector<int>
+  PointwiseContact::branches() const
+  {
+    std::vector<int> branches(state.size());
+    for (unsigned int p = 0; p < state.size(); ++p)
+      branches[p] = law->branch(state[p],
+                                old_state[p],
+                                evaluator.contact_points()[p].cell_diameter);
+    return branches;
+  }
+
+
+
+  std::optional<std::uint64_t>
+  PointwiseContact::tangent_signature() const
+  {
+    if (!law->traits().piecewise_linear)
+      return {};
+    return global_hash(branches(), evaluator.communicator);
+  }
+
+
+
+  std::string
+  PointwiseContact::active_set_description() const
+  {
+    return count_active(branches(), evaluator.communicator);
+  }
+
+
+
+  void
+  PointwiseContact::force_at(const Vector &solution, Vector &result)
+  {
+    // With both states the same, a discrete derivative is the derivative.
+    evaluator.evaluate(solution, state);
+    evaluate_force(state, state, result);
+    double *values = result.trilinos_vector()[0];
+    for (unsigned int i = n_displacements_owned;
+         i < result.locally_owned_size();
+         ++i)
+      values[i] = 0.;
+  }
+
+
+
+  double
+  PointwiseContact::potential(const Vector &solution)
+  {
+    evaluator.evaluate(solution, state);
+    double sum = 0.;
+    for (unsigned int p = 0; p < state.size(); ++p)
+      sum += evaluator.contact_points()[p].weight *
+             law->potential(state[p],
+                            evaluator.contact_points()[p].cell_diameter);
+    return dealii::Utilities::MPI::sum(sum, evaluator.communicator);
+  }
+
+
+
+  void
+  PointwiseContact::compute_row_scaling()
+  {
+    scaling = 0.;
+    Vector boundary_mass(scaling);
+    for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
+      {
+        const double stiffness =
+          law->multiplier_scale(evaluator.contact_points()[p].cell_diameter);
+        evaluator.add(p, {0., 0., stiffness}, scaling);
+        evaluator.add(p, {0., 0., 1.}, boundary_mass);
+      }
+    scaling.compress(VectorOperation::add);
+    boundary_mass.compress(VectorOperation::add);
+    for (const auto i : scaling.locally_owned_elements())
+      {
+        const double mass = boundary_mass(i);
+        scaling(i)        = mass > 0. ? scaling(i) / mass : 1.;
+      }
+    scaling.compress(VectorOperation::insert);
+  }
+
+
+
+  std::map<dealii::types::boundary_id, ContactSummary>
+  PointwiseContact::summary(const Vector &solution,
+                            const Vector & /*contact_force*/)
+  {
+    evaluator.evaluate(solution, state);
+    std::map<dealii::types::boundary_id, ContactSummary> sums;
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const ContactPoint &point = evaluator.contact_points()[p];
+        ContactSummary &    sum   = sums[point.boundary_id];
+        const double pressure = law->pressure(state[p], point.cell_diameter);
+        sum.area += point.weight;
+        sum.mean_gap += point.weight * state[p].gap;
+        sum.max_penetration = std::max(sum.max_penetration, -state[p].gap);
+        sum.force += point.weight * pressure;
+        sum.active_points +=
+          law->branch(state[p], state[p], point.cell_diameter) != 0;
+      }
+    add_stress_pressure(solution, stress_evaluator, stress_state, sums);
+    return reduce_summaries(sums, evaluator.communicator);
+  }
+
+
+
+  void
+  add_stress_pressure(
+    const Vector &                                        solution,
+    ContactPointEvaluator &                               evaluator,
+    std::vector<ContactPointState<>> &                    work,
+    std::map<dealii::types::boundary_id, ContactSummary> &sums)
+  {
+    evaluator.evaluate(solution, work);
+    for (unsigned int p = 0; p < work.size(); ++p)
+      sums[evaluator.contact_points()[p].boundary_id].stress_pressure +=
+        evaluator.contact_points()[p].weight * work[p].stress_pressure;
+  }
+
+
+
+  std::map<dealii::types::boundary_id, ContactSummary>
+  reduce_summaries(
+    const std::map<dealii::types::boundary_id, ContactSummary> &my_sums,
+    const MPI_Comm                                              communicator)
+  {
+    using namespace dealii::Utilities::MPI;
+
+    // Ranks hold different boundaries: agree on the list of ids first.
+    std::vector<dealii::types::boundary_id> my_ids;
+    for (const auto &entry : my_sums)
+      my_ids.push_back(entry.first);
+    std::set<dealii::types::boundary_id> ids;
+    for (const auto &list : all_gather(communicator, my_ids))
+      ids.insert(list.begin(), list.end());
+
+    std::map<dealii::types::boundary_id, ContactSummary> summaries;
+    for (const auto id : ids)
+      {
+        const auto           mine = my_sums.find(id);
+        const ContactSummary sum =
+          mine == my_sums.end() ? ContactSummary() : mine->second;
+        ContactSummary &total   = summaries[id];
+        total.area              = dealii::Utilities::MPI::sum(sum.area, communicator);
+        total.force             = dealii::Utilities::MPI::sum(sum.force, communicator);
+        total.mean_gap          = dealii::Utilities::MPI::sum(sum.mean_gap, communicator) / total.area;
+        total.max_penetration   = max(sum.max_penetration, communicator);
+        total.contact_pressure  = total.force / total.area;
+        total.stress_pressure   = dealii::Utilities::MPI::sum(sum.stress_pressure, communicator) / total.area;
+        total.active_points     = dealii::Utilities::MPI::sum(sum.active_points, communicator);
+      }
+    return summaries;
+  }
+
+
+
+  std::string
+  count_active(const std::vector<int> &values, const MPI_Comm communicator)
+  {
+    unsigned int n_active = 0;
+    for (const int value : values)
+      n_active += value != 0;
+    const std::vector<unsigned int> my_counts = {
+      n_active, static_cast<unsigned int>(values.size())};
+    std::vector<unsigned int> counts(2);
+    dealii::Utilities::MPI::sum(my_counts, communicator, counts);
+    return std::to_string(counts[0]) + " of " + std::to_string(counts[1]);
+  }
+
+
+
+  std::uint64_t
+  global_hash(const std::vector<int> &values, const MPI_Comm communicator)
+  {
+    // FNV-1a on each rank, salted with the rank, then a sum over the ranks.
+    std::uint64_t hash =
+      1469598103934665603ull +
+      1099511628211ull *
+        dealii::Utilities::MPI::this_mpi_process(communicator);
+    for (const int value : values)
+      {
+        hash ^= static_cast<std::uint64_t>(value + 1);
+        hash *= 1099511628211ull;
+      }
+    return dealii::Utilities::MPI::sum(hash, communicator);
+  }
+} // namespace Ricochet

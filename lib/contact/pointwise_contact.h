@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_pointwise_contact_h
+#define ricochet_contact_pointwise_contact_h
+
+#include <contact/contact_operator.h>
+
+namespace Ricochet
+{
+  /**
+   * The contact operator of all pointwise laws: Nitsche and its hybrid,
+   * penalty, augmented Lagrangian, multipliers. It runs through the contact
+   * points and asks the law.
+   */
+  class PointwiseContact : public ContactOperator
+  {
+  public:
+    /**
+     * @param points where the law is enforced.
+     * @param stress_points quadrature points at which the summary evaluates the
+     * body's own stress; nodes know none.
+     */
+    template <int dim>
+    PointwiseContact(const Body<dim> &           body,
+                     std::unique_ptr<ContactLaw> law,
+                     ContactPoints               points,
+                     ContactPoints               stress_points)
+      : law(std::move(law))
+      , evaluator(body, std::move(points))
+      , stress_evaluator(body, std::move(stress_points))
+      , force(body.make_vector())
+      , scaling(body.make_vector())
+      , n_displacements_owned(body.owned_indices().n_elements() -
+                              body.multiplier_indices().n_elements())
+    {
+      compute_row_scaling();
+    }
+
+    void
+    begin_stage(const Vector &old_solution,
+                const Vector &old_contact_force,
+                const double  weight) override;
+
+    void
+    complete_residual(const Vector &solution, Vector &residual) override;
+
+    void
+    complete_tangent(Matrix &tangent) const override;
+
+    std::optional<std::uint64_t>
+    tangent_signature() const override;
+
+    std::string
+    active_set_description() const override;
+
+    const Vector &
+    contact_force() const override
+    {
+      return force;
+    }
+
+    void
+    force_at(const Vector &solution, Vector &force) override;
+
+    double
+    potential(const Vector &solution) override;
+
+    const Vector &
+    row_scaling() const override
+    {
+      return scaling;
+    }
+
+    std::map<dealii::types::boundary_id, ContactSummary>
+    summary(const Vector &solution, const Vector &contact_force) override;
+
+  private:
+    /// The law's branch in each point at the last complete_residual().
+    std::vector<int>
+    branches() const;
+
+    void
+    compute_row_scaling();
+
+    void
+    evaluate_force(const std::vector<ContactPointState<>> &new_state,
+                   const std::vector<ContactPointState<>> &old_state,
+                   Vector &                                result);
+
+    const std::unique_ptr<ContactLaw> law;
+    ContactPointEvaluator             evaluator;
+    ContactPointEvaluator             stress_evaluator;
+    double                            weight = 1.;
+    std::vector<ContactPointState<>>  state, old_state, stress_state;
+    Vector                            force, scaling;
+    const unsigned int                n_displacements_owned;
+  };
+
+
+
+  /// Complete the entries of @p summaries that are means or totals over all
+  /// ranks, from weighted sums on each rank.
+  std::map<dealii::types::boundary_id, ContactSummary>
+  reduce_summaries(
+    const std::map<dealii::types::boundary_id, ContactSummary> &my_sums,
+    const MPI_Comm                                              communicator);
+
+  /// Add the weighted stress pressures of @p evaluator to @p sums.
+  void
+  add_stress_pressure(
+    const Vector &                                        solution,
+    ContactPointEvaluator &                               evaluator,
+    std::vector<ContactPointState<>> &                    work,
+    std::map<dealii::types::boundary_id, ContactSummary> &sums);
+
+  /// "3 of 20": the number of entries of @p values that are not zero, and of
+  /// all, on all ranks.
+  std::string
+  count_active(const std::vector<int> &values, const MPI_Comm communicator);
+
+  /// Hash of a sequence of small integers on all ranks, the same on all.
+  std::uint64_t
+  global_hash(const std::vector<int> &values, const MPI_Comm communicator);
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <discretization/body.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/lac/la_parallel_vector.h>
+#include <deal.II/numerics/vector_tools.h>
+
+#include <algorithm>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  template <int dim>
+  Body<dim>::Body(const Triangulation<dim> &triangulation,
+                  const unsigned int        degree,
+                  const BoundaryIds &       clamped_ids,
+                  const BoundaryIds &       contact_ids,
+                  const MultiplierSpace     multipliers,
+                  const MPI_Comm            communicator)
+    : communicator(communicator)
+    , displacement_dofs(triangulation)
+    , multiplier_dofs(triangulation)
+    , multipliers(multipliers)
+    , contact_ids(contact_ids)
+  {
+    if (triangulation.all_reference_cells_are_hyper_cube())
+      {
+        displacement_element =
+          std::make_unique<FESystem<dim>>(FE_Q<dim>(degree), dim);
+        multiplier_element = std::make_unique<FE_Q<dim>>(1);
+        // MappingQ and not MappingFE: the latter knows no faces in 1D.
+        geometry  = std::make_unique<MappingQ<dim>>(1);
+        cell_rule = std::make_unique<QGauss<dim>>(degree + 1);
+        face_rule = std::make_unique<QGauss<dim - 1>>(degree + 1);
+      }
+    else if (triangulation.all_reference_cells_are_simplex())
+      {
+        displacement_element =
+          std::make_unique<FESystem<dim>>(FE_SimplexP<dim>(degree), dim);
+        multiplier_element = std::make_unique<FE_SimplexP<dim>>(1);
+        geometry  = std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
+        cell_rule = std::make_unique<QGaussSimplex<dim>>(degree + 1);
+        face_rule = std::make_unique<QGaussSimplex<dim - 1>>(degree + 1);
+      }
+    else
+      throw InputError("The mesh mixes cells of different kinds; Ricochet "
+                       "takes meshes of hypercubes only or simplices only.");
+
+    displacement_dofs.distribute_dofs(*displacement_element);
+    number_multipliers();
+
+    const auto system_set = [&](const IndexSet &displacement_set) {
+      IndexSet set(owned.size());
+      for (const types::global_dof_index i : displacement_set)
+        {
+          const types::global_dof_index index = system_index(i);
+          if (owned.is_element(index))
+            set.add_index(index);
+        }
+      set.compress();
+      return set;
+    };
+    const auto boundary_set = [&](const BoundaryIds &ids) {
+      // An empty set of ids means "all boundaries" to deal.II.
+      return ids.empty() ? IndexSet(displacement_dofs.n_dofs()) :
+                           DoFTools::extract_boundary_dofs(displacement_dofs,
+                                                           ComponentMask(),
+                                                           ids);
+    };
+    clamped               = system_set(boundary_set(clamped_ids));
+    contact_displacements = system_set(boundary_set(contact_ids));
+
+    make_sparsity_pattern();
+  }
+
+
+
+  template <int dim>
+  void
+  Body<dim>::number_multipliers()
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
+
+    std::vector<types::global_dof_index> my_multipliers;
+    IndexSet                             contact_dofs;
+    IndexSet                             relevant_multipliers;
+    if (has_multipliers())
+      {
+        multiplier_dofs.distribute_dofs(*multiplier_element);
+        contact_dofs         = DoFTools::extract_boundary_dofs(multiplier_dofs,
+                                                       ComponentMask(),
+                                                       contact_ids);
+        relevant_multipliers =
+          DoFTools::extract_locally_relevant_dofs(multiplier_dofs);
+        for (const types::global_dof_index i :
+             multiplier_dofs.locally_owned_dofs())
+          if (contact_dofs.is_element(i))
+            my_multipliers.push_back(i);
+      }
+
+    // One contiguous range per rank.
+    const std::vector<types::global_dof_index> n_displacements =
+      Utilities::MPI::all_gather(communicator,
+                                 displacement_dofs.n_locally_owned_dofs());
+    const std::vector<types::global_dof_index> n_multipliers =
+      Utilities::MPI::all_gather(communicator,
+                                 static_cast<types::global_dof_index>(
+                                   my_multipliers.size()));
+    types::global_dof_index displacements_so_far = 0, multipliers_so_far = 0;
+    types::global_dof_index my_first_multiplier = 0;
+    for (unsigned int rank = 0; rank < n_ranks; ++rank)
+      {
+        rank_begin.push_back(displacements_so_far);
+        rank_shift.push_back(multipliers_so_far);
+        displacements_so_far += n_displacements[rank];
+        if (rank == my_rank)
+          my_first_multiplier = displacements_so_far + multipliers_so_far;
+        multipliers_so_far += n_multipliers[rank];
+      }
+
+    const types::global_dof_index n_unknowns =
+      displacements_so_far + multipliers_so_far;
+    owned.set_size(n_unknowns);
+    owned.add_range(rank_begin[my_rank] + rank_shift[my_rank],
+                    my_first_multiplier + my_multipliers.size());
+    owned_multipliers.set_size(n_unknowns);
+    owned_multipliers.add_range(my_first_multiplier,
+                                my_first_multiplier + my_multipliers.size());
+    relevant = owned;
+    for (const types::global_dof_index i :
+         DoFTools::extract_locally_relevant_dofs(displacement_dofs))
+      relevant.add_index(system_index(i));
+
+    if (has_multipliers())
+      {
+        // The owner of a multiplier knows its number; the others ask for it
+        // by a ghost exchange. Doubles hold integers exactly up to 2^53.
+        LinearAlgebra::distributed::Vector<double> numbers(
+          multiplier_dofs.locally_owned_dofs(),
+          relevant_multipliers,
+          communicator);
+        for (unsigned int j = 0; j < my_multipliers.size(); ++j)
+          numbers(my_multipliers[j]) =
+            static_cast<double>(my_first_multiplier + j);
+        numbers.update_ghost_values();
+        for (const types::global_dof_index i : relevant_multipliers)
+          if (contact_dofs.is_element(i))
+            {
+              const auto index =
+                static_cast<types::global_dof_index>(numbers(i));
+              multiplier_index[i] = index;
+              relevant.add_index(index);
+            }
+      }
+    relevant.compress();
+  }
+
+
+
+  template <int dim>
+  types::global_dof_index
+  Body<dim>::system_index(const types::global_dof_index i) const
+  {
+    if (!has_multipliers())
+      return i;
+    const auto next =
+      std::upper_bound(rank_begin.begin(), rank_begin.end(), i);
+    return i + rank_shift[next - rank_begin.begin() - 1];
+  }
+
+
+
+  template <int dim>
+  types::global_dof_index
+  Body<dim>::multiplier_system_index(const types::global_dof_index i) const
+  {
+    const auto entry = multiplier_index.find(i);
+    return entry == multiplier_index.end() ? numbers::invalid_dof_index :
+                                             entry->second;
+  }
+
+
+
+  template <int dim>
+  void
+  Body<dim>::make_sparsity_pattern()
+  {
+    pattern.reinit(owned, owned, relevant, communicator);
+    std::vector<types::global_dof_index> cell_dofs(
+      displacement_element->n_dofs_per_cell());
+    std::vector<types::global_dof_index> multiplier_cell_dofs(
+      multiplier_element->n_dofs_per_cell());
+
+    for (const auto &cell : displacement_dofs.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          cell->get_dof_indices(cell_dofs);
+          std::vector<types::global_dof_index> indices;
+          for (const types::global_dof_index i : cell_dofs)
+            indices.push_back(system_index(i));
+          if (has_multipliers())
+            {
+              multiplier_cell(cell)->get_dof_indices(multiplier_cell_dofs);
+              for (const types::global_dof_index i : multiplier_cell_dofs)
+                {
+                  const types::global_dof_index index =
+                    multiplier_system_index(i);
+                  if (index != numbers::invalid_dof_index)
+                    indices.push_back(index);
+                }
+            }
+          std::sort(indices.begin(), indices.end());
+          for (const types::global_dof_index i : indices)
+            pattern.add_entries(i, indices.begin(), indices.end(), true);
+        }
+    pattern.compress();
+  }
+
+
+
+  template <int dim>
+  void
+  Body<dim>::interpolate(const Function<dim> &function, Vector &vector) const
+  {
+    Vector displacement(displacement_dofs.locally_owned_dofs(), communicator);
+    VectorTools::interpolate(*geometry,
+                             displacement_dofs,
+                             function,
+                             displacement);
+    vector = make_vector();
+    for (const types::global_dof_index i :
+         displacement_dofs.locally_owned_dofs())
+      vector(system_index(i)) = displacement(i);
+    vector.compress(VectorOperation::insert);
+  }
+
+
+
+  template <int dim>
+  Vector
+  Body<dim>::displacement_part(const Vector &vector) const
+  {
+    Vector displacement(displacement_dofs.locally_owned_dofs(), communicator);
+    for (const types::global_dof_index i :
+         displacement_dofs.locally_owned_dofs())
+      displacement(i) = vector(system_index(i));
+    displacement.compress(VectorOperation::insert);
+
+    Vector ghosted(displacement_dofs.locally_owned_dofs(),
+                   DoFTools::extract_locally_relevant_dofs(displacement_dofs),
+                   communicator);
+    ghosted = displacement;
+    return ghosted;
+  }
+
+
+
+  template <int dim>
+  Vector
+  Body<dim>::make_vector() const
+  {
+    return Vector(owned, communicator);
+  }
+
+
+
+  template <int dim>
+  Vector
+  Body<dim>::make_ghosted_vector() const
+  {
+    return Vector(owned, relevant, communicator);
+  }
+
+
+  template class Body<1>;
+  template class Body<2>;
+  template class Body<3>;
+} // namespace Ricochet

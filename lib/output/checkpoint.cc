@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <output/checkpoint.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/crc.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <filesystem>
+#include <sstream>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::string magic     = "Ricochet checkpoint, format 1\n";
+    const std::string file_name = "checkpoint.bin";
+
+    /// The vectors of a state, in the order in which they are stored.
+    template <typename StateType, typename Visitor>
+    void
+    for_each_vector(StateType &state, const Visitor &visit)
+    {
+      visit(state.solution);
+      visit(state.velocity);
+      visit(state.acceleration);
+      visit(state.contact_force);
+      visit(state.scheme_force);
+    }
+
+    /// What is in the file, apart from magic, size and checksum.
+    struct Payload
+    {
+      std::string                      parameters;
+      unsigned int                     step = 0;
+      double                           time = 0.;
+      std::vector<double>              sums;
+      std::vector<std::vector<double>> values_of_rank;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &parameters &step &time &sums &values_of_rank;
+      }
+    };
+
+    std::uint32_t
+    checksum(const std::string &data)
+    {
+      boost::crc_32_type crc;
+      crc.process_bytes(data.data(), data.size());
+      return crc.checksum();
+    }
+  } // namespace
+
+
+
+  void
+  Checkpoint::write(const RunFolder &folder) const
+  {
+    std::vector<double> my_values;
+    for_each_vector(state, [&](const Vector &vector) {
+      const double *values = vector.trilinos_vector()[0];
+      my_values.insert(my_values.end(),
+                       values,
+                       values + vector.locally_owned_size());
+    });
+    Payload payload{folder.parameters_that_matter,
+                    step,
+                    state.time,
+                    sums,
+                    Utilities::MPI::gather(folder.communicator, my_values, 0)};
+
+    bool written = true;
+    if (folder.is_root)
+      {
+        std::ostringstream data;
+        {
+          boost::archive::binary_oarchive archive(data);
+          archive << payload;
+        }
+        const std::string   bytes = data.str();
+        const std::uint64_t size  = bytes.size();
+        const std::uint32_t crc   = checksum(bytes);
+        const std::string   new_file = folder.file(file_name + ".new");
+        std::ofstream       out(new_file, std::ios::binary | std::ios::trunc);
+        out << magic;
+        out.write(reinterpret_cast<const char *>(&size), sizeof(size));
+        out.write(reinterpret_cast<const char *>(&crc), sizeof(crc));
+        out.write(bytes.data(), bytes.size());
+        out.close();
+        std::error_code error;
+        if (out.good())
+          std::filesystem::rename(new_file, folder.file(file_name), error);
+        written = out.good() && !error;
+      }
+    if (!Utilities::MPI::broadcast(folder.communicator, written, 0))
+      throw ComputationError("The checkpoint '" + folder.file(file_name) +
+                             "' cannot be written: is the disk full?");
+  }
+
+
+
+  Checkpoint
+  Checkpoint::read(const RunFolder &folder, const Vector &empty_vector)
+  {
+    const std::string file = folder.file(file_name);
+    const auto        fail = [&](const std::string &why) {
+      throw InputError("The run cannot be resumed: the checkpoint '" + file +
+                       "' " + why + ".");
+    };
+
+    // Every rank reads the whole file and takes its part.
+    std::ifstream in(file, std::ios::binary);
+    if (!in)
+      fail("does not exist");
+    std::string found(magic.size(), '\0');
+    in.read(found.data(), found.size());
+    if (found != magic)
+      fail("is no checkpoint of this version of Ricochet");
+    std::uint64_t size = 0;
+    std::uint32_t crc  = 0;
+    in.read(reinterpret_cast<char *>(&size), sizeof(size));
+    in.read(reinterpret_cast<char *>(&crc), sizeof(crc));
+    std::ostringstream rest;
+    rest << in.rdbuf();
+    const std::string bytes = rest.str();
+    if (bytes.size() != size)
+      fail("is truncated: it holds " + std::to_string(bytes.size()) + " of " +
+           std::to_string(size) + " bytes");
+    if (checksum(bytes) != crc)
+      fail("is damaged: its checksum is wrong");
+
+    Payload            payload;
+    std::istringstream data(bytes);
+    {
+      boost::archive::binary_iarchive archive(data);
+      archive >> payload;
+    }
+    const unsigned int n_ranks =
+      Utilities::MPI::n_mpi_processes(folder.communicator);
+    if (payload.values_of_rank.size() != n_ranks)
+      fail("was written by " + std::to_string(payload.values_of_rank.size()) +
+           " MPI rank(s) and this run has " + std::to_string(n_ranks));
+    if (payload.parameters != folder.parameters_that_matter)
+      {
+        // Name the first line that differs.
+        std::istringstream old_lines(payload.parameters);
+        std::istringstream new_lines(folder.parameters_that_matter);
+        std::string        old_line, new_line;
+        while (std::getline(old_lines, old_line) &&
+               std::getline(new_lines, new_line) && old_line == new_line)
+          ;
+        fail("belongs to a run with other parameters: it had '" + old_line +
+             "', this one has '" + new_line + "'");
+      }
+
+    Checkpoint checkpoint;
+    checkpoint.step       = payload.step;
+    checkpoint.sums       = payload.sums;
+    checkpoint.state.time = payload.time;
+    const std::vector<double> &my_values =
+      payload.values_of_rank[Utilities::MPI::this_mpi_process(
+        folder.communicator)];
+    std::size_t position = 0;
+    for_each_vector(checkpoint.state, [&](Vector &vector) {
+      vector.reinit(empty_vector);
+      double *           values = vector.trilinos_vector()[0];
+      const unsigned int n      = vector.locally_owned_size();
+      AssertThrow(position + n <= my_values.size(),
+                  ExcMessage("The checkpoint has another number of unknowns."));
+      std::copy(my_values.begin() + position,
+                my_values.begin() + position + n,
+                values);
+      position += n;
+    });
+    return checkpoint;
+  }
+} // namespace Ricochet

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_output_checkpoint_h
+#define ricochet_output_checkpoint_h
+
+#include <base/program.h>
+#include <time_integration/semi_discrete_system.h>
+
+namespace Ricochet
+{
+  /// All that a run needs to go on as if it had not been stopped.
+  struct Checkpoint
+  {
+    /// Number of the last step that is complete.
+    unsigned int step = 0;
+    /// Sums that the time loop carries.
+    std::vector<double> sums;
+    State               state;
+
+    /**
+     * Write to @p folder / checkpoint.bin: first to a second file that then
+     * takes the place of the first, so that there is a whole checkpoint at any
+     * time.
+     */
+    void
+    write(const RunFolder &folder) const;
+
+    /**
+     * Read what write() has written, on the same number of ranks and with the
+     * same parameters (but for final time and output).
+     *
+     * @param empty_vector a system vector, for the layout.
+     * @throws InputError no checkpoint, truncated or damaged, other parameters,
+     * other number of ranks.
+     */
+    static Checkpoint
+    read(const RunFolder &folder, const Vector &empty_vector);
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_output_node_probe_h
+#define ricochet_output_node_probe_h
+
+#include <discretization/body.h>
+
+namespace Ricochet
+{
+  /// Reads system vectors in the vertex that is nearest to a given point.
+  template <int dim>
+  class NodeProbe
+  {
+  public:
+    NodeProbe(const Body<dim> &body, const dealii::Point<dim> &point);
+
+    /// Component @p component of @p vector in the node; collective.
+    double
+    value(const Vector &vector, const unsigned int component = 0) const;
+
+  private:
+    const MPI_Comm communicator;
+    // System indices of the node's displacements on the rank that owns them;
+    // empty on all others.
+    std::vector<dealii::types::global_dof_index> indices;
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <output/vtu_series.h>
+
+#include <deal.II/numerics/data_out.h>
+#include <deal.II/numerics/data_postprocessor.h>
+
+#include <filesystem>
+#include <regex>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    class StressPostprocessor : public DataPostprocessorTensor<dim>
+    {
+    public:
+      explicit StressPostprocessor(const LinearElastic &material)
+        : DataPostprocessorTensor<dim>("stress", update_gradients)
+        , material(material)
+      {}
+
+      void
+      evaluate_vector_field(
+        const DataPostprocessorInputs::Vector<dim> &inputs,
+        std::vector<dealii::Vector<double>> &       stresses) const override
+      {
+        for (unsigned int p = 0; p < stresses.size(); ++p)
+          {
+            Tensor<2, dim> gradient;
+            for (unsigned int i = 0; i < dim; ++i)
+              gradient[i] = inputs.solution_gradients[p][i];
+            const SymmetricTensor<2, dim> stress =
+              material.stress(symmetrize(gradient));
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                stresses[p][Tensor<2, dim>::component_to_unrolled_index(
+                  TableIndices<2>(i, j))] = stress[i][j];
+          }
+      }
+
+      /// In 1D deal.II takes a field of one component for a scalar.
+      void
+      evaluate_scalar_field(
+        const DataPostprocessorInputs::Scalar<dim> &inputs,
+        std::vector<dealii::Vector<double>> &       stresses) const override
+      {
+        for (unsigned int p = 0; p < stresses.size(); ++p)
+          {
+            SymmetricTensor<2, dim> strain;
+            strain[0][0]   = inputs.solution_gradients[p][0];
+            stresses[p][0] = material.stress(strain)[0][0];
+          }
+      }
+
+    private:
+      const LinearElastic material;
+    };
+
+    /// In 1D a field of one component is a scalar to VTU files.
+    template <int dim>
+    std::vector<DataComponentInterpretation::DataComponentInterpretation>
+    interpretation()
+    {
+      return {static_cast<std::size_t>(dim),
+              dim == 1 ?
+                DataComponentInterpretation::component_is_scalar :
+                DataComponentInterpretation::component_is_part_of_vector};
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  VtuSeries<dim>::VtuSeries(const Body<dim> &    body,
+                            const LinearElastic &material,
+                            RunFolder &          folder)
+    : body(body)
+    , material(material)
+    , folder(folder)
+  {
+    if (!folder.is_root)
+      return;
+    std::filesystem::create_directories(folder.file("solution"));
+    if (!folder.resume)
+      return;
+    // Take over the list of an earlier part of the run.
+    std::ifstream    in(folder.file("solution.pvd"));
+    std::string      line;
+    const std::regex entry(
+      "timestep=\"([^\"]*)\".*file=\"(solution/step-([0-9]*)\\.vtu)\"");
+    std::smatch match;
+    while (std::getline(in, line))
+      if (std::regex_search(line, match, entry))
+        written[std::stoul(match[3])] = {std::stod(match[1]), match[2]};
+  }
+
+
+
+  template <int dim>
+  void
+  VtuSeries<dim>::write(const State &state, const unsigned int step)
+  {
+    const Vector displacement = body.displacement_part(state.solution);
+    const Vector velocity     = body.displacement_part(state.velocity);
+    const Vector acceleration = body.displacement_part(state.acceleration);
+
+    const StressPostprocessor<dim> stress(material);
+    DataOut<dim>                   data_out;
+    data_out.attach_dof_handler(body.dof_handler());
+    const auto add = [&](const Vector &vector, const std::string &name) {
+      data_out.add_data_vector(body.dof_handler(),
+                               vector,
+                               std::vector<std::string>(dim, name),
+                               interpretation<dim>());
+    };
+    add(displacement, "displacement");
+    add(velocity, "velocity");
+    add(acceleration, "acceleration");
+    data_out.add_data_vector(body.dof_handler(), displacement, stress);
+    data_out.build_patches(body.mapping(), body.dof_handler().get_fe().degree);
+
+    const std::string name =
+      "solution/step-" + Utilities::int_to_string(step, 6) + ".vtu";
+    data_out.write_vtu_in_parallel(folder.file(name), body.communicator);
+
+    if (!folder.is_root)
+      return;
+    // A resumed run forgets what came after its checkpoint.
+    written.erase(written.lower_bound(step), written.end());
+    written[step] = {state.time, name};
+    std::vector<std::pair<double, std::string>> times_and_names;
+    for (const auto &entry : written)
+      times_and_names.push_back(entry.second);
+    std::ofstream pvd(folder.file("solution.pvd"));
+    DataOutBase::write_pvd_record(pvd, times_and_names);
+  }
+
+
+  template class VtuSeries<1>;
+  template class VtuSeries<2>;
+  template class VtuSeries<3>;
+} // namespace Ricochet

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_output_vtu_series_h
+#define ricochet_output_vtu_series_h
+
+#include <base/program.h>
+#include <discretization/body.h>
+#include <materials/linear_elastic.h>
+#include <time_integration/semi_discrete_system.h>
+
+namespace Ricochet
+{
+  /**
+   * The fields of a linear elastic body for ParaView: displacement, velocity,
+   * acceleration and Cauchy stress, as `solution/step-NNNNNN.vtu`, and
+   * `solution.pvd` that ties them to their times.
+   */
+  template <int dim>
+  class VtuSeries
+  {
+  public:
+    VtuSeries(const Body<dim> &    body,
+              const LinearElastic &material,
+              RunFolder &          folder);
+
+    /// Write @p state as step number @p step. A step that is written again,
+    /// after a resumed run, takes the place of the old one.
+    void
+    write(const State &state, const unsigned int step);
+
+  private:
+    const Body<dim> &   body;
+    const LinearElastic material;
+    RunFolder &         folder;
+    // Time and file name of each step written, by step.
+    std::map<unsigned int, std::pair<double, std::string>> written;
+  };
+} // namespace Ricochet
+
+#endif

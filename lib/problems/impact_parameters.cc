@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <problems/impact_parameters.h>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  void
+  ImpactParameters::add_parameters(ParameterHandler &parameters)
+  {
+    contact.add_parameters(parameters);
+    scheme.add_parameters(parameters);
+    time.add_parameters(parameters);
+    newton.add_parameters(parameters);
+    linear_solver.add_parameters(parameters);
+    parameters.enter_subsection("Time");
+    parameters.add_parameter(
+      "Mass",
+      mass,
+      "Mass matrix: consistent, or redistributed so that the nodes of the "
+      "contact boundary have no inertia (paper C, section 2.4; EMM of paper "
+      "A).",
+      Patterns::Selection("consistent|redistributed"));
+    parameters.leave_subsection();
+  }
+
+
+
+  void
+  ImpactParameters::validate() const
+  {
+    check_combination(contact, scheme.name, redistributed_mass());
+  }
+} // namespace Ricochet

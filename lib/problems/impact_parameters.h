@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_problems_impact_parameters_h
+#define ricochet_problems_impact_parameters_h
+
+#include <contact/contact_treatment.h>
+#include <solvers/direct_solver.h>
+#include <solvers/newton.h>
+#include <time_integration/time_loop.h>
+#include <time_integration/time_scheme.h>
+
+namespace Ricochet
+{
+  /// The parameters that all benchmarks share.
+  struct ImpactParameters
+  {
+    ContactParameters        contact;
+    TimeScheme::Parameters   scheme;
+    TimeLoop::Parameters     time;
+    NewtonSolver::Parameters newton;
+    DirectSolver::Parameters linear_solver;
+    /// "consistent" or "redistributed".
+    std::string mass = "consistent";
+
+    void
+    add_parameters(dealii::ParameterHandler &parameters);
+
+    /// Refuse combinations without meaning. @throws InputError
+    void
+    validate() const;
+
+    bool
+    redistributed_mass() const
+    {
+      return mass == "redistributed";
+    }
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_direct_solver_h
+#define ricochet_solvers_direct_solver_h
+
+#include <base/types.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/lac/trilinos_solver.h>
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <optional>
+#include <string>
+
+namespace Ricochet
+{
+  /**
+   * A sparse direct solver that keeps its last few factorisations.
+   *
+   * While a linear body moves with a constant time step, its tangent changes
+   * only when a contact point opens or closes. A caller that can name its
+   * tangent by a key gets a kept factorisation back when the key returns; the
+   * least recently used one makes room for a new one.
+   */
+  class DirectSolver
+  {
+  public:
+    struct Parameters
+    {
+      /// "automatic", "KLU" or "MUMPS".
+      std::string  type                    = "automatic";
+      unsigned int n_kept                  = 8;
+
+      void
+      add_parameters(dealii::ParameterHandler &parameters);
+    };
+
+    /// What names a tangent: numbers that it depends on, and a hash of the
+    /// state of contact.
+    struct Key
+    {
+      double        inertia;
+      double        bulk_weight;
+      double        contact_weight;
+      std::uint64_t contact_signature;
+
+      bool
+      operator==(const Key &other) const
+      {
+        return inertia == other.inertia && bulk_weight == other.bulk_weight &&
+               contact_weight == other.contact_weight &&
+               contact_signature == other.contact_signature;
+      }
+    };
+
+    explicit DirectSolver(const Parameters &parameters)
+      : parameters(parameters)
+    {}
+
+    /**
+     * Solve matrix * solution = right_hand_side.
+     *
+     * @param key names the matrix; without it the matrix is factored afresh.
+     * @param assemble called with an empty matrix when there is no kept
+     * factorisation for @p key.
+     * @throws NewtonFailure when the matrix cannot be factored.
+     */
+    void
+    solve(const std::optional<Key> &            key,
+          const std::function<void(Matrix &)> & assemble,
+          const Vector &                        right_hand_side,
+          Vector &                              solution);
+
+    /// Number of factorisations made so far.
+    unsigned int
+    n_factorisations() const
+    {
+      return factorisation_count;
+    }
+
+    /// The solver that is used for @p n_unknowns, "KLU" or "MUMPS".
+    std::string
+    chosen_type(const std::size_t n_unknowns) const;
+
+  private:
+    // The entry owns its matrix because the solver refers to it.
+    struct Factorisation
+    {
+      std::optional<Key>                              key;
+      Matrix                                          matrix;
+      dealii::SolverControl                           control;
+      std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> solver;
+    };
+
+    const Parameters         parameters;
+    std::list<Factorisation> kept;
+    unsigned int             factorisation_count = 0;
+  };
+} // namespace Ricochet
+
+#endif

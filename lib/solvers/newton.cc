@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <solvers/newton.h>
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  void
+  NewtonSolver::Parameters::add_parameters(ParameterHandler &parameters)
+  {
+    parameters.enter_subsection("Newton");
+    parameters.add_parameter(
+      "Tolerance",
+      tolerance,
+      "Newton's method has converged when the norm of the residual is below "
+      "this fraction of the norm of the forces that make it up.",
+      Patterns::Double(1e-15, 1e-2));
+    parameters.add_parameter("Maximum iterations",
+                             max_iterations,
+                             "Number of linear solves after which Newton's "
+                             "method has failed and the time step is halved.",
+                             Patterns::Integer(1, 1000));
+    parameters.add_parameter(
+      "Line search after",
+      line_search_after,
+      "Number of full steps before steps are shortened until the residual "
+      "falls. Full steps are best for finding the active set; a shortened one "
+      "breaks a cycle.",
+      Patterns::Integer(0, 1000));
+    parameters.leave_subsection();
+  }
+
+
+
+  void
+  NewtonSolver::fail(const std::string &reason) const
+  {
+    std::ostringstream text;
+    text << "Newton's method failed: " << reason << "\n"
+         << "  iteration   relative residual   step length   active set\n";
+    for (unsigned int k = 0; k < history.size(); ++k)
+      text << std::setw(11) << k << std::setw(20) << std::scientific
+           << std::setprecision(4) << history[k].relative_residual
+           << std::setw(14) << std::defaultfloat << history[k].step_length
+           << "   " << history[k].active_set << "\n";
+    throw NewtonFailure(text.str());
+  }
+
+
+
+  const std::vector<NewtonSolver::Iteration> &
+  NewtonSolver::solve(const Problem &problem, Vector &solution)
+  {
+    // Only allocated when the problem changes its size.
+    if (residual.size() != solution.size())
+      {
+        residual.reinit(solution);
+        update.reinit(solution);
+        trial.reinit(solution);
+      }
+    history.clear();
+
+    const auto evaluate = [&](const Vector &point) {
+      problem.residual(point, residual);
+      const double norm = problem.norm(residual);
+      return problem.force_scale > 0. ? norm / problem.force_scale : norm;
+    };
+
+    double norm = evaluate(solution);
+    history.push_back({norm, 0., problem.active_set()});
+    while (norm > parameters.tolerance)
+      {
+        if (!std::isfinite(norm))
+          fail("the state is not finite.");
+        if (history.size() > parameters.max_iterations)
+          fail("not converged in " + std::to_string(parameters.max_iterations) +
+               " iterations.");
+
+        problem.solve(residual, update);
+        trial = solution;
+        trial.add(-1., update);
+        double new_norm    = evaluate(trial);
+        double step_length = 1.;
+        if (history.size() > parameters.line_search_after)
+          while (!(new_norm < norm) && step_length > 1. / 64.)
+            {
+              step_length *= .5;
+              trial = solution;
+              trial.add(-step_length, update);
+              new_norm = evaluate(trial);
+            }
+        solution.swap(trial);
+        norm = new_norm;
+        history.push_back({norm, step_length, problem.active_set()});
+      }
+    if (!std::isfinite(norm))
+      fail("the state is not finite.");
+    return history;
+  }
+} // namespace Ricochet

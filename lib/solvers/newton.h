@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_newton_h
+#define ricochet_solvers_newton_h
+
+#include <base/types.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * Semi-smooth Newton iteration (for instance Renard, CMAME 256, 2013).
+   *
+   * It returns a converged solution or throws; it never returns anything else.
+   */
+  class NewtonSolver
+  {
+  public:
+    struct Parameters
+    {
+      /// Residual over the norm of the forces that make it up.
+      double       tolerance              = 1e-12;
+      unsigned int max_iterations         = 30;
+      unsigned int line_search_after      = 10;
+
+      void
+      add_parameters(dealii::ParameterHandler &parameters);
+    };
+
+    /// The equations, as functions of the solution.
+    struct Problem
+    {
+      /// Write the residual at @p solution; remember whatever the tangent at
+      /// this point needs.
+      std::function<void(const Vector &solution, Vector &residual)> residual;
+
+      /// Solve tangent * @p update = @p residual at the point of the last
+      /// residual().
+      std::function<void(const Vector &residual, Vector &update)> solve;
+
+      /// Norm of the residual with all its rows as forces (N).
+      std::function<double(const Vector &residual)> norm;
+
+      /// Number of active contact points at the last residual(), for the table.
+      std::function<std::string()> active_set;
+
+      /// Magnitude of the forces that make up the residual (N).
+      double force_scale = 0.;
+    };
+
+    /// What an iteration did.
+    struct Iteration
+    {
+      /// Residual over force_scale.
+      double      relative_residual;
+      double      step_length;
+      std::string active_set;
+    };
+
+    explicit NewtonSolver(const Parameters &parameters)
+      : parameters(parameters)
+    {}
+
+    /**
+     * Solve @p problem, from @p solution to @p solution.
+     *
+     * @return one entry per residual that was looked at: the number of linear
+     * solves plus one.
+     * @throws NewtonFailure with the table of all iterations in its text: not
+     * converged in the allowed number of iterations, or not finite.
+     */
+    const std::vector<Iteration> &
+    solve(const Problem &problem, Vector &solution);
+
+  private:
+    [[noreturn]] void
+    fail(const std::string &reason) const;
+
+    const Parameters       parameters;
+    std::vector<Iteration> history;
+    Vector                 residual, update, trial;
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <time_integration/arkode.h>
+
+#include <deal.II/lac/trilinos_parallel_block_vector.h>
+#include <deal.II/sundials/arkode.h>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  ARKode::ARKode(const double relative_tolerance,
+                 const double absolute_tolerance)
+    : relative_tolerance(relative_tolerance)
+    , absolute_tolerance(absolute_tolerance)
+  {}
+
+
+
+  StepReport
+  ARKode::step(SemiDiscreteSystem &system,
+               const State &       old_state,
+               const double        time_step,
+               State &             new_state)
+  {
+    // (displacement, velocity)
+    using BlockVector = TrilinosWrappers::MPI::BlockVector;
+    BlockVector solution(2);
+    solution.block(0) = old_state.solution;
+    solution.block(1) = old_state.velocity;
+    solution.collect_sizes();
+
+    SUNDIALS::ARKode<BlockVector>::AdditionalData data;
+    data.initial_time        = old_state.time;
+    data.final_time          = old_state.time + time_step;
+    data.initial_step_size   = 1e-3 * time_step;
+    data.minimum_step_size   = 1e-10 * time_step;
+    data.output_period       = time_step;
+    data.relative_tolerance  = relative_tolerance;
+    data.absolute_tolerance  = absolute_tolerance;
+    data.maximum_order       = 4;
+    SUNDIALS::ARKode<BlockVector> integrator(data);
+
+    StepReport report;
+    Vector     force(old_state.solution);
+    Vector     contact_force(old_state.solution);
+    integrator.explicit_function =
+      [&](const double time, const BlockVector &y, BlockVector &rate) {
+        rate.block(0) = y.block(1);
+        system.contact.force_at(y.block(0), contact_force);
+        system.total_force(y.block(0), contact_force, time, force);
+        force *= -1.;
+        system.solve_mass(force, rate.block(1));
+        ++report.linear_solves;
+        return 0;
+      };
+    try
+      {
+        integrator.solve_ode(solution);
+      }
+    catch (const ExceptionBase &)
+      {
+        throw NewtonFailure("ARKODE could not integrate from t = " +
+                            std::to_string(old_state.time) + " over " +
+                            std::to_string(time_step) + ".");
+      }
+
+    new_state          = old_state;
+    new_state.time     = old_state.time + time_step;
+    new_state.solution = solution.block(0);
+    new_state.velocity = solution.block(1);
+    system.contact.force_at(new_state.solution, new_state.contact_force);
+    system.total_force(new_state.solution,
+                       new_state.contact_force,
+                       new_state.time,
+                       new_state.scheme_force);
+    force = new_state.scheme_force;
+    force *= -1.;
+    system.solve_mass(force, new_state.acceleration);
+
+    report.contact_work = system.contact.potential(new_state.solution) -
+                          system.contact.potential(old_state.solution);
+    // The trapezoidal rule is exact for the loads that exist: constant ones.
+    Vector mean_load(force), new_load(force);
+    system.external_load(old_state.time, mean_load);
+    system.external_load(new_state.time, new_load);
+    mean_load += new_load;
+    force = new_state.solution;
+    force -= old_state.solution;
+    report.external_work = .5 * (mean_load * force);
+    return report;
+  }
+} // namespace Ricochet

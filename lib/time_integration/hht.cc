@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <time_integration/hht.h>
+
+#include <cmath>
+
+namespace Ricochet
+{
+  HHT::HHT(const double alpha)
+    : alpha(alpha)
+    , beta(.25 * (1. + std::abs(alpha)) * (1. + std::abs(alpha)))
+    , gamma(.5 + std::abs(alpha))
+  {}
+
+
+
+  StepReport
+  HHT::step(SemiDiscreteSystem &system,
+            const State &       old_state,
+            const double        time_step,
+            State &             new_state)
+  {
+    const double dt = time_step;
+    new_state       = old_state;
+    new_state.time  = old_state.time + dt;
+
+    // u_new = inertia_origin + beta dt^2 a_new
+    stage.inertia        = 1. / (beta * dt * dt);
+    stage.inertia_origin = old_state.solution;
+    stage.inertia_origin.add(dt,
+                             old_state.velocity,
+                             (.5 - beta) * dt * dt,
+                             old_state.acceleration);
+    stage.bulk_weight_new = stage.contact_weight_new = 1. - alpha;
+    stage.bulk_weight_old = stage.contact_weight_old = alpha;
+
+    work.reinit(old_state.solution, true);
+    load.reinit(old_state.solution, true);
+    system.external_load(old_state.time, work);
+    system.external_load(new_state.time, load);
+    stage.load = load;
+    stage.load.sadd(1. - alpha, alpha, work);
+
+    // The guess is free flight over the step.
+    new_state.solution.add(dt,
+                           old_state.velocity,
+                           .5 * dt * dt,
+                           old_state.acceleration);
+    StepReport report;
+    report.newton_iterations = system.solve_stage(
+      stage, old_state, new_state.solution, new_state.contact_force);
+    report.linear_solves = report.newton_iterations;
+
+    new_state.acceleration = new_state.solution;
+    new_state.acceleration -= stage.inertia_origin;
+    new_state.acceleration *= stage.inertia;
+    new_state.velocity.add((1. - gamma) * dt,
+                           old_state.acceleration,
+                           gamma * dt,
+                           new_state.acceleration);
+
+    // Energy balance. With jump = a_new - a_old and mean = (a_new + a_old)/2
+    // the Newmark formulas are
+    //   u_new - u_old = dt (v_old + v_new)/2 + dt^2 (beta - gamma/2) jump,
+    //   v_new - v_old = dt mean + dt (gamma - 1/2) jump,
+    // and M a is minus the force that the scheme balances it with.
+    old_force.reinit(old_state.solution, true);
+    new_force.reinit(old_state.solution, true);
+    system.total_force(old_state.solution,
+                       old_state.contact_force,
+                       old_state.time,
+                       old_force);
+    system.total_force(new_state.solution,
+                       new_state.contact_force,
+                       new_state.time,
+                       new_force);
+    new_state.scheme_force = new_force;
+    new_state.scheme_force.sadd(1. - alpha, alpha, old_force);
+
+    // (mean scheme force - mean force) . (u_new - u_old)
+    work = new_state.scheme_force;
+    work += old_state.scheme_force;
+    work -= new_force;
+    work -= old_force;
+    work *= .5;
+    increment = new_state.solution;
+    increment -= old_state.solution;
+    double dissipation = work * increment;
+
+    work = new_state.acceleration;
+    work -= old_state.acceleration;
+    mass_times_jump.reinit(work, true);
+    system.mass_matrix().vmult(mass_times_jump, work);
+    dissipation -= (gamma - .5) * (mass_times_jump * increment);
+
+    // dt^2 (beta - gamma/2) (mean + (gamma - 1/2) jump) . M jump
+    work.sadd(gamma - .5, .5, new_state.acceleration);
+    work.add(.5, old_state.acceleration);
+    dissipation +=
+      dt * dt * (beta - .5 * gamma) * (mass_times_jump * work);
+
+    report.numerical_dissipation = dissipation;
+    add_trapezoidal_works(system, old_state, new_state, report);
+
+    system.reconstruct_massless(old_state, dt, new_state);
+    return report;
+  }
+
+
+
+  void
+  add_trapezoidal_works(const SemiDiscreteSystem &system,
+                        const State &             old_state,
+                        const State &             new_state,
+                        StepReport &              report)
+  {
+    Vector increment(new_state.solution);
+    increment -= old_state.solution;
+    Vector mean(new_state.contact_force);
+    mean += old_state.contact_force;
+    report.contact_work += .5 * (mean * increment);
+
+    Vector new_load(new_state.solution);
+    system.external_load(old_state.time, mean);
+    system.external_load(new_state.time, new_load);
+    mean += new_load;
+    report.external_work += .5 * (mean * increment);
+  }
+} // namespace Ricochet

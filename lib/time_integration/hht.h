@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_time_integration_hht_h
+#define ricochet_time_integration_hht_h
+
+#include <time_integration/time_scheme.h>
+
+namespace Ricochet
+{
+  /**
+   * HHT-alpha (paper C, (24)), with beta = (1 + |alpha|)^2 / 4 and gamma = 1/2
+   * + |alpha|, for alpha of either sign; alpha = 0 is Crank-Nicolson.
+   *
+   *     M a_new + (1 - alpha) F(u_new) + alpha F(u_old) = 0,
+   *
+   * where F is the internal and contact force less the load. For alpha < 0 the
+   * scheme is of first order only: the order condition is gamma = 1/2 + alpha.
+   */
+  class HHT : public TimeScheme
+  {
+  public:
+    explicit HHT(const double alpha);
+
+    StepReport
+    step(SemiDiscreteSystem &system,
+         const State &       old_state,
+         const double        time_step,
+         State &             new_state) override;
+
+  private:
+    const double alpha, beta, gamma;
+    Stage        stage;
+    // Work space.
+    Vector old_force, new_force, load, mass_times_jump, increment, work;
+  };
+
+
+
+  /// The parts of the energy balance that all schemes with collocated forces
+  /// share: external work and work against contact by the trapezoidal rule.
+  void
+  add_trapezoidal_works(const SemiDiscreteSystem &system,
+                        const State &             old_state,
+                        const State &             new_state,
+                        StepReport &              report);
+} // namespace Ricochet
+
+#endif

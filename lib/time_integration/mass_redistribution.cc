@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <time_integration/mass_redistribution.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/dofs/dof_tools.h>
+
+#include <Eigen/Dense>
+
+#include <functional>
+#include <map>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// A displacement DoF as the redistribution sees it.
+    template <int dim>
+    struct DoF
+    {
+      unsigned int component;
+      Point<dim>   position;
+      bool         on_contact_boundary;
+    };
+
+    template <int dim>
+    std::map<types::global_dof_index, DoF<dim>>
+    describe_dofs(const Body<dim> &body)
+    {
+      std::map<types::global_dof_index, Point<dim>> positions;
+      DoFTools::map_dofs_to_support_points(body.mapping(),
+                                           body.dof_handler(),
+                                           positions);
+      const IndexSet on_boundary =
+        body.contact_boundary_ids().empty() ?
+          IndexSet(body.dof_handler().n_dofs()) :
+          DoFTools::extract_boundary_dofs(body.dof_handler(),
+                                          ComponentMask(),
+                                          body.contact_boundary_ids());
+      std::map<types::global_dof_index, DoF<dim>> dofs;
+      std::vector<types::global_dof_index>        indices(
+        body.dof_handler().get_fe().n_dofs_per_cell());
+      for (const auto &cell : body.dof_handler().active_cell_iterators())
+        {
+          if (cell->is_artificial())
+            continue;
+          cell->get_dof_indices(indices);
+          for (unsigned int i = 0; i < indices.size(); ++i)
+            dofs[body.system_index(indices[i])] = {
+              body.dof_handler().get_fe().system_to_component_index(i).first,
+              positions.at(indices[i]),
+              on_boundary.is_element(indices[i])};
+        }
+      return dofs;
+    }
+
+    /// Symmetrised products a_k b_k^T at a pair of positions, for all moments:
+    /// 1 1, x_i 1, x_i x_j.
+    template <int dim>
+    Eigen::VectorXd
+    moments_of_pair(const Point<dim> &x, const Point<dim> &y)
+    {
+      Eigen::VectorXd values(n_mass_moments<dim>);
+      unsigned int    k = 0;
+      values[k++]       = 1.;
+      for (unsigned int i = 0; i < dim; ++i)
+        values[k++] = .5 * (x[i] + y[i]);
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          values[k++] = .5 * (x[i] * y[j] + x[j] * y[i]);
+      return values;
+    }
+
+    /// Visit the owned entries of @p matrix between DoFs of one component.
+    template <int dim>
+    void
+    for_each_entry(
+      const Matrix &                                     matrix,
+      const std::map<types::global_dof_index, DoF<dim>> &dofs,
+      const std::function<void(const types::global_dof_index row,
+                               const types::global_dof_index column,
+                               const DoF<dim> &              row_dof,
+                               const DoF<dim> &              column_dof,
+                               const double                  value)> &visit)
+    {
+      const auto range = matrix.local_range();
+      for (auto row = range.first; row < range.second; ++row)
+        {
+          const auto row_dof = dofs.find(row);
+          if (row_dof == dofs.end())
+            continue;
+          for (auto entry = matrix.begin(row); entry != matrix.end(row);
+               ++entry)
+            {
+              const auto column_dof = dofs.find(entry->column());
+              if (column_dof != dofs.end() &&
+                  column_dof->second.component == row_dof->second.component)
+                visit(row,
+                      entry->column(),
+                      row_dof->second,
+                      column_dof->second,
+                      entry->value());
+            }
+        }
+    }
+
+    template <int dim>
+    Eigen::VectorXd
+    moments(const Matrix &                                     mass,
+            const std::map<types::global_dof_index, DoF<dim>> &dofs,
+            const Point<dim> &                                 origin,
+            const MPI_Comm                                     communicator)
+    {
+      Eigen::VectorXd sums = Eigen::VectorXd::Zero(n_mass_moments<dim>);
+      for_each_entry<dim>(mass,
+                          dofs,
+                          [&](const auto,
+                              const auto,
+                              const DoF<dim> &row,
+                              const DoF<dim> &column,
+                              const double    value) {
+                            if (row.component == 0)
+                              sums += value * moments_of_pair<dim>(
+                                                Point<dim>(row.position -
+                                                           origin),
+                                                Point<dim>(column.position -
+                                                           origin));
+                          });
+      MPI_Allreduce(MPI_IN_PLACE,
+                    sums.data(),
+                    sums.size(),
+                    MPI_DOUBLE,
+                    MPI_SUM,
+                    communicator);
+      return sums;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::array<double, n_mass_moments<dim>>
+  mass_moments(const Body<dim> &body, const Matrix &mass)
+  {
+    const Eigen::VectorXd sums = moments<dim>(mass,
+                                              describe_dofs(body),
+                                              Point<dim>(),
+                                              body.communicator);
+    std::array<double, n_mass_moments<dim>> result;
+    std::copy(sums.data(), sums.data() + sums.size(), result.begin());
+    return result;
+  }
+
+
+
+  template <int dim>
+  Matrix
+  redistribute_mass(const Body<dim> &body, const Matrix &mass)
+  {
+    const auto dofs = describe_dofs(body);
+
+    // About the centre of mass the small system is well conditioned.
+    const Eigen::VectorXd about_zero =
+      moments<dim>(mass, dofs, Point<dim>(), body.communicator);
+    Point<dim> centre;
+    for (unsigned int i = 0; i < dim; ++i)
+      centre[i] = about_zero[1 + i] / about_zero[0];
+
+    const auto pair = [&](const DoF<dim> &row, const DoF<dim> &column) {
+      return moments_of_pair<dim>(Point<dim>(row.position - centre),
+                                  Point<dim>(column.position - centre));
+    };
+
+    // Moments that are lost with the contact boundary, and the Gram matrix of
+    // the constraints on the entries that are left.
+    const unsigned int n       = n_mass_moments<dim>;
+    Eigen::VectorXd    missing = Eigen::VectorXd::Zero(n);
+    Eigen::MatrixXd    gram    = Eigen::MatrixXd::Zero(n, n);
+    for_each_entry<dim>(mass,
+                        dofs,
+                        [&](const auto,
+                            const auto,
+                            const DoF<dim> &row,
+                            const DoF<dim> &column,
+                            const double    value) {
+                          if (row.component != 0)
+                            return;
+                          const Eigen::VectorXd products = pair(row, column);
+                          if (row.on_contact_boundary ||
+                              column.on_contact_boundary)
+                            missing += value * products;
+                          else
+                            gram += products * products.transpose();
+                        });
+    MPI_Allreduce(MPI_IN_PLACE,
+                  missing.data(),
+                  missing.size(),
+                  MPI_DOUBLE,
+                  MPI_SUM,
+                  body.communicator);
+    MPI_Allreduce(MPI_IN_PLACE,
+                  gram.data(),
+                  gram.size(),
+                  MPI_DOUBLE,
+                  MPI_SUM,
+                  body.communicator);
+
+    // Scale the constraints to unit diagonal before judging independence.
+    const Eigen::VectorXd scale =
+      gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd scaled =
+      scale.asDiagonal() * gram * scale.asDiagonal();
+    Eigen::FullPivLU<Eigen::MatrixXd> factorisation(scaled);
+    factorisation.setThreshold(1e-12);
+    if (!factorisation.isInvertible())
+      throw InputError("The mass cannot be redistributed: too few nodes lie "
+                       "off the contact boundary to keep mass, centre of mass "
+                       "and moments of inertia. Refine the mesh or take the "
+                       "consistent mass.");
+    const Eigen::VectorXd multipliers =
+      scale.asDiagonal() *
+      factorisation.solve(Eigen::VectorXd(scale.asDiagonal() * missing));
+
+    Matrix redistributed;
+    redistributed.copy_from(mass);
+    for_each_entry<dim>(mass,
+                        dofs,
+                        [&](const types::global_dof_index row_index,
+                            const types::global_dof_index column_index,
+                            const DoF<dim> &              row,
+                            const DoF<dim> &              column,
+                            const double                  value) {
+                          redistributed.set(
+                            row_index,
+                            column_index,
+                            row.on_contact_boundary ||
+                                column.on_contact_boundary ?
+                              0. :
+                              value + multipliers.dot(pair(row, column)));
+                        });
+    redistributed.compress(VectorOperation::insert);
+    return redistributed;
+  }
+
+
+  template Matrix
+  redistribute_mass(const Body<1> &, const Matrix &);
+  template Matrix
+  redistribute_mass(const Body<2> &, const Matrix &);
+  template Matrix
+  redistribute_mass(const Body<3> &, const Matrix &);
+  template std::array<double, n_mass_moments<1>>
+  mass_moments(const Body<1> &, const Matrix &);
+  template std::array<double, n_mass_moments<2>>
+  mass_moments(const Body<2> &, const Matrix &);
+  template std::array<double, n_mass_moments<3>>
+  mass_moments(const Body<3> &, const Matrix &);
+} // namespace Ricochet

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_time_integration_mass_redistribution_h
+#define ricochet_time_integration_mass_redistribution_h
+
+#include <discretization/body.h>
+
+#include <array>
+
+namespace Ricochet
+{
+  /**
+   * Free the nodes of the contact boundary of inertia (Khenous, Laborde and
+   * Renard 2008; paper C, section 2.4): the matrix that is nearest to @p mass
+   * in the Frobenius norm among those with the same sparsity, zero rows and
+   * columns on the contact boundary, and the same total mass, first and second
+   * moments.
+   *
+   * With a_k, b_k the polynomials 1, x_i of the constraints, the result is
+   * M_ij + sum_k l_k sym(a_k b_k^T)_ij on the entries off the contact boundary;
+   * the l_k solve a dense system of size 1 + dim + dim (dim + 1)/2.
+   *
+   * @throws InputError when all nodes are on the contact boundary, or the mesh
+   * is too coarse for the moments to be independent.
+   */
+  template <int dim>
+  Matrix
+  redistribute_mass(const Body<dim> &body, const Matrix &mass);
+
+  /// Number of moments that redistribute_mass() keeps.
+  template <int dim>
+  constexpr unsigned int n_mass_moments = 1 + dim + dim * (dim + 1) / 2;
+
+  /// Total mass (kg), first moments (kg m) and second moments (kg m^2: xx, xy,
+  /// ..., in lexicographic order) of the scalar matrix behind @p mass.
+  template <int dim>
+  std::array<double, n_mass_moments<dim>>
+  mass_moments(const Body<dim> &body, const Matrix &mass);
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <time_integration/midpoint.h>
+
+namespace Ricochet
+{
+  StepReport
+  Midpoint::step(SemiDiscreteSystem &system,
+                 const State &       old_state,
+                 const double        time_step,
+                 State &             new_state)
+  {
+    const double dt = time_step;
+    new_state       = old_state;
+    new_state.time  = old_state.time + dt;
+
+    // (v_new - v_old)/dt = 2/dt^2 (u_new - u_old - dt v_old)
+    stage.inertia        = 2. / (dt * dt);
+    stage.inertia_origin = old_state.solution;
+    stage.inertia_origin.add(dt, old_state.velocity);
+    stage.bulk_discrete_derivative = true;
+    stage.contact_weight_new       = 1.;
+    stage.contact_weight_old       = 0.;
+
+    work.reinit(old_state.solution, true);
+    stage.load.reinit(old_state.solution, true);
+    system.external_load(old_state.time, work);
+    system.external_load(new_state.time, stage.load);
+    stage.load.sadd(.5, .5, work);
+
+    new_state.solution.add(dt,
+                           old_state.velocity,
+                           .5 * dt * dt,
+                           old_state.acceleration);
+    StepReport report;
+    report.newton_iterations = system.solve_stage(
+      stage, old_state, new_state.solution, new_state.contact_force);
+    report.linear_solves = report.newton_iterations;
+
+    work = new_state.solution;
+    work -= old_state.solution;
+    new_state.velocity *= -1.;
+    new_state.velocity.add(2. / dt, work);
+    new_state.acceleration *= -1.;
+    new_state.acceleration.add(2. / dt,
+                               new_state.velocity,
+                               -2. / dt,
+                               old_state.velocity);
+
+    // The scheme dissipates nothing: M (v_new - v_old)/dt times u_new - u_old
+    // is the difference of kinetic energies.
+    report.contact_work  = new_state.contact_force * work;
+    report.external_work = stage.load * work;
+
+    system.reconstruct_massless(old_state, dt, new_state);
+    return report;
+  }
+} // namespace Ricochet

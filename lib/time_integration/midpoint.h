@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_time_integration_midpoint_h
+#define ricochet_time_integration_midpoint_h
+
+#include <time_integration/time_scheme.h>
+
+namespace Ricochet
+{
+  /**
+   * The midpoint scheme (papers A (3.2), B (3.1), C (38)),
+   *
+   *     M (v_new - v_old)/dt + f(u_old, u_new) = (L_old + L_new)/2,
+   *     (u_new - u_old)/dt = (v_old + v_new)/2,
+   *
+   * where the bulk force is the discrete derivative of the stored energy.
+   * Two-point contact laws bring their own discrete derivative; with
+   * Nitsche-hybrid this is the hybrid scheme of paper C. All other treatments
+   * are enforced at the end of the step, where they can only dissipate.
+   */
+  class Midpoint : public TimeScheme
+  {
+  public:
+    StepReport
+    step(SemiDiscreteSystem &system,
+         const State &       old_state,
+         const double        time_step,
+         State &             new_state) override;
+
+  private:
+    Stage  stage;
+    Vector work;
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_time_integration_semi_discrete_system_h
+#define ricochet_time_integration_semi_discrete_system_h
+
+#include <base/types.h>
+#include <contact/contact_operator.h>
+#include <discretization/bulk_operator.h>
+#include <solvers/direct_solver.h>
+#include <solvers/newton.h>
+
+#include <functional>
+
+namespace Ricochet
+{
+  /// Everything that a time scheme needs to go on from an instant. All vectors
+  /// are system vectors without ghost values; the entries of the multipliers
+  /// in velocity, acceleration and forces are zero.
+  struct State
+  {
+    /// s
+    double time = 0.;
+    /// Displacements (m) and multipliers (Pa).
+    Vector solution;
+    /// m/s
+    Vector velocity;
+    /// m/s^2
+    Vector acceleration;
+    /// Contact force at this instant, on the side of the internal forces (N).
+    Vector contact_force;
+    /// -M a as the scheme's own equation of motion gives it (N); only the
+    /// energy balance reads it.
+    Vector scheme_force;
+  };
+
+  /**
+   * One nonlinear system, as every time scheme poses it: find x such that
+   *
+   *     inertia M (x - inertia_origin) + bulk force + contact force = load,
+   *
+   * where the forces are either weighted sums of their values at the old and
+   * the new point, or discrete derivatives between both.
+   */
+  struct Stage
+  {
+    /// 1/s^2
+    double inertia = 0.;
+    /// m
+    Vector inertia_origin;
+
+    /// The bulk force is a discrete derivative; its weights are not used.
+    bool   bulk_discrete_derivative = false;
+    double bulk_weight_new          = 1.;
+    double bulk_weight_old          = 0.;
+
+    /// With a two-point contact law, contact_weight_new is 1.
+    double contact_weight_new = 1.;
+    double contact_weight_old = 0.;
+
+    /// External load (N), already weighted.
+    Vector load;
+  };
+
+  /**
+   * The system of ordinary differential equations (or inclusions)
+   *
+   *     M a + bulk(u) + contact(u) = load(t)
+   *
+   * that time schemes integrate: paper C, (22), (23). It owns none of its parts
+   * and knows neither material nor contact treatment nor scheme.
+   */
+  class SemiDiscreteSystem
+  {
+  public:
+    /// External load (N) at a time (s); the argument comes in as zero.
+    using Load = std::function<void(const double time, Vector &load)>;
+
+    /**
+     * @param mass mass matrix of the equation of motion; with redistributed
+     * mass its rows on the contact boundary are zero.
+     * @param invertible_mass consistent mass matrix, for the initial
+     * acceleration.
+     * @param massless owned indices without inertia.
+     * @param clamped owned indices of zero displacement.
+     * @param multipliers owned indices of multipliers.
+     */
+    SemiDiscreteSystem(const Matrix &                  mass,
+                       const Matrix &                  invertible_mass,
+                       const BulkOperator &            bulk,
+                       ContactOperator &               contact,
+                       const dealii::IndexSet &        massless,
+                       const dealii::IndexSet &        clamped,
+                       const dealii::IndexSet &        multipliers,
+                       Load                            load,
+                       const NewtonSolver::Parameters &newton_parameters,
+                       const DirectSolver::Parameters &solver_parameters);
+
+    /// A state with @p displacement and @p velocity (system vectors) at time
+    /// @p time, with the contact force and the acceleration M^{-1}(load - bulk
+    /// - contact) that follow (paper C, section 4).
+    State
+    initial_state(const Vector &displacement,
+                  const Vector &velocity,
+                  const double  time);
+
+    /**
+     * Solve @p stage. @p solution holds the initial guess and gets the
+     * result; @p contact_force gets the contact force at the result.
+     *
+     * @return the number of Newton iterations (linear solves).
+     * @throws NewtonFailure
+     */
+    unsigned int
+    solve_stage(const Stage &stage,
+                const State &old_state,
+                Vector &     solution,
+                Vector &     contact_force);
+
+    /// bulk(solution) + @p contact_force - load(time).
+    void
+    total_force(const Vector &solution,
+                const Vector &contact_force,
+                const double  time,
+                Vector &      force) const;
+
+    /// The external load at @p time.
+    void
+    external_load(const double time, Vector &load) const;
+
+    /// Backward differences for the displacements without inertia, from @p
+    /// old_state over @p time_step: paper C, algorithm 1.
+    void
+    reconstruct_massless(const State &old_state,
+                         const double time_step,
+                         State &      new_state) const;
+
+    /// Solve M a = force, rows of clamped displacements being zero.
+    void
+    solve_mass(const Vector &force, Vector &acceleration);
+
+    /// 1/2 v.M v (J).
+    double
+    kinetic_energy(const Vector &velocity) const;
+
+    /// Mass matrix of the equation of motion (kg).
+    const Matrix &
+    mass_matrix() const
+    {
+      return mass;
+    }
+
+    const BulkOperator &bulk;
+    ContactOperator &   contact;
+
+    /// Number of factorisations made so far.
+    unsigned int
+    n_factorisations() const
+    {
+      return linear_solver.n_factorisations();
+    }
+
+    /// Newton's table of the last stage: residuals, step lengths, active sets.
+    const std::vector<NewtonSolver::Iteration> &
+    newton_history() const
+    {
+      return last_history;
+    }
+
+  private:
+    void
+    set_clamped_to_zero(Vector &vector) const;
+
+    const Matrix &                       mass;
+    const Matrix &                       invertible_mass;
+    const dealii::IndexSet               massless;
+    const dealii::IndexSet               clamped;
+    const dealii::IndexSet               multipliers;
+    std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type>
+                                         clamped_list;
+    const Load                           load;
+    NewtonSolver                         newton;
+    DirectSolver                         linear_solver;
+    std::vector<NewtonSolver::Iteration> last_history;
+    // Work space, so that nothing is allocated in a time step.
+    mutable Vector work, constant_part, force;
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <output/checkpoint.h>
+#include <time_integration/time_loop.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  void
+  TimeLoop::Parameters::add_parameters(ParameterHandler &parameters)
+  {
+    parameters.enter_subsection("Time");
+    parameters.add_parameter("Final time",
+                             final_time,
+                             "End of the run (s); the last step reaches or "
+                             "passes it.",
+                             Patterns::Double(1e-30));
+    parameters.add_parameter("Time step",
+                             time_step,
+                             "Length of a step (s).",
+                             Patterns::Double(1e-30));
+    parameters.add_parameter(
+      "Maximum halvings",
+      max_halvings,
+      "How often a step may be halved when Newton's method fails, before the "
+      "run stops.",
+      Patterns::Integer(0, 20));
+    parameters.leave_subsection();
+
+    parameters.enter_subsection("Output");
+    parameters.add_parameter("Fields every",
+                             fields_every,
+                             "Write VTU files every so many steps; 0 for "
+                             "never.",
+                             Patterns::Integer(0));
+    parameters.add_parameter("Checkpoint every",
+                             checkpoint_every,
+                             "Write a checkpoint every so many steps and at "
+                             "the end; 0 for never.",
+                             Patterns::Integer(0));
+    parameters.add_parameter("Log every",
+                             log_every,
+                             "Print a line every so many steps; 0 for never.",
+                             Patterns::Integer(0));
+    parameters.leave_subsection();
+  }
+
+
+
+  TimeLoop::TimeLoop(
+    const Parameters &                                       parameters,
+    RunFolder &                                              folder,
+    SemiDiscreteSystem &                                     system,
+    TimeScheme &                                             scheme,
+    const std::map<dealii::types::boundary_id, std::string> &contact_names)
+    : parameters(parameters)
+    , folder(folder)
+    , system(system)
+    , scheme(scheme)
+    , contact_names(contact_names)
+    , ledger(folder)
+  {
+    ledger.add_column("time", "s");
+    ledger.add_column("kinetic_energy", "J");
+    ledger.add_column("elastic_energy", "J");
+    ledger.add_column("energy", "J");
+    ledger.add_column("modified_energy", "J");
+    ledger.add_column("external_work", "J");
+    ledger.add_column("contact_work", "J");
+    ledger.add_column("numerical_dissipation", "J");
+    ledger.add_column("balance_residual", "1");
+    ledger.add_column("newton_iterations", "1");
+    ledger.add_column("linear_solves", "1");
+    ledger.add_column("step_halvings", "1");
+    for (const auto &[id, name] : contact_names)
+      {
+        ledger.add_column("gap_" + name, "m");
+        ledger.add_column("penetration_" + name, "m");
+        ledger.add_column("contact_force_" + name, "N");
+        ledger.add_column("contact_pressure_" + name, "Pa");
+        ledger.add_column("stress_pressure_" + name, "Pa");
+        ledger.add_column("active_points_" + name, "1");
+      }
+  }
+
+
+
+  void
+  TimeLoop::add_column(const std::string &                         name,
+                       const std::string &                         unit,
+                       const std::function<double(const State &)> &value)
+  {
+    ledger.add_column(name, unit);
+    own_columns.push_back({name, unit, value});
+  }
+
+
+
+  StepReport
+  TimeLoop::advance(const State &      old_state,
+                    const double       time_step,
+                    const unsigned int n_halvings_so_far,
+                    State &            new_state)
+  {
+    try
+      {
+        return scheme.step(system, old_state, time_step, new_state);
+      }
+    catch (const NewtonFailure &failure)
+      {
+        if (n_halvings_so_far == parameters.max_halvings)
+          throw NewtonFailure(
+            "The step from t = " + std::to_string(old_state.time) +
+            " s of length " + std::to_string(time_step) +
+            " s cannot be made, after " + std::to_string(n_halvings_so_far) +
+            " halvings.\n" + failure.what() +
+            "All results up to then are in the output folder.");
+      }
+    ++n_halvings;
+    State      middle;
+    StepReport report =
+      advance(old_state, .5 * time_step, n_halvings_so_far + 1, middle);
+    report += advance(middle, .5 * time_step, n_halvings_so_far + 1, new_state);
+    return report;
+  }
+
+
+
+  void
+  TimeLoop::add_row(const State &     state,
+                    const StepReport &report,
+                    const double      balance_residual)
+  {
+    const double kinetic_energy = system.kinetic_energy(state.velocity);
+    const double elastic_energy = system.bulk.energy(state.solution);
+    const double energy         = kinetic_energy + elastic_energy;
+
+    std::vector<double> row = {
+      state.time,
+      kinetic_energy,
+      elastic_energy,
+      energy,
+      energy + system.contact.potential(state.solution),
+      external_work,
+      contact_work,
+      numerical_dissipation,
+      balance_residual,
+      static_cast<double>(report.newton_iterations),
+      static_cast<double>(report.linear_solves),
+      static_cast<double>(n_halvings)};
+    const auto summaries =
+      system.contact.summary(state.solution, state.contact_force);
+    for (const auto &entry : contact_names)
+      {
+        const ContactSummary &contact = summaries.at(entry.first);
+        row.insert(row.end(),
+                   {contact.mean_gap,
+                    contact.max_penetration,
+                    contact.force,
+                    contact.contact_pressure,
+                    contact.stress_pressure,
+                    static_cast<double>(contact.active_points)});
+      }
+    for (const Column &column : own_columns)
+      row.push_back(column.value(state));
+    ledger.add_row(row);
+  }
+
+
+
+  void
+  TimeLoop::log_row(const unsigned int step, const unsigned int n_steps) const
+  {
+    const std::vector<double> &row = ledger.rows().back();
+    double                     force = 0., active = 0.;
+    for (const auto &entry : contact_names)
+      {
+        force += row[ledger.column_number("contact_force_" + entry.second)];
+        active += row[ledger.column_number("active_points_" + entry.second)];
+      }
+    char line[160];
+    std::snprintf(line,
+                  sizeof(line),
+                  "%8u/%-8u %12.6g %14.7e %14.7e %10.2e %12.4e %7.0f %7.0f",
+                  step,
+                  n_steps,
+                  row[0],
+                  row[3],
+                  row[4],
+                  row[8],
+                  force,
+                  active,
+                  row[9]);
+    folder.log(line);
+  }
+
+
+
+  State
+  TimeLoop::run(const State &initial_state)
+  {
+    const double       first_time = initial_state.time;
+    const unsigned int n_steps    = static_cast<unsigned int>(
+      std::ceil((parameters.final_time - first_time) / parameters.time_step -
+                1e-9));
+
+    State        state = initial_state;
+    unsigned int step  = 0;
+    const bool fields  = write_fields && parameters.fields_every > 0;
+    if (folder.resume)
+      {
+        const Checkpoint checkpoint =
+          Checkpoint::read(folder, initial_state.solution);
+        state                 = checkpoint.state;
+        step                  = checkpoint.step;
+        external_work         = checkpoint.sums.at(0);
+        contact_work          = checkpoint.sums.at(1);
+        numerical_dissipation = checkpoint.sums.at(2);
+        initial_energy        = checkpoint.sums.at(3);
+        largest_energy        = checkpoint.sums.at(4);
+        n_halvings = static_cast<unsigned int>(checkpoint.sums.at(5));
+        ledger.resume(step + 1);
+        folder.log("resumed after step " + std::to_string(step) + ", t = " +
+                   std::to_string(state.time) + " s");
+      }
+    else
+      {
+        ledger.start();
+        initial_energy = system.kinetic_energy(state.velocity) +
+                         system.bulk.energy(state.solution);
+        add_row(state, StepReport(), 0.);
+        if (fields)
+          write_fields(state, 0);
+      }
+
+    folder.log("    step/of              time         energy       modified "
+               "   balance        force  active  Newton");
+    State new_state;
+    const auto write_checkpoint = [&]() {
+      Checkpoint{step,
+                 {external_work,
+                  contact_work,
+                  numerical_dissipation,
+                  initial_energy,
+                  largest_energy,
+                  static_cast<double>(n_halvings)},
+                 state}
+        .write(folder);
+    };
+    try
+      {
+        while (step < n_steps)
+          {
+            const double old_energy = system.kinetic_energy(state.velocity) +
+                                      system.bulk.energy(state.solution);
+            const StepReport report =
+              advance(state, parameters.time_step, 0, new_state);
+            std::swap(state, new_state);
+            ++step;
+            // Not a sum of many steps, so that no round-off piles up.
+            state.time = first_time + step * parameters.time_step;
+
+            external_work += report.external_work;
+            contact_work += report.contact_work;
+            numerical_dissipation += report.numerical_dissipation;
+            const double new_energy = system.kinetic_energy(state.velocity) +
+                                      system.bulk.energy(state.solution);
+            const double residual =
+              new_energy - old_energy - report.external_work +
+              report.contact_work + report.numerical_dissipation;
+            // Relative to the initial energy; a body that starts at rest is
+            // measured by the largest energy so far.
+            if (initial_energy == 0.)
+              largest_energy = std::max(largest_energy, new_energy);
+            const double scale =
+              initial_energy > 0. ? initial_energy : largest_energy;
+            add_row(state, report, scale > 0. ? residual / scale : residual);
+
+            if (parameters.log_every > 0 && step % parameters.log_every == 0)
+              log_row(step, n_steps);
+            if (fields && step % parameters.fields_every == 0)
+              write_fields(state, step);
+            if (parameters.checkpoint_every > 0 &&
+                (step % parameters.checkpoint_every == 0 || step == n_steps))
+              write_checkpoint();
+          }
+      }
+    catch (const ComputationError &)
+      {
+        // Everything up to the last complete step is safe on disk.
+        ledger.write_hdf5();
+        if (fields)
+          write_fields(state, step);
+        write_checkpoint();
+        throw;
+      }
+    ledger.write_hdf5();
+    return state;
+  }
+} // namespace Ricochet

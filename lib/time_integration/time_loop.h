@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_time_integration_time_loop_h
+#define ricochet_time_integration_time_loop_h
+
+#include <base/program.h>
+#include <output/energy_ledger.h>
+#include <time_integration/time_scheme.h>
+
+#include <functional>
+#include <map>
+
+namespace Ricochet
+{
+  /**
+   * From the initial state to the final time: steps, halved when Newton's
+   * method fails; the energy ledger; fields; checkpoints. After a failure, all
+   * that was computed is on disk.
+   */
+  class TimeLoop
+  {
+  public:
+    struct Parameters
+    {
+      double       final_time       = 12.;
+      double       time_step        = .05;
+      unsigned int max_halvings     = 4;
+      unsigned int fields_every     = 10;
+      unsigned int checkpoint_every = 0;
+      unsigned int log_every        = 1;
+
+      void
+      add_parameters(dealii::ParameterHandler &parameters);
+    };
+
+    /**
+     * @param contact_names names of the contact boundaries for the columns of
+     * the ledger.
+     */
+    TimeLoop(const Parameters &  parameters,
+             RunFolder &         folder,
+             SemiDiscreteSystem &system,
+             TimeScheme &        scheme,
+             const std::map<dealii::types::boundary_id, std::string>
+               &contact_names);
+
+    /// Add a column of the benchmark's own to the ledger.
+    void
+    add_column(const std::string &                         name,
+               const std::string &                         unit,
+               const std::function<double(const State &)> &value);
+
+    /// Called with the state and the number of the step when fields are due.
+    std::function<void(const State &, const unsigned int)> write_fields;
+
+    /**
+     * Run from @p initial_state, or from the checkpoint if the folder is to be
+     * resumed, to the final time.
+     *
+     * @return the state at the end.
+     * @throws ComputationError after the last halving has failed.
+     */
+    State
+    run(const State &initial_state);
+
+    /// The ledger with all its rows, for sums over the run.
+    const EnergyLedger &
+    energy_ledger() const
+    {
+      return ledger;
+    }
+
+  private:
+    /// One step of length @p time_step, as two of half the length if need be.
+    StepReport
+    advance(const State &      old_state,
+            const double       time_step,
+            const unsigned int n_halvings_so_far,
+            State &            new_state);
+
+    void
+    add_row(const State &     state,
+            const StepReport &report,
+            const double      balance_residual);
+
+    void
+    log_row(const unsigned int step, const unsigned int n_steps) const;
+
+    struct Column
+    {
+      std::string                          name, unit;
+      std::function<double(const State &)> value;
+    };
+
+    const Parameters                                        parameters;
+    RunFolder &                                             folder;
+    SemiDiscreteSystem &                                    system;
+    TimeScheme &                                            scheme;
+    const std::map<dealii::types::boundary_id, std::string> contact_names;
+    std::vector<Column>                                     own_columns;
+    EnergyLedger                                            ledger;
+
+    // Sums over the run, part of a checkpoint.
+    double       external_work         = 0.;
+    double       contact_work          = 0.;
+    double       numerical_dissipation = 0.;
+    double       initial_energy        = 0.;
+    double       largest_energy        = 0.;
+    unsigned int n_halvings            = 0;
+  };
+} // namespace Ricochet
+
+#endif

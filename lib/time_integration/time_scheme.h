@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_time_integration_time_scheme_h
+#define ricochet_time_integration_time_scheme_h
+
+#include <time_integration/semi_discrete_system.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <memory>
+#include <string>
+
+namespace Ricochet
+{
+  /**
+   * What a step did, and the terms of its energy balance,
+   *
+   *     E_new - E_old = external_work - contact_work - numerical_dissipation .
+   *
+   * The dissipation comes from the scheme's own closed formula, in which M a
+   * stands for the forces that the scheme balances it with. So the balance
+   * closes when the nonlinear equations were solved, and not by construction.
+   */
+  struct StepReport
+  {
+    /// J
+    double external_work = 0.;
+    /// Work that the body does against the contact force (J).
+    double contact_work = 0.;
+    /// Energy that the scheme takes away (J); negative if it adds some.
+    double       numerical_dissipation = 0.;
+    unsigned int newton_iterations     = 0;
+    /// Solutions of linear systems, back-substitutions included.
+    unsigned int linear_solves = 0;
+
+    StepReport &
+    operator+=(const StepReport &other);
+  };
+
+  /**
+   * A time scheme: a short list of stages, each a nonlinear system for
+   * SemiDiscreteSystem::solve_stage(), and the rule by which velocity and
+   * acceleration follow. Schemes are listed in time_scheme_table.cc.
+   */
+  class TimeScheme
+  {
+  public:
+    struct Parameters
+    {
+      std::string name       = "Crank-Nicolson";
+      double      hht_alpha  = .05;
+      /// 2 - sqrt(2), for which both stages have the same tangent.
+      double trbdf2_gamma = 0.5857864376269049;
+      double arkode_relative_tolerance = 1e-8;
+      double arkode_absolute_tolerance = 1e-10;
+
+      void
+      add_parameters(dealii::ParameterHandler &parameters);
+    };
+
+    virtual ~TimeScheme() = default;
+
+    /**
+     * From @p old_state over @p time_step (s) to @p new_state.
+     * @throws NewtonFailure; then @p new_state is not to be used.
+     */
+    virtual StepReport
+    step(SemiDiscreteSystem &system,
+         const State &       old_state,
+         const double        time_step,
+         State &             new_state) = 0;
+  };
+
+  /// Names of all schemes, as a pattern for Patterns::Selection.
+  std::string
+  time_scheme_names();
+
+  /// The scheme that @p parameters name.
+  std::unique_ptr<TimeScheme>
+  make_time_scheme(const TimeScheme::Parameters &parameters);
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <time_integration/arkode.h>
+#include <time_integration/hht.h>
+#include <time_integration/midpoint.h>
+#include <time_integration/time_scheme.h>
+#include <time_integration/tr_bdf2.h>
+
+#include <functional>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // The table of all time schemes: a new scheme is one file and one line.
+    using Maker = std::function<std::unique_ptr<TimeScheme>(
+      const TimeScheme::Parameters &)>;
+    const std::vector<std::pair<std::string, Maker>> &
+    table()
+    {
+      static const std::vector<std::pair<std::string, Maker>> schemes = {
+        {"Crank-Nicolson",
+         [](const auto &) { return std::make_unique<HHT>(0.); }},
+        {"HHT",
+         [](const auto &p) { return std::make_unique<HHT>(p.hht_alpha); }},
+        {"TR-BDF2",
+         [](const auto &p) {
+           return std::make_unique<TRBDF2>(p.trbdf2_gamma);
+         }},
+        {"midpoint", [](const auto &) { return std::make_unique<Midpoint>(); }},
+        {"ARKODE", [](const auto &p) {
+           return std::make_unique<ARKode>(p.arkode_relative_tolerance,
+                                           p.arkode_absolute_tolerance);
+         }}};
+      return schemes;
+    }
+  } // namespace
+
+
+
+  StepReport &
+  StepReport::operator+=(const StepReport &other)
+  {
+    external_work += other.external_work;
+    contact_work += other.contact_work;
+    numerical_dissipation += other.numerical_dissipation;
+    newton_iterations += other.newton_iterations;
+    linear_solves += other.linear_solves;
+    return *this;
+  }
+
+
+
+  std::string
+  time_scheme_names()
+  {
+    std::string names;
+    for (const auto &entry : table())
+      names += (names.empty() ? "" : "|") + entry.first;
+    return names;
+  }
+
+
+
+  std::unique_ptr<TimeScheme>
+  make_time_scheme(const TimeScheme::Parameters &parameters)
+  {
+    for (const auto &[name, make] : table())
+      if (name == parameters.name)
+        return make(parameters);
+    AssertThrow(false, ExcMessage("unknown time scheme " + parameters.name));
+    return nullptr;
+  }
+
+
+
+  void
+  TimeScheme::Parameters::add_parameters(ParameterHandler &parameters)
+  {
+    parameters.enter_subsection("Time");
+    parameters.add_parameter(
+      "Scheme",
+      name,
+      "Time scheme: Crank-Nicolson (HHT with alpha = 0); HHT (paper C, (24)); "
+      "TR-BDF2 (C, (33)); midpoint (C, (38); with the Nitsche-hybrid treatment "
+      "this is the hybrid scheme); ARKODE (adaptive Runge-Kutta of SUNDIALS, "
+      "for Nitsche and penalty, as a check).",
+      Patterns::Selection(time_scheme_names()));
+    parameters.add_parameter(
+      "HHT alpha",
+      hht_alpha,
+      "Parameter alpha of HHT, of either sign (paper C: alpha tilde); beta = "
+      "(1 + |alpha|)^2/4, gamma = 1/2 + |alpha|. Used by HHT.",
+      Patterns::Double(-1. / 3., 1. / 3.));
+    parameters.add_parameter(
+      "TR-BDF2 gamma",
+      trbdf2_gamma,
+      "Fraction of the step that the trapezoidal rule takes (paper C: gamma "
+      "tilde); at 2 - sqrt(2) both stages have the same matrix. Used by "
+      "TR-BDF2.",
+      Patterns::Double(.01, .99));
+    parameters.add_parameter("ARKODE relative tolerance",
+                             arkode_relative_tolerance,
+                             "Relative error allowed per step. Used by ARKODE.",
+                             Patterns::Double(1e-14, 1e-2));
+    parameters.add_parameter("ARKODE absolute tolerance",
+                             arkode_absolute_tolerance,
+                             "Absolute error allowed per step, in m and m/s. "
+                             "Used by ARKODE.",
+                             Patterns::Double(1e-16, 1.));
+    parameters.leave_subsection();
+  }
+} // namespace Ricochet

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_time_integration_tr_bdf2_h
+#define ricochet_time_integration_tr_bdf2_h
+
+#include <time_integration/hht.h>
+
+namespace Ricochet
+{
+  /**
+   * TR-BDF2 (paper C, (33)): the trapezoidal rule over gamma dt, then the
+   * second-order backward difference formula over the whole step. L-stable.
+   */
+  class TRBDF2 : public TimeScheme
+  {
+  public:
+    explicit TRBDF2(const double gamma);
+
+    StepReport
+    step(SemiDiscreteSystem &system,
+         const State &       old_state,
+         const double        time_step,
+         State &             new_state) override;
+
+  private:
+    const double gamma;
+    // y_new = a_middle y_middle - a_old y_old + a_rate dt y'_new
+    const double a_middle, a_old, a_rate;
+    HHT          trapezoidal_rule;
+    State        middle;
+    Stage        stage;
+    // Work space.
+    Vector middle_force, new_force, work, increment, velocity_increment;
+  };
+} // namespace Ricochet
+
+#endif
