@@ -8,6 +8,7 @@
 #include <boost/property_tree/ptree.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -258,6 +259,16 @@ namespace Ricochet
       open_files.pop_back();
     }
   } // namespace
+
+
+
+  std::string
+  to_text(const double number)
+  {
+    char text[40];
+    std::snprintf(text, sizeof(text), "%.10g", number);
+    return text;
+  }
 
 
 

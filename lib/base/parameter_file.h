@@ -35,6 +35,10 @@ namespace Ricochet
   set_parameter(const std::string &       assignment,
                 dealii::ParameterHandler &parameters);
 
+  /// A number as a person would write it: 0.05, 1e-12.
+  std::string
+  to_text(const double number);
+
   /**
    * The names in @p candidates that are closest to @p name by edit distance,
    * best first, at most @p n_names, none that is further away than half of

@@ -136,9 +136,7 @@ namespace Ricochet
            "  --set \"Section/Name=value\"  override one parameter; may be "
            "repeated\n"
            "  --output-dir DIR            folder for all output (default: "
-           "output/"
-        << program.name
-        << ")\n"
+           "Output/Folder)\n"
            "  --resume                    continue from the checkpoint in the "
            "output folder\n"
            "  --validate                  check the parameters and stop\n"
@@ -201,6 +199,14 @@ namespace Ricochet
         }
 
       dealii::ParameterHandler parameters;
+      std::string              output_dir = "output/" + program.name;
+      parameters.enter_subsection("Output");
+      parameters.add_parameter("Folder",
+                               output_dir,
+                               "Folder for all output of the run. On the "
+                               "command line: --output-dir.",
+                               dealii::Patterns::DirectoryName());
+      parameters.leave_subsection();
       program.add_parameters(parameters);
       if (!command_line.parameter_file.empty())
         read_parameter_file(command_line.parameter_file, parameters);
@@ -224,7 +230,7 @@ namespace Ricochet
         }
 
       RunFolder folder(command_line.output_dir.empty() ?
-                         "output/" + program.name :
+                         output_dir :
                          command_line.output_dir,
                        communicator,
                        command_line.resume,

@@ -177,11 +177,19 @@ namespace Ricochet
             if (body.has_multipliers())
               body.multiplier_cell(cell)->get_dof_indices(multiplier_indices);
 
+            // The element's own has_support_on_face() says yes to all shape
+            // functions of simplices.
+            std::vector<types::global_dof_index> face_indices(
+              element.n_dofs_per_face(f));
+            face->get_dof_indices(face_indices);
+            const std::set<types::global_dof_index> face_dofs(
+              face_indices.begin(), face_indices.end());
+
             for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
               {
                 const auto [component, node] =
                   element.system_to_component_index(i);
-                if (component != 0 || !element.has_support_on_face(i, f))
+                if (component != 0 || face_dofs.count(indices[i]) == 0)
                   continue;
                 const types::global_dof_index first =
                   body.system_index(indices[i]);

@@ -47,10 +47,12 @@ namespace Ricochet
   MultiplierSpace
   multiplier_space(const ContactParameters &parameters);
 
-  /// The treatment that @p parameters name, on @p body against @p obstacles.
+  /// The treatment that @p parameters name, for the time scheme @p scheme, on
+  /// @p body against @p obstacles.
   template <int dim>
   std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &parameters,
+               const std::string &      scheme,
                const Body<dim> &        body,
                const LinearElastic &    material,
                const Obstacles<dim> &   obstacles);

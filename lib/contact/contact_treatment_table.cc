@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/parameter_file.h>
 #include <contact/active_set_contact.h>
 #include <contact/contact_treatment.h>
 #include <contact/laws/augmented_lagrangian.h>
 #include <contact/laws/nitsche.h>
-#include <contact/laws/nitsche_hybrid.h>
+#include <contact/laws/nitsche_two_point.h>
 #include <contact/laws/penalty.h>
 #include <contact/laws/signorini_multiplier.h>
 #include <contact/pointwise_contact.h>
@@ -27,6 +28,9 @@ namespace Ricochet
       /// Makes the pointwise law; empty for the active set, which is none.
       std::function<std::unique_ptr<ContactLaw>(const ContactParameters &)>
         make_law;
+      /// The law within a midpoint step, if it is another one.
+      std::function<std::unique_ptr<ContactLaw>(const ContactParameters &)>
+        make_midpoint_law = {};
     };
 
     template <typename Law>
@@ -57,11 +61,20 @@ namespace Ricochet
          Nitsche::traits(),
          [](const P &p) {
            return pointwise(Nitsche{p.nitsche_gamma_0, p.nitsche_theta});
+         },
+         [](const P &p) {
+           return pointwise(
+             NitscheTwoPoint{p.nitsche_gamma_0,
+                             p.nitsche_theta,
+                             NitscheTwoPoint::Evaluation::end_of_step});
          }},
         {"Nitsche-hybrid",
-         NitscheHybrid::traits(),
+         NitscheTwoPoint::traits(),
          [](const P &p) {
-           return pointwise(NitscheHybrid{p.nitsche_gamma_0, p.nitsche_theta});
+           return pointwise(
+             NitscheTwoPoint{p.nitsche_gamma_0,
+                             p.nitsche_theta,
+                             NitscheTwoPoint::Evaluation::hybrid});
          }},
         {"penalty",
          Penalty::traits(),
@@ -151,7 +164,7 @@ namespace Ricochet
     std::string message =
       "The contact treatment '" + parameters.treatment +
       (parameters.treatment == "Nitsche" ?
-         "' with theta = " + Utilities::to_string(parameters.nitsche_theta) :
+         "' with theta = " + to_text(parameters.nitsche_theta) :
          "'") +
       " and the " + (redistributed_mass ? "redistributed" : "consistent") +
       " mass cannot be combined with the time scheme '" + scheme +
@@ -173,6 +186,7 @@ namespace Ricochet
   template <int dim>
   std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &parameters,
+               const std::string &      scheme,
                const Body<dim> &        body,
                const LinearElastic &    material,
                const Obstacles<dim> &   obstacles)
@@ -188,8 +202,11 @@ namespace Ricochet
                                                 std::move(points),
                                                 std::move(stress_points),
                                                 parameters.augmentation);
+    const auto &make_law = scheme == "midpoint" && treatment.make_midpoint_law ?
+                             treatment.make_midpoint_law :
+                             treatment.make_law;
     return std::make_unique<PointwiseContact>(body,
-                                              treatment.make_law(parameters),
+                                              make_law(parameters),
                                               std::move(points),
                                               std::move(stress_points));
   }
@@ -235,16 +252,19 @@ namespace Ricochet
 
   template std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &,
+               const std::string &,
                const Body<1> &,
                const LinearElastic &,
                const Obstacles<1> &);
   template std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &,
+               const std::string &,
                const Body<2> &,
                const LinearElastic &,
                const Obstacles<2> &);
   template std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &,
+               const std::string &,
                const Body<3> &,
                const LinearElastic &,
                const Obstacles<3> &);

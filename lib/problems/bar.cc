@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/parameter_file.h>
 #include <output/node_probe.h>
 #include <problems/bar.h>
 
@@ -39,7 +40,7 @@ namespace Ricochet
     if (std::abs(n_elements - std::round(n_elements)) > 1e-9 * n_elements)
       {
         const int below = static_cast<int>(n_elements);
-        throw InputError("The mesh size " + Utilities::to_string(mesh_size) +
+        throw InputError("The mesh size " + to_text(mesh_size) +
                          " does not divide the bar of length 1. The nearest "
                          "that do are 1/" +
                          std::to_string(below) + " and 1/" +

@@ -54,7 +54,11 @@ namespace Ricochet
     , bulk(body, material)
     , consistent_mass(assemble_mass_matrix(body, density))
     , mass(inertia(parameters.redistributed_mass(), body, consistent_mass))
-    , contact(make_contact(parameters.contact, body, material, obstacles))
+    , contact(make_contact(parameters.contact,
+                           parameters.scheme.name,
+                           body,
+                           material,
+                           obstacles))
     , system(mass,
              consistent_mass,
              bulk,

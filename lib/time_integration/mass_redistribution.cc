@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include <cmath>
 #include <functional>
 #include <map>
 
@@ -136,6 +137,39 @@ namespace Ricochet
                     communicator);
       return sums;
     }
+    /**
+     * Whether @p matrix is positive definite off the rows @p massless, where it
+     * is zero. Conjugate gradients from a right hand side without structure
+     * meet a direction of negative curvature if there is one, because the
+     * extreme eigenvalues show first; a mass matrix is so well conditioned that
+     * they converge in a few dozen steps otherwise.
+     */
+    bool
+    is_positive_definite(const Matrix &  matrix,
+                         const IndexSet &massless,
+                         const Vector &  layout)
+    {
+      Vector residual(layout), direction(layout), product(layout);
+      for (const auto i : residual.locally_owned_elements())
+        residual(i) =
+          massless.is_element(i) ? 0. : std::sin(1. + 12.9898 * i) + .1;
+      residual.compress(VectorOperation::insert);
+      direction            = residual;
+      double       rho     = residual * residual;
+      const double initial = rho;
+      for (unsigned int k = 0; k < 200 && rho > 1e-20 * initial; ++k)
+        {
+          matrix.vmult(product, direction);
+          const double curvature = direction * product;
+          if (!(curvature > 0.))
+            return false;
+          residual.add(-rho / curvature, product);
+          const double new_rho = residual * residual;
+          direction.sadd(new_rho / rho, 1., residual);
+          rho = new_rho;
+        }
+      return true;
+    }
   } // namespace
 
 
@@ -241,6 +275,17 @@ namespace Ricochet
                               value + multipliers.dot(pair(row, column)));
                         });
     redistributed.compress(VectorOperation::insert);
+
+    // The nearest matrix need not be positive: on coarse meshes, too much of
+    // the mass sits on the contact boundary.
+    IndexSet no_inertia = body.contact_indices();
+    no_inertia.add_indices(body.multiplier_indices());
+    if (!is_positive_definite(redistributed, no_inertia, body.make_vector()))
+      throw InputError("The mass cannot be redistributed: on this mesh so much "
+                       "of it sits on the contact boundary that the matrix "
+                       "that keeps mass, centre of mass and moments of inertia "
+                       "is not positive. Refine the mesh or take the "
+                       "consistent mass.");
     return redistributed;
   }
 

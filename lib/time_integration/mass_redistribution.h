@@ -19,8 +19,9 @@ namespace Ricochet
    * M_ij + sum_k l_k sym(a_k b_k^T)_ij on the entries off the contact boundary;
    * the l_k solve a dense system of size 1 + dim + dim (dim + 1)/2.
    *
-   * @throws InputError when all nodes are on the contact boundary, or the mesh
-   * is too coarse for the moments to be independent.
+   * @throws InputError when the mesh is too coarse: the moments are not
+   * independent on the nodes that are left, or the result is not positive
+   * definite on them (seen in 2D and 3D with 3 or 4 elements across the body).
    */
   template <int dim>
   Matrix

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/parameter_file.h>
 #include <output/checkpoint.h>
 #include <time_integration/time_loop.h>
 
@@ -115,8 +116,8 @@ namespace Ricochet
       {
         if (n_halvings_so_far == parameters.max_halvings)
           throw NewtonFailure(
-            "The step from t = " + std::to_string(old_state.time) +
-            " s of length " + std::to_string(time_step) +
+            "The step from t = " + to_text(old_state.time) +
+            " s of length " + to_text(time_step) +
             " s cannot be made, after " + std::to_string(n_halvings_so_far) +
             " halvings.\n" + failure.what() +
             "All results up to then are in the output folder.");
@@ -226,7 +227,7 @@ namespace Ricochet
         n_halvings = static_cast<unsigned int>(checkpoint.sums.at(5));
         ledger.resume(step + 1);
         folder.log("resumed after step " + std::to_string(step) + ", t = " +
-                   std::to_string(state.time) + " s");
+                   to_text(state.time) + " s");
       }
     else
       {

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The redistributed mass keeps mass, centre of mass and moments of inertia, has
+// no inertia on the contact boundary, and is positive definite off it.
+
+#include "meshes.h"
+
+#include <base/exceptions.h>
+#include <discretization/linear_bulk.h>
+#include <time_integration/mass_redistribution.h>
+
+#include <Eigen/Eigenvalues>
+#include <boost/test/unit_test.hpp>
+
+using namespace Ricochet;
+
+namespace
+{
+  template <int dim>
+  void
+  check(const bool simplices, const unsigned int degree, const unsigned int n)
+  {
+    const CubeAbovePlane<dim> cube(simplices, n);
+    const Body<dim>           body(cube.triangulation,
+                         degree,
+                         {},
+                         {1},
+                         MultiplierSpace::none,
+                         MPI_COMM_WORLD);
+    const double              density = 3.;
+    const Matrix              mass    = assemble_mass_matrix(body, density);
+    const Matrix              redistributed = redistribute_mass(body, mass);
+
+    const auto before = mass_moments(body, mass);
+    const auto after  = mass_moments(body, redistributed);
+    BOOST_CHECK_SMALL(before[0] - density, 1e-12);
+    BOOST_CHECK_SMALL(before[1] - density / 2., 1e-12);
+    BOOST_CHECK_SMALL(before[1 + dim] - density / 3., 1e-12);
+    for (unsigned int k = 0; k < before.size(); ++k)
+      BOOST_CHECK_SMALL(before[k] - after[k], 1e-11);
+
+    for (const auto i : body.contact_indices())
+      for (auto entry = redistributed.begin(i); entry != redistributed.end(i);
+           ++entry)
+        BOOST_CHECK_EQUAL(entry->value(), 0.);
+
+    // Eigenvalues need the whole matrix on one rank.
+    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+      return;
+    const unsigned int n_dofs = redistributed.m();
+    Eigen::MatrixXd    dense  = Eigen::MatrixXd::Zero(n_dofs, n_dofs);
+    for (unsigned int i = 0; i < n_dofs; ++i)
+      for (auto entry = redistributed.begin(i); entry != redistributed.end(i);
+           ++entry)
+        dense(i, entry->column()) = entry->value();
+    BOOST_CHECK_SMALL((dense - dense.transpose()).norm(), 1e-12);
+    // On the contact boundary, ones in the place of the zeros.
+    for (const auto i : body.contact_indices())
+      dense(i, i) = 1.;
+    BOOST_CHECK_GT(
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense).eigenvalues()[0],
+      0.);
+  }
+} // namespace
+
+
+BOOST_AUTO_TEST_SUITE(mass_redistribution)
+
+BOOST_AUTO_TEST_CASE(moments_in_1d)
+{
+  // deal.II has boundary ids of points; the mesh is the bar of the benchmarks.
+  check<1>(false, 1, 20);
+  check<1>(false, 2, 10);
+}
+
+BOOST_AUTO_TEST_CASE(moments_in_2d)
+{
+  check<2>(false, 1, 6);
+  check<2>(true, 1, 6);
+  check<2>(false, 2, 4);
+}
+
+BOOST_AUTO_TEST_CASE(moments_in_3d)
+{
+  check<3>(false, 1, 6);
+  check<3>(true, 1, 8);
+}
+
+BOOST_AUTO_TEST_CASE(too_coarse_meshes_are_refused)
+{
+  const auto check_refused = [](auto cube) {
+    constexpr int dim = decltype(cube.triangulation)::dimension;
+    const Body<dim> body(
+      cube.triangulation, 1, {}, {1}, MultiplierSpace::none, MPI_COMM_WORLD);
+    const Matrix mass = assemble_mass_matrix(body, 1.);
+    BOOST_CHECK_THROW(redistribute_mass(body, mass), InputError);
+  };
+  // One element: a single node is left, which cannot keep three moments. (Two
+  // ranks cannot share one element.)
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
+    check_refused(CubeAbovePlane<1>(false, 1));
+  // Enough nodes for the moments, but the nearest matrix is indefinite: its
+  // smallest eigenvalue is negative.
+  check_refused(CubeAbovePlane<2>(false, 3));
+  check_refused(CubeAbovePlane<3>(true, 4));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

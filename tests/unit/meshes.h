@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_tests_unit_meshes_h
+#define ricochet_tests_unit_meshes_h
+
+#include <contact/contact_points.h>
+
+#include <deal.II/base/function_signed_distance.h>
+#include <deal.II/distributed/shared_tria.h>
+#include <deal.II/grid/grid_generator.h>
+
+/// A unit cube above the plane x_dim = -gap, with the boundary id 1 on the face
+/// that looks at the plane and 2 on the opposite one. In parallel every rank
+/// owns a part.
+template <int dim>
+struct CubeAbovePlane
+{
+  explicit CubeAbovePlane(const bool         simplices,
+                          const unsigned int n_cells_per_edge = 2)
+    : triangulation(MPI_COMM_WORLD)
+  {
+    if (simplices)
+      dealii::GridGenerator::subdivided_hyper_cube_with_simplices(
+        triangulation, n_cells_per_edge);
+    else
+      dealii::GridGenerator::subdivided_hyper_cube(triangulation,
+                                                   n_cells_per_edge);
+    for (const auto &cell : triangulation.active_cell_iterators())
+      for (const auto &face : cell->face_iterators())
+        if (face->at_boundary())
+          {
+            const double height = face->center()[dim - 1];
+            face->set_boundary_id(height < 1e-9 ? 1 : height > 1. - 1e-9 ? 2 : 0);
+          }
+  }
+
+  Ricochet::Obstacles<dim>
+  plane(const double gap) const
+  {
+    dealii::Point<dim> point;
+    point[dim - 1] = -gap;
+    dealii::Tensor<1, dim> normal;
+    normal[dim - 1] = 1.;
+    return {{1,
+             std::make_shared<dealii::Functions::SignedDistance::Plane<dim>>(
+               point, normal)}};
+  }
+
+  dealii::parallel::shared::Triangulation<dim> triangulation;
+};
+
+#endif

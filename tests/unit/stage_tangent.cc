@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The assembled contact tangent of every treatment against finite differences
+// of the assembled residual, in 1D, 2D and 3D, on tensor product elements and
+// simplices: open, closing, closed and opening states. Forces are piecewise
+// linear, so that away from kinks a difference quotient is exact.
+
+#include "meshes.h"
+
+#include <contact/contact_treatment.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <random>
+
+using namespace Ricochet;
+using dealii::VectorOperation;
+
+namespace
+{
+  const LinearElastic material{1.5, 1.};
+
+  /// Fill the owned entries with numbers that depend on the index only, so that
+  /// they are the same on any number of ranks.
+  void
+  randomise(Vector &vector, const double size, const unsigned int seed)
+  {
+    for (const auto i : vector.locally_owned_elements())
+      {
+        std::mt19937 generator(7919 * seed + static_cast<unsigned int>(i));
+        vector(i) = size *
+                    std::uniform_real_distribution<double>(-1., 1.)(generator);
+      }
+    vector.compress(VectorOperation::insert);
+  }
+
+  template <int dim>
+  void
+  check(const std::string &treatment,
+        const std::string &scheme,
+        const double       theta,
+        const bool         simplices,
+        const unsigned int degree)
+  {
+    const CubeAbovePlane<dim> cube(simplices);
+    ContactParameters         parameters;
+    parameters.treatment     = treatment;
+    parameters.nitsche_theta = theta;
+    const Body<dim>            body(cube.triangulation,
+                         degree,
+                         {},
+                         {1},
+                         multiplier_space(parameters),
+                         MPI_COMM_WORLD);
+    const auto contact =
+      make_contact(parameters, scheme, body, material, cube.plane(.02));
+
+    Vector zero = body.make_vector(), residual(zero), perturbed_residual(zero);
+    Vector solution(zero), old_solution(zero), direction(zero);
+    Vector old_force(zero), difference(zero), product(zero);
+
+    bool contact_seen = false;
+    for (const double size : {1e-3, .05, .2})
+      for (unsigned int seed = 0; seed < 4; ++seed)
+        {
+          randomise(solution, size, seed);
+          randomise(old_solution, size, seed + 10);
+          randomise(direction, 1., seed + 20);
+
+          // A small weight of the contact force and a residual and a tangent
+          // that are not empty before: contact must only add its part (or take
+          // out rows).
+          const double weight = .7;
+          Matrix       tangent;
+          tangent.reinit(body.sparsity_pattern());
+          for (const auto i : zero.locally_owned_elements())
+            tangent.set(i, i, 2.);
+          tangent.compress(VectorOperation::insert);
+          const auto evaluate = [&](const Vector &point, Vector &result) {
+            result = point;
+            result *= 2.;
+            contact->complete_residual(point, result);
+          };
+
+          contact->begin_stage(old_solution, old_force, weight);
+          evaluate(solution, residual);
+          contact_seen =
+            contact_seen ||
+            contact->active_set_description().substr(0, 2) != "0 ";
+          const auto signature = contact->tangent_signature();
+          contact->complete_tangent(tangent);
+          tangent.vmult(product, direction);
+
+          // A step so short that no branch changes.
+          const double eps = 1e-8;
+          Vector       point(solution);
+          point.add(eps, direction);
+          contact->begin_stage(old_solution, old_force, weight);
+          evaluate(point, perturbed_residual);
+          if (contact->tangent_signature() != signature)
+            continue;
+          difference = perturbed_residual;
+          difference -= residual;
+          difference *= 1. / eps;
+          difference -= product;
+          BOOST_CHECK_SMALL(difference.linfty_norm(),
+                            2e-6 * (1. + product.linfty_norm()));
+        }
+    BOOST_CHECK(contact_seen);
+  }
+
+  template <int dim>
+  void
+  check_all(const bool simplices, const unsigned int degree)
+  {
+    for (const double theta : {1., -1., 0.})
+      {
+        check<dim>("Nitsche", "HHT", theta, simplices, degree);
+        check<dim>("Nitsche", "midpoint", theta, simplices, degree);
+        check<dim>("Nitsche-hybrid", "midpoint", theta, simplices, degree);
+      }
+    check<dim>("penalty", "HHT", 1., simplices, degree);
+    check<dim>("proximal augmented Lagrangian", "HHT", 1., simplices, degree);
+    if (degree == 1)
+      {
+        check<dim>("Signorini multipliers", "HHT", 1., simplices, degree);
+        check<dim>("Signorini active set", "HHT", 1., simplices, degree);
+      }
+  }
+} // namespace
+
+
+BOOST_AUTO_TEST_SUITE(stage_tangent)
+
+BOOST_AUTO_TEST_CASE(in_1d)
+{
+  check_all<1>(false, 1);
+  check_all<1>(false, 2);
+}
+
+BOOST_AUTO_TEST_CASE(in_2d)
+{
+  check_all<2>(false, 1);
+  check_all<2>(true, 1);
+  check_all<2>(true, 2);
+}
+
+BOOST_AUTO_TEST_CASE(in_3d)
+{
+  check_all<3>(false, 1);
+  check_all<3>(true, 1);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
