@@ -12,6 +12,7 @@ the exit code is 1 if one of them is off, and 2 if a figure could not be made.
 """
 
 import argparse
+import collections
 import fcntl
 import os
 import pathlib
@@ -98,7 +99,7 @@ def command_line():
 def make(names, build_dir, jobs, force):
     """Make the figures; return whether all numbers are as they should be."""
     start = time.monotonic()
-    figures = list(FIGURES.values()) if "all" in names else [FIGURES[name] for name in FIGURES if name in names]
+    figures = [figure for name, figure in FIGURES.items() if name in names or "all" in names]
     folder = runs.OUTPUT / "figures"
     folder.mkdir(parents=True, exist_ok=True)
 
@@ -118,7 +119,7 @@ def make(names, build_dir, jobs, force):
     report.write_html(figures, checks, folder / "index.html")
     print()
     report.print_table(checks)
-    count = {s: sum(check.status == s for check in checks) for s in (report.YES, report.NO, report.NOTE)}
+    count = collections.Counter(check.status for check in checks)
     print(
         f"\n{count[report.YES]} checks passed, {count[report.NO]} failed, "
         f"{count[report.NOTE]} notes; {time.monotonic() - start:.0f} s; "
@@ -149,6 +150,9 @@ def main():
         except runs.RunError as error:
             print(error, file=sys.stderr)
             return 2
+        except KeyboardInterrupt:
+            print("Interrupted; what has finished is kept.", file=sys.stderr)
+            return 130
     return 0 if good else 1
 
 

@@ -30,7 +30,7 @@ def limit(alpha):
 
 
 def _axes():
-    figure, axes = plt.subplots(figsize=(7, 4.4))
+    figure, axes = plt.subplots(figsize=(7.5, 4.4))
     axes.set_xscale("log")
     axes.set_xlabel(r"$\tilde\omega = \omega^2 \Delta t^2$")
     axes.set_ylabel(r"spectral radius $\rho(\mathbf{A})$")
@@ -62,10 +62,10 @@ def draw_figure_3():
             linewidth=0.8,
             linestyle=":",
             zorder=1,
-            label=r"exact limit $(1-|\tilde\alpha|)/(1+|\tilde\alpha|)$" if i == 0 else None,
+            label="exact limit\n" r"$(1-|\tilde\alpha|)/(1+|\tilde\alpha|)$" if i == 0 else None,
         )
     axes.set_ylim(0.78, 1.01)
-    axes.legend(loc="lower left")
+    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
     return figure
 
 
@@ -82,7 +82,7 @@ def draw_figure_4():
         label=r"TR-BDF2, $\tilde\gamma = 2 - \sqrt{2}$",
     )
     axes.set_ylim(0, 1.03)
-    axes.legend(loc="lower left")
+    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
     return figure
 
 

@@ -3,7 +3,8 @@
 
 import csv
 import html
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 
 # What a row of the table can say.
 YES = "yes"  # the number meets its criterion
@@ -52,8 +53,8 @@ class Figure:
     title: str
     caption: str
     runs: list
-    draw: callable
-    checks: callable = field(default=lambda: [])
+    draw: Callable
+    checks: Callable = list
 
     @property
     def image(self):

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Sourced by demo.sh and test.sh: packages, configure, build.
+
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+# What Ricochet needs of Debian 12. OpenBLAS replaces the reference BLAS, which
+# is five times slower in factorisations.
+packages="cmake ninja-build g++ ccache libdeal.ii-dev libeigen3-dev libboost-dev
+  libhdf5-openmpi-dev libsundials-dev libopenblas0-pthread openmpi-bin numdiff
+  perl python3 python3-matplotlib python3-numpy python3-h5py"
+
+install_packages()
+{
+  local missing=""
+  for package in $packages; do
+    dpkg -s "$package" >/dev/null 2>&1 || missing="$missing $package"
+  done
+  [ -z "$missing" ] && return
+  echo "Installing:$missing"
+  local as_root=""
+  [ "$(id -u)" -eq 0 ] || as_root="sudo"
+  $as_root apt-get update -qq
+  $as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends $missing >/dev/null
+}
+
+# build TYPE: configure and build build/release or build/debug.
+build()
+{
+  local folder
+  folder="build/$(echo "$1" | tr '[:upper:]' '[:lower:]')"
+  # Debian's interpreter is the one that sees Debian's matplotlib and h5py.
+  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE="$1" \
+    -DPython3_EXECUTABLE=/usr/bin/python3 >"/tmp/ricochet-cmake-$$.log" ||
+    { cat "/tmp/ricochet-cmake-$$.log"; exit 1; }
+  rm -f "/tmp/ricochet-cmake-$$.log"
+  ninja -C "$folder"
+}
+
+# One thread per process; Open MPI as root and with more ranks than cores.
+export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1
+
+install_packages

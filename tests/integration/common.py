@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What all integration tests need: run a program, read its ledger."""
+
+import argparse
+import csv
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+
+# The contact treatments that every one-step collocation scheme takes.
+TREATMENTS = [
+    "Nitsche",
+    "penalty",
+    "proximal augmented Lagrangian",
+    "Signorini multipliers",
+    "Signorini active set",
+]
+
+# Names of the schemes in the tests, and the parameters that make them.
+SCHEMES = {
+    "CN": ["Time/Scheme=Crank-Nicolson"],
+    "HHT 0.05": ["Time/Scheme=HHT", "Time/HHT alpha=0.05"],
+    "HHT -0.02": ["Time/Scheme=HHT", "Time/HHT alpha=-0.02"],
+    "TR-BDF2": ["Time/Scheme=TR-BDF2"],
+    "midpoint": ["Time/Scheme=midpoint"],
+}
+
+NO_FIELDS = ["Output/Fields every=0", "Output/Log every=0"]
+
+arguments = None
+
+
+class Ledger:
+    """The columns of an energy.csv, by name without unit."""
+
+    def __init__(self, folder):
+        with open(pathlib.Path(folder) / "energy.csv", newline="") as file:
+            rows = list(csv.reader(file))
+        self.names = [cell.split(" [")[0] for cell in rows[0]]
+        self.units = [cell.split(" [")[1].rstrip("]") for cell in rows[0]]
+        values = [[float(x) for x in row] for row in rows[1:]]
+        self.columns = dict(zip(self.names, zip(*values)))
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+
+class ProgramTest(unittest.TestCase):
+    """Gives each test a folder of its own."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="ricochet-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def command(self, program, parameters=(), folder=None, options=(), prm=None,
+                n_ranks=1):
+        words = [] if n_ranks == 1 else [arguments.mpiexec, "-n", str(n_ranks)]
+        words.append(str(pathlib.Path(arguments.programs) / program))
+        if prm is not None:
+            words.append(str(prm))
+        for parameter in parameters:
+            words += ["--set", parameter]
+        words += ["--output-dir", str(folder or self.folder / "run")]
+        return words + list(options)
+
+    def attempt(self, *args, **kwargs):
+        """Run; return exit code, standard output and error."""
+        result = subprocess.run(self.command(*args, **kwargs),
+                                capture_output=True, text=True, timeout=600)
+        return result.returncode, result.stdout, result.stderr
+
+    def run_program(self, program, parameters=(), folder=None, **kwargs):
+        """Run, insist on success, return the ledger."""
+        folder = folder or self.folder / "run"
+        code, out, err = self.attempt(program, parameters, folder, **kwargs)
+        self.assertEqual(code, 0, msg=f"{program} {parameters}\n{out}\n{err}")
+        return Ledger(folder)
+
+    def run_many(self, cases):
+        """Run (name, program, parameters) on two cores; yield (name, ledger)."""
+        def run(numbered):
+            number, (name, program, parameters) = numbered
+            return name, self.run_program(program, parameters,
+                                          self.folder / f"case-{number}")
+        with ThreadPoolExecutor(max_workers=2) as pool:
+            yield from pool.map(run, enumerate(cases))
+
+
+def is_debug_build():
+    """Debug programs are several times slower: tests shorten their runs."""
+    result = subprocess.run([pathlib.Path(arguments.programs) / "bar_sd",
+                             "--version"], capture_output=True, text=True)
+    return "(Debug)" in result.stdout
+
+
+def main():
+    global arguments
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--programs", required=True,
+                        help="folder of the built programs")
+    parser.add_argument("--mpiexec", default="mpirun")
+    arguments, rest = parser.parse_known_args()
+    # The test modules import this file under another name than __main__.
+    sys.modules["common"].arguments = arguments
+    # As ctest sets them: Open MPI as root and with more ranks than cores.
+    for name in ("OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM",
+                 "OMPI_MCA_rmaps_base_oversubscribe", "OPENBLAS_NUM_THREADS"):
+        os.environ.setdefault(name, "1")
+    unittest.main(module="__main__", argv=[sys.argv[0]] + rest, verbosity=2)

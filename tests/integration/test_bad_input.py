@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Bad input: a clear sentence, a non-zero exit code, and no time spent."""
+
+import time
+
+from common import *
+
+
+class BadInput(ProgramTest):
+
+    def refuse(self, *messages, program="bar_sd", exit_code=1, **kwargs):
+        start = time.monotonic()
+        code, out, error = self.attempt(program, **kwargs)
+        text = " ".join(error.split())
+        self.assertEqual(code, exit_code, msg=out + error)
+        for message in messages:
+            self.assertIn(message, text)
+        # No stack trace, no name of a C++ function, one screen, and before
+        # anything is computed.
+        for noise in ("Stacktrace", "dealii::", "terminate called", "violated"):
+            self.assertNotIn(noise, error)
+        self.assertLess(len(error.splitlines()), 24)
+        self.assertLess(time.monotonic() - start, 20)
+        return error
+
+    def write(self, text):
+        file = self.folder / "given.prm"
+        file.write_text(text)
+        return file
+
+    def test_missing_file(self):
+        self.refuse("the parameter file 'no-such.prm' does not exist",
+                    prm="no-such.prm")
+
+    def test_missing_included_file(self):
+        self.refuse("line 2: the parameter file",
+                    "nowhere.prm' does not exist",
+                    prm=self.write("# a comment\ninclude nowhere.prm\n"))
+
+    def test_file_that_includes_itself(self):
+        self.refuse("includes itself", prm=self.write("include given.prm\n"))
+
+    def test_unknown_parameter_with_line_and_suggestion(self):
+        self.refuse("line 3: there is no parameter 'Time/Time setp'",
+                    "Time/Time step",
+                    prm=self.write("# a typo\nsubsection Time\n"
+                                   "  set Time setp = 0.05\nend\n"))
+
+    def test_right_name_in_wrong_section(self):
+        self.refuse("there is no parameter 'Contact/Time step'",
+                    "The nearest valid names are: Time/Time step",
+                    parameters=["Contact/Time step=0.1"])
+
+    def test_unclosed_subsection(self):
+        self.refuse("never closed with 'end'",
+                    prm=self.write("subsection Time\n set Time step = 0.05\n"))
+
+    def test_nonsense_line(self):
+        self.refuse("line 1: cannot make sense of 'Time step: 0.05'",
+                    prm=self.write("Time step: 0.05\n"))
+
+    def test_value_out_of_range(self):
+        self.refuse("line 2: the value '0.7' of 'Time/HHT alpha' is not allowed",
+                    prm=self.write("subsection Time\nset HHT alpha = 0.7\nend\n"))
+
+    def test_value_that_is_no_number(self):
+        self.refuse("the value 'fast' of 'Time/Time step' is not allowed",
+                    parameters=["Time/Time step=fast"])
+
+    def test_negative_time_step(self):
+        self.refuse("the value '-0.05' of 'Time/Time step' is not allowed",
+                    parameters=["Time/Time step=-0.05"])
+
+    def test_negative_integer(self):
+        self.refuse("the value '-1' of 'Newton/Maximum iterations'",
+                    parameters=["Newton/Maximum iterations=-1"])
+
+    def test_mesh_size_that_does_not_divide_the_bar(self):
+        self.refuse("The mesh size 0.3 does not divide the bar of length 1",
+                    "1/3 and 1/4", parameters=["Mesh/Mesh size=0.3"])
+
+    def test_hybrid_operator_with_tr_bdf2(self):
+        self.refuse("'Nitsche-hybrid'", "cannot be combined with the time "
+                    "scheme 'TR-BDF2'", "Allowed with them: midpoint.",
+                    parameters=["Contact/Treatment=Nitsche-hybrid",
+                                "Time/Scheme=TR-BDF2"])
+
+    def test_arkode_with_constraints(self):
+        self.refuse("cannot be combined with the time scheme 'ARKODE'",
+                    "Crank-Nicolson, HHT, TR-BDF2, midpoint.",
+                    parameters=["Contact/Treatment=Signorini active set",
+                                "Time/Scheme=ARKODE"])
+
+    def test_arkode_without_inertia(self):
+        self.refuse("redistributed mass cannot be combined",
+                    parameters=["Time/Mass=redistributed",
+                                "Time/Scheme=ARKODE"])
+
+    def test_multipliers_in_nodes_with_degree_two(self):
+        self.refuse("Multipliers in the nodes need displacements of degree 1",
+                    parameters=["Mesh/Degree=2",
+                                "Contact/Treatment=Signorini multipliers"])
+
+    def test_too_coarse_for_redistributed_mass(self):
+        self.refuse("The mass cannot be redistributed",
+                    parameters=["Mesh/Mesh size=0.5",
+                                "Time/Mass=redistributed"], program="bar_ss")
+
+    def test_unwritable_output_folder(self):
+        blocker = self.folder / "file"
+        blocker.write_text("")
+        self.refuse("The output folder", "cannot be written to",
+                    folder=blocker / "below")
+
+    def test_unknown_option(self):
+        self.refuse("There is no option '--resum'. Is --resume meant?",
+                    options=["--resum"])
+
+    def test_assignment_without_value(self):
+        self.refuse("expected the form", parameters=["Time/Time step"])
+
+    def test_validate_says_so_and_computes_nothing(self):
+        code, out, _ = self.attempt("bar_ss", options=["--validate"])
+        self.assertEqual(code, 0)
+        self.assertIn("The parameters are valid.", out)
+        self.assertFalse((self.folder / "run").exists())
+
+    def test_printed_parameters_can_be_read_again(self):
+        code, out, _ = self.attempt("bar_sd", ["Time/Time step=0.025"],
+                                    options=["--print-parameters"])
+        self.assertEqual(code, 0)
+        self.assertIn("Length of a step (s)", out)
+        code, again, error = self.attempt("bar_sd", prm=self.write(out),
+                                          options=["--print-parameters"])
+        self.assertEqual(code, 0, msg=error)
+        self.assertEqual(again, out)
+
+
+class FailureWhileRunning(ProgramTest):
+
+    def test_the_run_stops_with_all_results(self):
+        """With one iteration allowed and no halving, some step in contact
+        cannot be made. (The run starts in free flight, which takes one.)"""
+        parameters = ["Newton/Maximum iterations=1", "Time/Maximum halvings=0"]
+        code, _, error = self.attempt("bar_sd", parameters)
+        self.assertEqual(code, 2)
+        self.assertIn("after 0 halvings", error)
+        self.assertIn("relative residual", error)
+        self.assertIn("1 of 1", error)
+        self.assertIn("All results up to then are in the output folder", error)
+        ledger = Ledger(self.folder / "run")
+        n_steps = len(ledger["time"]) - 1
+        self.assertGreater(n_steps, 15)
+        self.assertLess(n_steps, 240)
+        self.assertAlmostEqual(ledger["time"][-1], .05 * n_steps)
+        run = self.folder / "run"
+        self.assertTrue((run / "energy.h5").exists())
+        self.assertTrue((run / "solution" / f"step-{n_steps:06d}.vtu").exists())
+
+        # The checkpoint is whole: resumed, the run stops at the same place.
+        text = (run / "energy.csv").read_text()
+        code, _, again = self.attempt("bar_sd", parameters, options=["--resume"])
+        self.assertEqual(code, 2)
+        self.assertEqual(again, error)
+        self.assertEqual((run / "energy.csv").read_text(), text)
+
+    def test_halved_steps_are_counted_and_close_their_balance(self):
+        """Halving helps where one iteration is not enough."""
+        ledger = self.run_program(
+            "bar_sd", NO_FIELDS + ["Newton/Maximum iterations=1",
+                                   "Time/Maximum halvings=8"])
+        self.assertGreater(ledger["step_halvings"][-1], 0)
+        self.assertLess(max(map(abs, ledger["balance_residual"])), 1e-11)
+        self.assertEqual(len(ledger["time"]), 241)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Every contact treatment with every scheme, both masses, both bars.
+
+Each run ends without a halved step, and its discrete energy balance closes to
+solver tolerance at every step: an identity, independent of what the result
+looks like. The three treatments of Signorini's condition pose the same problem
+in one dimension and must agree with each other.
+"""
+
+import itertools
+
+from common import *
+
+
+class Combinations(ProgramTest):
+
+    def cases(self, program):
+        final_time = ["Time/Final time=3"] if is_debug_build() else []
+        combinations = list(itertools.product(TREATMENTS, SCHEMES)) + [
+            ("Nitsche-hybrid", "midpoint")]
+        for treatment, scheme in combinations:
+            for mass in ("consistent", "redistributed"):
+                yield ((treatment, scheme, mass), program,
+                       NO_FIELDS + final_time + SCHEMES[scheme] +
+                       [f"Contact/Treatment={treatment}", f"Time/Mass={mass}"])
+
+    def check(self, program):
+        ledgers = dict(self.run_many(self.cases(program)))
+        self.assertEqual(len(ledgers), 2 * (5 * 5 + 1))
+        for name, ledger in ledgers.items():
+            with self.subTest(name):
+                self.assertEqual(ledger["step_halvings"][-1], 0)
+                # Relative to the initial energy.
+                self.assertLess(max(map(abs, ledger["balance_residual"])),
+                                2e-12)
+
+        for scheme in SCHEMES:
+            for mass in ("consistent", "redistributed"):
+                reference = ledgers["Signorini active set", scheme, mass]
+                for other in ("Signorini multipliers",
+                              "proximal augmented Lagrangian"):
+                    with self.subTest(f"{other}, {scheme}, {mass}"):
+                        ledger = ledgers[other, scheme, mass]
+                        difference = max(
+                            abs(a - b) for a, b in
+                            zip(reference["displacement_left"],
+                                ledger["displacement_left"]))
+                        # Newton's tolerance, magnified by many impacts.
+                        self.assertLess(difference, 1e-6)
+
+    def test_bar_sd(self):
+        self.check("bar_sd")
+
+    def test_bar_ss(self):
+        self.check("bar_ss")
+
+    def test_variants_of_nitsche(self):
+        """theta = -1 and 0 have no modified energy, but their balance closes."""
+        cases = [((theta, scheme), "bar_sd",
+                  NO_FIELDS + SCHEMES[scheme] + [f"Contact/Nitsche theta={theta}",
+                                                 "Time/Final time=3"])
+                 for theta in (-1, 0) for scheme in SCHEMES]
+        for name, ledger in self.run_many(cases):
+            with self.subTest(name):
+                self.assertLess(max(map(abs, ledger["balance_residual"])),
+                                2e-12)
+                # The obstacle is respected to the order of the mesh size.
+                self.assertGreater(min(ledger["displacement_left"]), -.05)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Energy and contact of the bars against theory and against paper C."""
+
+from common import *
+
+
+def in_flight(ledger, end):
+    """Steps that begin and end without contact at the end's boundary, and with
+    no contact in any stage between: gaps larger than any step could close."""
+    gap = ledger[f"gap_{end}"]
+    return [n for n in range(1, len(gap)) if gap[n - 1] > .06 and gap[n] > .06]
+
+
+class Energy(ProgramTest):
+
+    def sd(self, *parameters):
+        return self.run_program("bar_sd", NO_FIELDS + list(parameters))
+
+    def test_crank_nicolson_conserves_modified_energy_in_flight(self):
+        for treatment in ("Nitsche", "penalty"):
+            ledger = self.sd(f"Contact/Treatment={treatment}")
+            energy = ledger["modified_energy"]
+            flight = in_flight(ledger, "left")
+            self.assertGreater(len(flight), 100)
+            for n in flight:
+                self.assertAlmostEqual(energy[n] / energy[n - 1], 1.,
+                                       delta=1e-12)
+
+    def test_crank_nicolson_gains_at_contact_what_the_paper_says(self):
+        """C 4.1.1: bounded, and up to about one per cent over four periods."""
+        energy = self.sd()["modified_energy"]
+        self.assertLess(max(energy) / energy[0], 1.02)
+        self.assertGreater(max(energy) / energy[0], 1.002)
+
+    def test_hybrid_never_gains(self):
+        for program in ("bar_sd", "bar_ss"):
+            for mass in ("consistent", "redistributed"):
+                ledger = self.run_program(
+                    program, NO_FIELDS + ["Contact/Treatment=Nitsche-hybrid",
+                                          "Time/Scheme=midpoint",
+                                          f"Time/Mass={mass}"])
+                energy = ledger["modified_energy"]
+                gains = [b - a for a, b in zip(energy, energy[1:])]
+                self.assertLess(max(gains), 1e-13)
+                # It does lose energy at impacts: the test is not empty.
+                self.assertLess(min(gains), -1e-5)
+
+    def test_midpoint_never_gains_with_any_potential(self):
+        for treatment in ("Nitsche", "penalty"):
+            energy = self.sd("Time/Scheme=midpoint",
+                             f"Contact/Treatment={treatment}")["modified_energy"]
+            self.assertLess(max(b - a for a, b in zip(energy, energy[1:])),
+                            1e-13)
+
+    def test_dissipative_schemes_lose(self):
+        for scheme in ("HHT 0.05", "HHT -0.02", "TR-BDF2"):
+            energy = self.sd(*SCHEMES[scheme])["modified_energy"]
+            self.assertLess(energy[-1], .95 * energy[0])
+
+    def test_mean_displacement_over_the_first_contact(self):
+        """C 4.1.1: 5.0e-4 for Nitsche, -3.8e-3 for penalty, in all digits that
+        the paper prints; the mean of the 23 nodes t = 1.00 ... 2.10."""
+        for treatment, paper in (("Nitsche", "5.0e-04"), ("penalty", "-3.8e-03")):
+            ledger = self.sd(f"Contact/Treatment={treatment}")
+            nodes = [u for t, u in zip(ledger["time"],
+                                       ledger["displacement_left"])
+                     if .999 < t < 2.101]
+            self.assertEqual(len(nodes), 23)
+            self.assertEqual(f"{sum(nodes) / 23:.1e}", paper)
+
+    def test_redistributed_mass_has_no_pressure_in_flight(self):
+        """C 4.1.1 and figure 6: without inertia at the end nothing is left to
+        oscillate. With HHT, (1 - alpha) F_new + alpha F_old = 0 in the end's row
+        damps what is there at lift-off by |alpha|/(1 - alpha) a step."""
+        for treatment in ("Nitsche", "penalty", "proximal augmented Lagrangian"):
+            for scheme, waiting in (("CN", 1), ("TR-BDF2", 1), ("HHT 0.05", 13)):
+                ledger = self.sd("Time/Mass=redistributed",
+                                 f"Contact/Treatment={treatment}",
+                                 *SCHEMES[scheme])
+                active = ledger["active_points_left"]
+                checked = 0
+                for n in range(waiting, len(active)):
+                    if not any(active[n - waiting:n + 1]):
+                        checked += 1
+                        self.assertLess(abs(ledger["stress_pressure_left"][n]),
+                                        1e-12)
+                self.assertGreater(checked, 40)
+
+    def test_consistent_mass_does_oscillate(self):
+        """The counterpart, so that the test before cannot pass by accident."""
+        ledger = self.sd()
+        worst = max(abs(ledger["stress_pressure_left"][n])
+                    for n in in_flight(ledger, "left"))
+        self.assertGreater(worst, 1e-2)
+
+    def test_skew_symmetric_and_symmetric_agree_under_refinement(self):
+        """All variants converge to the same solution (C, after (8))."""
+        ends = []
+        for theta in (1, -1, 0):
+            ledger = self.run_program(
+                "bar_sd", NO_FIELDS + ["Mesh/Mesh size=0.0125", "Time/Time step=0.0125",
+                           "Time/Final time=3", "Time/Scheme=TR-BDF2",
+                           f"Contact/Nitsche theta={theta}"])
+            error = max(abs(a - b) for a, b in
+                        zip(ledger["displacement_left"],
+                            ledger["exact_displacement_left"]))
+            ends.append(error)
+        self.assertLess(max(ends), .02)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The files of a run: all there, readable, and consistent with each other."""
+
+import xml.etree.ElementTree as ElementTree
+
+from common import *
+
+
+class Output(ProgramTest):
+
+    def test_folder_of_a_run(self):
+        given = self.folder / "mine.prm"
+        given.write_text("subsection Time\n  set Final time = 1\nend\n")
+        ledger = self.run_program("bar_sd", prm=given)
+        run = self.folder / "run"
+        for name in ("log.txt", "mine.prm", "parameters.prm", "energy.csv",
+                     "energy.h5", "solution.pvd"):
+            self.assertTrue((run / name).exists(), msg=name)
+        self.assertEqual((run / "mine.prm").read_text(), given.read_text())
+        self.assertEqual(len(ledger["time"]), 21)
+        self.assertTrue(all(ledger.units))
+
+        # All values are in parameters.prm: it alone gives the same run.
+        again = self.run_program("bar_sd", prm=run / "parameters.prm",
+                                 folder=self.folder / "again")
+        self.assertEqual(ledger.columns, again.columns)
+
+    def test_fields(self):
+        self.run_program("bar_ss", ["Time/Final time=1", "Output/Fields every=4"])
+        run = self.folder / "run"
+        sets = ElementTree.parse(run / "solution.pvd").findall(".//DataSet")
+        self.assertEqual([float(s.get("timestep")) for s in sets],
+                         [0, .2, .4, .6, .8, 1])
+        for entry in sets:
+            text = (run / entry.get("file")).read_text()
+            for field in ("displacement", "velocity", "acceleration", "stress"):
+                self.assertIn(f'Name="{field}"', text)
+
+    def test_hdf5_holds_the_same_table(self):
+        ledger = self.run_program("bar_sd", ["Time/Final time=1"] + NO_FIELDS)
+        try:
+            import h5py
+        except ImportError:
+            self.skipTest("h5py (Debian's python3-h5py) is missing")
+        with h5py.File(self.folder / "run" / "energy.h5") as file:
+            self.assertEqual(sorted(file), sorted(ledger.names))
+            for name, unit in zip(ledger.names, ledger.units):
+                self.assertEqual(list(file[name]), list(ledger[name]))
+                attribute = file[name].attrs["unit"]
+                if isinstance(attribute, bytes):
+                    attribute = attribute.decode()
+                self.assertEqual(attribute, unit)
+
+    def test_help_and_version(self):
+        for program in ("bar_sd", "bar_ss", "spectral_radius"):
+            code, out, _ = self.attempt(program, options=["--help"])
+            self.assertEqual(code, 0)
+            self.assertIn("--print-parameters", out)
+            code, out, _ = self.attempt(program, options=["--version"])
+            self.assertEqual(code, 0)
+            self.assertIn("deal.II", out)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Results do not depend on the number of MPI ranks."""
+
+from common import *
+
+# Counts can differ by one where a residual sits at the tolerance, and the
+# balance is round-off by itself.
+NOT_COMPARED = ("newton_iterations", "linear_solves", "balance_residual")
+
+
+class Ranks(ProgramTest):
+
+    def compare(self, program, parameters):
+        ledgers = [self.run_program(program, parameters,
+                                    self.folder / f"{n}-ranks", n_ranks=n)
+                   for n in (1, 2)]
+        self.assertEqual(ledgers[0].names, ledgers[1].names)
+        for name in ledgers[0].names:
+            if name in NOT_COMPARED:
+                continue
+            # Some columns are round-off by themselves: the dissipation of a
+            # scheme that conserves, the penetration of Signorini's condition.
+            # They are measured by the quantity that they are part of.
+            whole = {"numerical_dissipation": "energy",
+                     "penetration_left": "gap_left",
+                     "penetration_right": "gap_right"}.get(name, name)
+            scale = max(map(abs, ledgers[0][whole])) or 1.
+            difference = max(abs(a - b) for a, b in
+                             zip(ledgers[0][name], ledgers[1][name]))
+            self.assertLess(difference / scale, 1e-10, msg=name)
+
+    def test_each_kind_of_treatment(self):
+        for program, treatment, scheme, mass in (
+                ("bar_sd", "Nitsche", "CN", "consistent"),
+                ("bar_sd", "Nitsche-hybrid", "midpoint", "consistent"),
+                ("bar_sd", "penalty", "HHT -0.02", "redistributed"),
+                ("bar_sd", "proximal augmented Lagrangian", "TR-BDF2",
+                 "consistent"),
+                ("bar_sd", "Signorini multipliers", "HHT 0.05", "redistributed"),
+                ("bar_sd", "Signorini active set", "TR-BDF2", "consistent"),
+                ("bar_ss", "Nitsche", "HHT 0.05", "redistributed"),
+                ("bar_ss", "Signorini active set", "TR-BDF2", "consistent")):
+            with self.subTest(f"{program} {treatment} {scheme} {mass}"):
+                self.compare(program, NO_FIELDS + SCHEMES[scheme] +
+                             [f"Contact/Treatment={treatment}",
+                              f"Time/Mass={mass}"])
+
+    def test_fields_are_written_in_parallel(self):
+        self.run_program("bar_ss", ["Time/Final time=0.5"], n_ranks=2)
+        files = sorted((self.folder / "run" / "solution").iterdir())
+        self.assertEqual([f.name for f in files],
+                         ["step-000000.vtu", "step-000010.vtu"])
+
+    def test_an_error_is_printed_once(self):
+        code, _, error = self.attempt("bar_sd", ["Mesh/Mesh size=0.3"],
+                                      n_ranks=2)
+        self.assertNotEqual(code, 0)
+        self.assertEqual(error.count("does not divide"), 1)
+
+
+if __name__ == "__main__":
+    main()
