@@ -31,8 +31,7 @@ namespace Ricochet
     };
     using Declarations = std::map<std::string, Declaration>;
 
-    std::string
-    join(const Path &path)
+    std::string join(const Path &path)
     {
       std::string text;
       for (const std::string &part : path)
@@ -42,8 +41,7 @@ namespace Ricochet
 
     /// ParameterHandler escapes blanks and special characters in its JSON keys
     /// as "_20" and the like.
-    std::string
-    unescape(const std::string &key)
+    std::string unescape(const std::string &key)
     {
       std::string text;
       for (std::size_t i = 0; i < key.size(); ++i)
@@ -57,28 +55,26 @@ namespace Ricochet
       return text;
     }
 
-    void
-    collect(const boost::property_tree::ptree &tree,
-            const Path &                       path,
-            Declarations &                     declarations)
+    void collect(const boost::property_tree::ptree &tree,
+                 const Path                        &path,
+                 Declarations                      &declarations)
     {
       for (const auto &[key, child] : tree)
         {
           Path name = path;
           name.push_back(unescape(key));
           if (child.find("value") != child.not_found())
-            declarations[join(name)] = Declaration{
-              name,
-              dealii::Patterns::pattern_factory(
-                child.get<std::string>("pattern_description"))};
+            declarations[join(name)] =
+              Declaration{name,
+                          dealii::Patterns::pattern_factory(
+                            child.get<std::string>("pattern_description"))};
           else
             collect(child, name, declarations);
         }
     }
 
     /// ParameterHandler has no way to ask what is declared but its own output.
-    Declarations
-    declarations_of(const dealii::ParameterHandler &parameters)
+    Declarations declarations_of(const dealii::ParameterHandler &parameters)
     {
       std::ostringstream json;
       parameters.print_parameters(json, dealii::ParameterHandler::JSON);
@@ -90,8 +86,7 @@ namespace Ricochet
       return declarations;
     }
 
-    unsigned int
-    edit_distance(const std::string &a, const std::string &b)
+    unsigned int edit_distance(const std::string &a, const std::string &b)
     {
       const auto lower = [](const char c) {
         return std::tolower(static_cast<unsigned char>(c));
@@ -106,22 +101,21 @@ namespace Ricochet
           for (unsigned int j = 1; j <= b.size(); ++j)
             {
               const unsigned int above = row[j];
-              row[j] = std::min({above + 1,
-                                 row[j - 1] + 1,
-                                 diagonal +
-                                   (lower(a[i - 1]) != lower(b[j - 1]))});
+              row[j] =
+                std::min({above + 1,
+                          row[j - 1] + 1,
+                          diagonal + (lower(a[i - 1]) != lower(b[j - 1]))});
               diagonal = above;
             }
         }
       return row[b.size()];
     }
 
-    void
-    assign(const Path &              path,
-           const std::string &       value,
-           const std::string &       where,
-           const Declarations &      declarations,
-           dealii::ParameterHandler &parameters)
+    void assign(const Path               &path,
+                const std::string        &value,
+                const std::string        &where,
+                const Declarations       &declarations,
+                dealii::ParameterHandler &parameters)
     {
       const auto entry = declarations.find(join(path));
       if (entry == declarations.end())
@@ -136,10 +130,10 @@ namespace Ricochet
               if (declaration.path.back() == path.back())
                 same_last_part.push_back(name);
             }
-          std::vector<std::string> suggestions =
-            same_last_part.empty() ? nearest_names(join(path), full_names) :
-                                     same_last_part;
-          std::string message =
+          std::vector<std::string> suggestions = same_last_part.empty()
+            ? nearest_names(join(path), full_names)
+            : same_last_part;
+          std::string              message =
             where + ": there is no parameter '" + join(path) + "'.";
           if (!suggestions.empty())
             {
@@ -152,11 +146,10 @@ namespace Ricochet
         }
 
       if (!entry->second.pattern->match(value))
-        throw InputError(
-          where + ": the value '" + value + "' of '" + join(path) +
-          "' is not allowed.\nAllowed: " +
-          entry->second.pattern->description(
-            dealii::Patterns::PatternBase::OutputStyle::Text));
+        throw InputError(where + ": the value '" + value + "' of '" +
+                         join(path) + "' is not allowed.\nAllowed: " +
+                         entry->second.pattern->description(
+                           dealii::Patterns::PatternBase::OutputStyle::Text));
 
       for (unsigned int i = 0; i + 1 < path.size(); ++i)
         parameters.enter_subsection(path[i]);
@@ -165,12 +158,11 @@ namespace Ricochet
         parameters.leave_subsection();
     }
 
-    void
-    read(const std::string &       file_name,
-         const std::string &       included_from,
-         std::vector<std::string> &open_files,
-         const Declarations &      declarations,
-         dealii::ParameterHandler &parameters)
+    void read(const std::string        &file_name,
+              const std::string        &included_from,
+              std::vector<std::string> &open_files,
+              const Declarations       &declarations,
+              dealii::ParameterHandler &parameters)
     {
       namespace fs = std::filesystem;
       const std::string origin =
@@ -228,9 +220,9 @@ namespace Ricochet
                                  ": 'include' must stand outside of all "
                                  "subsections.");
               const fs::path target(rest);
-              read(target.is_absolute() ?
-                     rest :
-                     (fs::path(file_name).parent_path() / target).string(),
+              read(target.is_absolute()
+                     ? rest
+                     : (fs::path(file_name).parent_path() / target).string(),
                    where,
                    open_files,
                    declarations,
@@ -262,8 +254,7 @@ namespace Ricochet
 
 
 
-  std::string
-  to_text(const double number)
+  std::string to_text(const double number)
   {
     char text[40];
     std::snprintf(text, sizeof(text), "%.10g", number);
@@ -273,7 +264,7 @@ namespace Ricochet
 
 
   std::vector<std::string>
-  nearest_names(const std::string &             name,
+  nearest_names(const std::string              &name,
                 const std::vector<std::string> &candidates,
                 const unsigned int              n_names)
   {
@@ -293,9 +284,8 @@ namespace Ricochet
 
 
 
-  void
-  read_parameter_file(const std::string &       file_name,
-                      dealii::ParameterHandler &parameters)
+  void read_parameter_file(const std::string        &file_name,
+                           dealii::ParameterHandler &parameters)
   {
     const Declarations       declarations = declarations_of(parameters);
     std::vector<std::string> open_files;
@@ -304,9 +294,8 @@ namespace Ricochet
 
 
 
-  void
-  set_parameter(const std::string &       assignment,
-                dealii::ParameterHandler &parameters)
+  void set_parameter(const std::string        &assignment,
+                     dealii::ParameterHandler &parameters)
   {
     const std::string where = "--set \"" + assignment + "\"";
     const std::size_t equal = assignment.find('=');

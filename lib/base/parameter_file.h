@@ -20,9 +20,8 @@ namespace Ricochet
    * parameter, value that does not match its pattern, `include` circle,
    * unbalanced `subsection`/`end`.
    */
-  void
-  read_parameter_file(const std::string &       file_name,
-                      dealii::ParameterHandler &parameters);
+  void read_parameter_file(const std::string        &file_name,
+                           dealii::ParameterHandler &parameters);
 
   /**
    * Set one parameter from a text of the form "Section/Name=value", as given to
@@ -31,13 +30,11 @@ namespace Ricochet
    * @throws InputError as read_parameter_file(), with @p assignment in place of
    * file and line.
    */
-  void
-  set_parameter(const std::string &       assignment,
-                dealii::ParameterHandler &parameters);
+  void set_parameter(const std::string        &assignment,
+                     dealii::ParameterHandler &parameters);
 
   /// A number as a person would write it: 0.05, 1e-12.
-  std::string
-  to_text(const double number);
+  std::string to_text(const double number);
 
   /**
    * The names in @p candidates that are closest to @p name by edit distance,
@@ -45,7 +42,7 @@ namespace Ricochet
    * its length.
    */
   std::vector<std::string>
-  nearest_names(const std::string &             name,
+  nearest_names(const std::string              &name,
                 const std::vector<std::string> &candidates,
                 const unsigned int              n_names = 3);
 } // namespace Ricochet

@@ -11,8 +11,7 @@
 
 namespace Ricochet
 {
-  CommandLine
-  parse_command_line(const int argc, char **argv)
+  CommandLine parse_command_line(const int argc, char **argv)
   {
     CommandLine command_line;
 
@@ -46,13 +45,13 @@ namespace Ricochet
             std::string message = "There is no option '" + argument + "'.";
             const auto  names   = nearest_names(argument,
                                              {"--set",
-                                              "--output-dir",
-                                              "--resume",
-                                              "--validate",
-                                              "--print-parameters",
-                                              "--quiet",
-                                              "--help",
-                                              "--version"},
+                                                 "--output-dir",
+                                                 "--resume",
+                                                 "--validate",
+                                                 "--print-parameters",
+                                                 "--quiet",
+                                                 "--help",
+                                                 "--version"},
                                              1);
             if (!names.empty())
               message += " Is " + names[0] + " meant?";
@@ -104,8 +103,7 @@ namespace Ricochet
 
 
 
-  void
-  RunFolder::log(const std::string &line)
+  void RunFolder::log(const std::string &line)
   {
     if (!is_root)
       return;
@@ -116,8 +114,7 @@ namespace Ricochet
 
 
 
-  std::string
-  RunFolder::file(const std::string &name) const
+  std::string RunFolder::file(const std::string &name) const
   {
     return (std::filesystem::path(path) / name).string();
   }
@@ -126,8 +123,7 @@ namespace Ricochet
 
   namespace
   {
-    void
-    print_help(const Program &program)
+    void print_help(const Program &program)
     {
       std::cout
         << program.description << "\n\n"
@@ -153,13 +149,12 @@ namespace Ricochet
 
 
     /// The parameters but for the section Output and the final time.
-    std::string
-    parameters_that_matter(dealii::ParameterHandler &parameters)
+    std::string parameters_that_matter(dealii::ParameterHandler &parameters)
     {
       std::stringstream all;
       parameters.print_parameters(all, dealii::ParameterHandler::ShortText);
-      std::string  kept, line;
-      bool         skipping = false;
+      std::string kept, line;
+      bool        skipping = false;
       while (std::getline(all, line))
         {
           const std::string text = dealii::Utilities::trim(line);
@@ -175,8 +170,7 @@ namespace Ricochet
 
 
 
-    void
-    execute(const int argc, char **argv, const Program &program)
+    void execute(const int argc, char **argv, const Program &program)
     {
       const MPI_Comm communicator = MPI_COMM_WORLD;
       const bool     is_root =
@@ -229,9 +223,9 @@ namespace Ricochet
           return;
         }
 
-      RunFolder folder(command_line.output_dir.empty() ?
-                         output_dir :
-                         command_line.output_dir,
+      RunFolder folder(command_line.output_dir.empty()
+                         ? output_dir
+                         : command_line.output_dir,
                        communicator,
                        command_line.resume,
                        command_line.quiet);
@@ -240,34 +234,32 @@ namespace Ricochet
           namespace fs = std::filesystem;
           std::error_code error;
           if (!command_line.parameter_file.empty())
-            fs::copy_file(command_line.parameter_file,
-                          folder.file(fs::path(command_line.parameter_file)
-                                        .filename()
-                                        .string()),
-                          fs::copy_options::overwrite_existing,
-                          error);
+            fs::copy_file(
+              command_line.parameter_file,
+              folder.file(
+                fs::path(command_line.parameter_file).filename().string()),
+              fs::copy_options::overwrite_existing,
+              error);
           std::ofstream all(folder.file("parameters.prm"));
           parameters.print_parameters(all, dealii::ParameterHandler::Text);
         }
       folder.parameters_that_matter = parameters_that_matter(parameters);
-      folder.log(program.name + ", Ricochet " + RICOCHET_VERSION + " (" +
-                 RICOCHET_BUILD_TYPE + "), deal.II " + DEAL_II_PACKAGE_VERSION +
-                 ", " +
-                 std::to_string(
-                   dealii::Utilities::MPI::n_mpi_processes(communicator)) +
-                 " MPI rank(s)");
+      folder.log(
+        program.name + ", Ricochet " + RICOCHET_VERSION + " (" +
+        RICOCHET_BUILD_TYPE + "), deal.II " + DEAL_II_PACKAGE_VERSION + ", " +
+        std::to_string(dealii::Utilities::MPI::n_mpi_processes(communicator)) +
+        " MPI rank(s)");
       program.run(folder);
     }
   } // namespace
 
 
 
-  int
-  run_program(const int argc, char **argv, const Program &program)
+  int run_program(const int argc, char **argv, const Program &program)
   {
     // One thread per rank: the parallelism of Ricochet is MPI.
     int                                      mpi_argc = argc;
-    char **                                  mpi_argv = argv;
+    char                                   **mpi_argv = argv;
     dealii::Utilities::MPI::MPI_InitFinalize mpi(mpi_argc, mpi_argv, 1);
     const bool                               is_root =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
@@ -277,8 +269,10 @@ namespace Ricochet
 
     const auto report = [&](const std::string &kind, const std::string &text) {
       if (is_root)
-        std::cerr << "\n" << program.name << ": " << kind << "\n"
-                  << text << "\n" << std::endl;
+        std::cerr << "\n"
+                  << program.name << ": " << kind << "\n"
+                  << text << "\n"
+                  << std::endl;
     };
     try
       {

@@ -8,12 +8,11 @@ namespace Ricochet
 {
   using dealii::VectorOperation;
 
-  double
-  ActiveSetContact::normal_component(const unsigned int p,
-                                     const Vector &     vector) const
+  double ActiveSetContact::normal_component(const unsigned int p,
+                                            const Vector      &vector) const
   {
     const ContactPoints &coefficients = evaluator.coefficients();
-    const ContactPoint & point        = coefficients.points[p];
+    const ContactPoint  &point        = coefficients.points[p];
     double               sum          = 0.;
     for (unsigned int k = point.begin; k < point.end; ++k)
       sum += coefficients.gap_coefficient[k] * vector(coefficients.index[k]);
@@ -22,8 +21,7 @@ namespace Ricochet
 
 
 
-  double
-  ActiveSetContact::constraint_scale(const unsigned int p) const
+  double ActiveSetContact::constraint_scale(const unsigned int p) const
   {
     const ContactPoint &point = evaluator.contact_points()[p];
     return augmentation / point.cell_diameter * point.weight;
@@ -31,10 +29,9 @@ namespace Ricochet
 
 
 
-  void
-  ActiveSetContact::begin_stage(const Vector & /*old_solution*/,
-                                const Vector &old_contact_force,
-                                const double  weight_)
+  void ActiveSetContact::begin_stage(const Vector & /*old_solution*/,
+                                     const Vector &old_contact_force,
+                                     const double  weight_)
   {
     weight         = weight_;
     first_in_stage = true;
@@ -44,8 +41,8 @@ namespace Ricochet
 
 
 
-  void
-  ActiveSetContact::complete_residual(const Vector &solution, Vector &residual)
+  void ActiveSetContact::complete_residual(const Vector &solution,
+                                           Vector       &residual)
   {
     evaluator.evaluate(solution, state);
     const ContactPoints &coefficients = evaluator.coefficients();
@@ -83,35 +80,33 @@ namespace Ricochet
 
 
 
-  void
-  ActiveSetContact::complete_tangent(Matrix &tangent) const
+  void ActiveSetContact::complete_tangent(Matrix &tangent) const
   {
     // In place, on the rows of the active nodes: T <- (I - n n^T) T + scale n
     // n^T. The rows of one node have the same columns in the same order,
     // because cells couple all components.
     const ContactPoints &coefficients = evaluator.coefficients();
-    const auto &         epetra       = tangent.trilinos_matrix();
+    const auto          &epetra       = tangent.trilinos_matrix();
     std::vector<double>  normal_row;
     for (unsigned int p = 0; p < active.size(); ++p)
       {
         if (!active[p])
           continue;
-        const ContactPoint & point = coefficients.points[p];
+        const ContactPoint   &point = coefficients.points[p];
         std::vector<double *> rows;
         int                   n_entries = 0;
-        int *                 columns   = nullptr;
+        int                  *columns   = nullptr;
         for (unsigned int k = point.begin; k < point.end; ++k)
           {
-            double *  row_values = nullptr;
-            const int local_row =
-              epetra.LRID(static_cast<dealii::TrilinosWrappers::types::int_type>(
+            double   *row_values = nullptr;
+            const int local_row  = epetra.LRID(
+              static_cast<dealii::TrilinosWrappers::types::int_type>(
                 coefficients.index[k]));
             const int error = epetra.ExtractMyRowView(local_row,
                                                       n_entries,
                                                       row_values,
                                                       columns);
-            AssertThrow(error == 0,
-                        dealii::ExcTrilinosError(error));
+            AssertThrow(error == 0, dealii::ExcTrilinosError(error));
             rows.push_back(row_values);
           }
         const double *normal = &coefficients.gap_coefficient[point.begin];
@@ -135,24 +130,21 @@ namespace Ricochet
 
 
 
-  std::optional<std::uint64_t>
-  ActiveSetContact::tangent_signature() const
+  std::optional<std::uint64_t> ActiveSetContact::tangent_signature() const
   {
     return global_hash(active, evaluator.communicator);
   }
 
 
 
-  std::string
-  ActiveSetContact::active_set_description() const
+  std::string ActiveSetContact::active_set_description() const
   {
     return count_active(active, evaluator.communicator);
   }
 
 
 
-  void
-  ActiveSetContact::force_at(const Vector & /*solution*/, Vector &result)
+  void ActiveSetContact::force_at(const Vector & /*solution*/, Vector &result)
   {
     result = 0.;
   }
@@ -166,10 +158,9 @@ namespace Ricochet
     std::map<dealii::types::boundary_id, ContactSummary> sums;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
-        const ContactPoint &point = evaluator.contact_points()[p];
-        ContactSummary &    sum   = sums[point.boundary_id];
-        const double        node_reaction =
-          -normal_component(p, contact_force);
+        const ContactPoint &point         = evaluator.contact_points()[p];
+        ContactSummary     &sum           = sums[point.boundary_id];
+        const double        node_reaction = -normal_component(p, contact_force);
         sum.area += point.weight;
         sum.mean_gap += point.weight * state[p].gap;
         sum.max_penetration = std::max(sum.max_penetration, -state[p].gap);

@@ -3,8 +3,7 @@
 
 namespace Ricochet
 {
-  void
-  ContactPointEvaluator::find_local_indices()
+  void ContactPointEvaluator::find_local_indices()
   {
     unsigned int longest = 0;
     local_index.reserve(points.index.size());
@@ -19,12 +18,11 @@ namespace Ricochet
 
 
 
-  void
-  ContactPointEvaluator::evaluate(const Vector &                    solution,
-                                  std::vector<ContactPointState<>> &states)
+  void ContactPointEvaluator::evaluate(const Vector &solution,
+                                       std::vector<ContactPointState<>> &states)
   {
-    ghosted              = solution;
-    const double *value  = ghosted.trilinos_vector()[0];
+    ghosted             = solution;
+    const double *value = ghosted.trilinos_vector()[0];
     states.resize(points.points.size());
     for (unsigned int p = 0; p < states.size(); ++p)
       {
@@ -45,15 +43,13 @@ namespace Ricochet
 
 
 
-  void
-  ContactPointEvaluator::add(const unsigned int         p,
-                             const ContactPointForce<> &force,
-                             Vector &                   vector)
+  void ContactPointEvaluator::add(const unsigned int         p,
+                                  const ContactPointForce<> &force,
+                                  Vector                    &vector)
   {
     const ContactPoint &point = points.points[p];
     for (unsigned int k = point.begin; k < point.end; ++k)
-      values[k - point.begin] =
-        point.weight *
+      values[k - point.begin] = point.weight *
         (force.gap * points.gap_coefficient[k] +
          force.stress_pressure * points.stress_pressure_coefficient[k] +
          force.multiplier * points.multiplier_coefficient[k]);
@@ -64,11 +60,10 @@ namespace Ricochet
 
 
 
-  void
-  ContactPointEvaluator::add(const unsigned int         p,
-                             const double               factor,
-                             const ContactPointTangent &tangent,
-                             Matrix &                   matrix) const
+  void ContactPointEvaluator::add(const unsigned int         p,
+                                  const double               factor,
+                                  const ContactPointTangent &tangent,
+                                  Matrix                    &matrix) const
   {
     const ContactPoint &point = points.points[p];
     for (unsigned int i = point.begin; i < point.end; ++i)
@@ -78,8 +73,7 @@ namespace Ricochet
                                points.multiplier_coefficient[i]};
         double       row_times_tangent[3];
         for (unsigned int c = 0; c < 3; ++c)
-          row_times_tangent[c] =
-            factor * point.weight *
+          row_times_tangent[c] = factor * point.weight *
             (row[0] * tangent[0][c] + row[1] * tangent[1][c] +
              row[2] * tangent[2][c]);
         for (unsigned int j = point.begin; j < point.end; ++j)

@@ -11,9 +11,8 @@ namespace Ricochet
   namespace
   {
     template <int dim>
-    const Function<dim> &
-    obstacle_of(const Obstacles<dim> &   obstacles,
-                const types::boundary_id boundary_id)
+    const Function<dim> &obstacle_of(const Obstacles<dim>    &obstacles,
+                                     const types::boundary_id boundary_id)
     {
       const auto entry = obstacles.find(boundary_id);
       AssertThrow(entry != obstacles.end(),
@@ -26,14 +25,13 @@ namespace Ricochet
 
 
   template <int dim>
-  ContactPoints
-  make_quadrature_contact_points(const Body<dim> &     body,
-                                 const LinearElastic & material,
-                                 const Obstacles<dim> &obstacles)
+  ContactPoints make_quadrature_contact_points(const Body<dim>      &body,
+                                               const LinearElastic  &material,
+                                               const Obstacles<dim> &obstacles)
   {
     const FEValuesExtractors::Vector displacement(0);
-    const FiniteElement<dim> &       element = body.dof_handler().get_fe();
-    FEFaceValues<dim> face_values(body.mapping(),
+    const FiniteElement<dim>        &element = body.dof_handler().get_fe();
+    FEFaceValues<dim>                face_values(body.mapping(),
                                   element,
                                   body.face_quadrature(),
                                   update_values | update_gradients |
@@ -125,17 +123,17 @@ namespace Ricochet
 
 
   template <int dim>
-  ContactPoints
-  make_nodal_contact_points(const Body<dim> &     body,
-                            const Obstacles<dim> &obstacles)
+  ContactPoints make_nodal_contact_points(const Body<dim>      &body,
+                                          const Obstacles<dim> &obstacles)
   {
     const FiniteElement<dim> &element = body.dof_handler().get_fe();
     if (body.has_multipliers() && element.degree > 1)
-      throw InputError("Multipliers in the nodes need displacements of degree "
-                       "1; with degree " +
-                       std::to_string(element.degree) +
-                       " take the proximal augmented Lagrangian or the active "
-                       "set.");
+      throw InputError(
+        "Multipliers in the nodes need displacements of degree "
+        "1; with degree " +
+        std::to_string(element.degree) +
+        " take the proximal augmented Lagrangian or the active "
+        "set.");
 
     // What is known of each owned node, by the system index of its first
     // displacement. Ghost cells are visited too: an owned node may lie on
@@ -151,15 +149,15 @@ namespace Ricochet
     // The lumped boundary mass, on the first displacement of each node.
     Vector lumped_boundary_mass = body.make_vector();
 
-    FEFaceValues<dim> face_values(body.mapping(),
+    FEFaceValues<dim>                    face_values(body.mapping(),
                                   element,
                                   body.face_quadrature(),
                                   update_values | update_JxW_values);
     std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
     std::vector<types::global_dof_index> multiplier_indices(
-      body.has_multipliers() ?
-        body.multiplier_dof_handler().get_fe().n_dofs_per_cell() :
-        0);
+      body.has_multipliers()
+        ? body.multiplier_dof_handler().get_fe().n_dofs_per_cell()
+        : 0);
     for (const auto &cell : body.dof_handler().active_cell_iterators())
       {
         if (cell->is_artificial())
@@ -183,7 +181,8 @@ namespace Ricochet
               element.n_dofs_per_face(f));
             face->get_dof_indices(face_indices);
             const std::set<types::global_dof_index> face_dofs(
-              face_indices.begin(), face_indices.end());
+              face_indices.begin(),
+              face_indices.end());
 
             for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
               {
@@ -217,9 +216,9 @@ namespace Ricochet
                   info.index[dim] =
                     body.multiplier_system_index(multiplier_indices[node]);
 
-                const Point<dim> x =
-                  body.mapping().transform_unit_to_real_cell(
-                    cell, element.unit_support_point(i));
+                const Point<dim> x = body.mapping().transform_unit_to_real_cell(
+                  cell,
+                  element.unit_support_point(i));
                 const Function<dim> &distance =
                   obstacle_of(obstacles, face->boundary_id());
                 info.point.initial_gap = distance.value(x);
@@ -255,31 +254,29 @@ namespace Ricochet
         points.points.push_back(node.point);
       }
     if (Utilities::MPI::min(positive ? 1 : 0, body.communicator) == 0)
-      throw InputError("Nodal contact needs nodes with a positive lumped "
-                       "boundary mass; elements of degree " +
-                       std::to_string(element.degree) +
-                       " on this mesh have others. Take degree 1, or one of "
-                       "the treatments that integrate over the boundary.");
+      throw InputError(
+        "Nodal contact needs nodes with a positive lumped "
+        "boundary mass; elements of degree " +
+        std::to_string(element.degree) +
+        " on this mesh have others. Take degree 1, or one of "
+        "the treatments that integrate over the boundary.");
     return points;
   }
 
 
-  template ContactPoints
-  make_quadrature_contact_points(const Body<1> &,
-                                 const LinearElastic &,
-                                 const Obstacles<1> &);
-  template ContactPoints
-  make_quadrature_contact_points(const Body<2> &,
-                                 const LinearElastic &,
-                                 const Obstacles<2> &);
-  template ContactPoints
-  make_quadrature_contact_points(const Body<3> &,
-                                 const LinearElastic &,
-                                 const Obstacles<3> &);
-  template ContactPoints
-  make_nodal_contact_points(const Body<1> &, const Obstacles<1> &);
-  template ContactPoints
-  make_nodal_contact_points(const Body<2> &, const Obstacles<2> &);
-  template ContactPoints
-  make_nodal_contact_points(const Body<3> &, const Obstacles<3> &);
+  template ContactPoints make_quadrature_contact_points(const Body<1> &,
+                                                        const LinearElastic &,
+                                                        const Obstacles<1> &);
+  template ContactPoints make_quadrature_contact_points(const Body<2> &,
+                                                        const LinearElastic &,
+                                                        const Obstacles<2> &);
+  template ContactPoints make_quadrature_contact_points(const Body<3> &,
+                                                        const LinearElastic &,
+                                                        const Obstacles<3> &);
+  template ContactPoints make_nodal_contact_points(const Body<1> &,
+                                                   const Obstacles<1> &);
+  template ContactPoints make_nodal_contact_points(const Body<2> &,
+                                                   const Obstacles<2> &);
+  template ContactPoints make_nodal_contact_points(const Body<3> &,
+                                                   const Obstacles<3> &);
 } // namespace Ricochet

@@ -19,9 +19,8 @@ namespace Ricochet
    * gap(u) = distance(x) + grad distance(x) . u.
    */
   template <int dim>
-  using Obstacles =
-    std::map<dealii::types::boundary_id,
-             std::shared_ptr<const dealii::Function<dim>>>;
+  using Obstacles = std::map<dealii::types::boundary_id,
+                             std::shared_ptr<const dealii::Function<dim>>>;
 
   /**
    * One point of the contact boundary: gap, stress pressure and multiplier are
@@ -65,10 +64,9 @@ namespace Ricochet
    * body.
    */
   template <int dim>
-  ContactPoints
-  make_quadrature_contact_points(const Body<dim> &     body,
-                                 const LinearElastic & material,
-                                 const Obstacles<dim> &obstacles);
+  ContactPoints make_quadrature_contact_points(const Body<dim>      &body,
+                                               const LinearElastic  &material,
+                                               const Obstacles<dim> &obstacles);
 
   /**
    * Owned nodes of the contact boundary, each with its lumped boundary mass.
@@ -79,9 +77,8 @@ namespace Ricochet
    * quadratic tetrahedra), and for nodal multipliers with degree > 1.
    */
   template <int dim>
-  ContactPoints
-  make_nodal_contact_points(const Body<dim> &     body,
-                            const Obstacles<dim> &obstacles);
+  ContactPoints make_nodal_contact_points(const Body<dim>      &body,
+                                          const Obstacles<dim> &obstacles);
 } // namespace Ricochet
 
 #endif

@@ -34,15 +34,13 @@ namespace Ricochet
     };
 
     template <typename Law>
-    std::unique_ptr<ContactLaw>
-    pointwise(const Law &law)
+    std::unique_ptr<ContactLaw> pointwise(const Law &law)
     {
       return std::make_unique<ContactLawImplementation<Law>>(law);
     }
 
     /// Nodal, no multipliers, no potential: a constraint.
-    constexpr ContactLawTraits
-    active_set_traits()
+    constexpr ContactLawTraits active_set_traits()
     {
       ContactLawTraits traits;
       traits.nodal         = true;
@@ -52,10 +50,9 @@ namespace Ricochet
 
     // The table of all contact treatments: a new pointwise law is one file in
     // laws/ and one line here.
-    const std::vector<Treatment> &
-    table()
+    const std::vector<Treatment> &table()
     {
-      using P = ContactParameters;
+      using P                                        = ContactParameters;
       static const std::vector<Treatment> treatments = {
         {"Nitsche",
          Nitsche::traits(),
@@ -93,8 +90,7 @@ namespace Ricochet
       return treatments;
     }
 
-    const Treatment &
-    find(const ContactParameters &parameters)
+    const Treatment &find(const ContactParameters &parameters)
     {
       for (const Treatment &treatment : table())
         if (treatment.name == parameters.treatment)
@@ -108,8 +104,7 @@ namespace Ricochet
 
 
 
-  std::string
-  contact_treatment_names()
+  std::string contact_treatment_names()
   {
     std::string names;
     for (const Treatment &treatment : table())
@@ -119,18 +114,16 @@ namespace Ricochet
 
 
 
-  MultiplierSpace
-  multiplier_space(const ContactParameters &parameters)
+  MultiplierSpace multiplier_space(const ContactParameters &parameters)
   {
-    return find(parameters).traits.needs_multiplier ? MultiplierSpace::linear :
-                                                      MultiplierSpace::none;
+    return find(parameters).traits.needs_multiplier ? MultiplierSpace::linear
+                                                    : MultiplierSpace::none;
   }
 
 
 
-  std::vector<std::string>
-  schemes_allowed(const ContactParameters &parameters,
-                  const bool               redistributed_mass)
+  std::vector<std::string> schemes_allowed(const ContactParameters &parameters,
+                                           const bool redistributed_mass)
   {
     const ContactLawTraits traits = find(parameters).traits;
     if (traits.is_two_point)
@@ -151,21 +144,19 @@ namespace Ricochet
 
 
 
-  void
-  check_combination(const ContactParameters &parameters,
-                    const std::string &      scheme,
-                    const bool               redistributed_mass)
+  void check_combination(const ContactParameters &parameters,
+                         const std::string       &scheme,
+                         const bool               redistributed_mass)
   {
     const std::vector<std::string> allowed =
       schemes_allowed(parameters, redistributed_mass);
     if (std::find(allowed.begin(), allowed.end(), scheme) != allowed.end())
       return;
 
-    std::string message =
-      "The contact treatment '" + parameters.treatment +
-      (parameters.treatment == "Nitsche" ?
-         "' with theta = " + to_text(parameters.nitsche_theta) :
-         "'") +
+    std::string message = "The contact treatment '" + parameters.treatment +
+      (parameters.treatment == "Nitsche"
+         ? "' with theta = " + to_text(parameters.nitsche_theta)
+         : "'") +
       " and the " + (redistributed_mass ? "redistributed" : "consistent") +
       " mass cannot be combined with the time scheme '" + scheme +
       "'.\nAllowed with them: ";
@@ -173,9 +164,10 @@ namespace Ricochet
       message += (i == 0 ? "" : ", ") + allowed[i];
     message += ".\n";
     if (scheme == "ARKODE")
-      message += "ARKODE integrates ordinary differential equations with a "
-                 "potential: Nitsche with theta = 1 or penalty, with the "
-                 "consistent mass.";
+      message +=
+        "ARKODE integrates ordinary differential equations with a "
+        "potential: Nitsche with theta = 1 or penalty, with the "
+        "consistent mass.";
     else
       message += "A discrete derivative needs the two ends of a midpoint step.";
     throw InputError(message);
@@ -186,25 +178,25 @@ namespace Ricochet
   template <int dim>
   std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &parameters,
-               const std::string &      scheme,
-               const Body<dim> &        body,
-               const LinearElastic &    material,
-               const Obstacles<dim> &   obstacles)
+               const std::string       &scheme,
+               const Body<dim>         &body,
+               const LinearElastic     &material,
+               const Obstacles<dim>    &obstacles)
   {
     const Treatment &treatment = find(parameters);
     ContactPoints    stress_points =
       make_quadrature_contact_points(body, material, obstacles);
-    ContactPoints points = treatment.traits.nodal ?
-                             make_nodal_contact_points(body, obstacles) :
-                             stress_points;
+    ContactPoints points = treatment.traits.nodal
+      ? make_nodal_contact_points(body, obstacles)
+      : stress_points;
     if (!treatment.make_law)
       return std::make_unique<ActiveSetContact>(body,
                                                 std::move(points),
                                                 std::move(stress_points),
                                                 parameters.augmentation);
-    const auto &make_law = scheme == "midpoint" && treatment.make_midpoint_law ?
-                             treatment.make_midpoint_law :
-                             treatment.make_law;
+    const auto &make_law = scheme == "midpoint" && treatment.make_midpoint_law
+      ? treatment.make_midpoint_law
+      : treatment.make_law;
     return std::make_unique<PointwiseContact>(body,
                                               make_law(parameters),
                                               std::move(points),
@@ -213,8 +205,7 @@ namespace Ricochet
 
 
 
-  void
-  ContactParameters::add_parameters(ParameterHandler &parameters)
+  void ContactParameters::add_parameters(ParameterHandler &parameters)
   {
     parameters.enter_subsection("Contact");
     parameters.add_parameter("Treatment",

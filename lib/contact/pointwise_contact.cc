@@ -9,10 +9,9 @@ namespace Ricochet
 {
   using dealii::VectorOperation;
 
-  void
-  PointwiseContact::begin_stage(const Vector &old_solution,
-                                const Vector & /*old_contact_force*/,
-                                const double weight_)
+  void PointwiseContact::begin_stage(const Vector &old_solution,
+                                     const Vector & /*old_contact_force*/,
+                                     const double weight_)
   {
     weight = weight_;
     evaluator.evaluate(old_solution, old_state);
@@ -20,11 +19,10 @@ namespace Ricochet
 
 
 
-  void
-  PointwiseContact::evaluate_force(
+  void PointwiseContact::evaluate_force(
     const std::vector<ContactPointState<>> &new_states,
     const std::vector<ContactPointState<>> &old_states,
-    Vector &                                result)
+    Vector                                 &result)
   {
     result = 0.;
     for (unsigned int p = 0; p < new_states.size(); ++p)
@@ -38,8 +36,8 @@ namespace Ricochet
 
 
 
-  void
-  PointwiseContact::complete_residual(const Vector &solution, Vector &residual)
+  void PointwiseContact::complete_residual(const Vector &solution,
+                                           Vector       &residual)
   {
     evaluator.evaluate(solution, state);
     evaluate_force(state, old_state, force);
@@ -55,24 +53,21 @@ namespace Ricochet
 
 
 
-  void
-  PointwiseContact::complete_tangent(Matrix &tangent) const
+  void PointwiseContact::complete_tangent(Matrix &tangent) const
   {
     for (unsigned int p = 0; p < state.size(); ++p)
-      evaluator.add(
-        p,
-        weight,
-        law->tangent(state[p],
-                     old_state[p],
-                     evaluator.contact_points()[p].cell_diameter),
-        tangent);
+      evaluator.add(p,
+                    weight,
+                    law->tangent(state[p],
+                                 old_state[p],
+                                 evaluator.contact_points()[p].cell_diameter),
+                    tangent);
     tangent.compress(VectorOperation::add);
   }
 
 
 
-  std::vector<int>
-  PointwiseContact::branches() const
+  std::vector<int> PointwiseContact::branches() const
   {
     std::vector<int> branches(state.size());
     for (unsigned int p = 0; p < state.size(); ++p)
@@ -84,8 +79,7 @@ namespace Ricochet
 
 
 
-  std::optional<std::uint64_t>
-  PointwiseContact::tangent_signature() const
+  std::optional<std::uint64_t> PointwiseContact::tangent_signature() const
   {
     if (!law->traits().piecewise_linear)
       return {};
@@ -94,16 +88,14 @@ namespace Ricochet
 
 
 
-  std::string
-  PointwiseContact::active_set_description() const
+  std::string PointwiseContact::active_set_description() const
   {
     return count_active(branches(), evaluator.communicator);
   }
 
 
 
-  void
-  PointwiseContact::force_at(const Vector &solution, Vector &result)
+  void PointwiseContact::force_at(const Vector &solution, Vector &result)
   {
     // With both states the same, a discrete derivative is the derivative.
     evaluator.evaluate(solution, state);
@@ -117,22 +109,19 @@ namespace Ricochet
 
 
 
-  double
-  PointwiseContact::potential(const Vector &solution)
+  double PointwiseContact::potential(const Vector &solution)
   {
     evaluator.evaluate(solution, state);
     double sum = 0.;
     for (unsigned int p = 0; p < state.size(); ++p)
       sum += evaluator.contact_points()[p].weight *
-             law->potential(state[p],
-                            evaluator.contact_points()[p].cell_diameter);
+        law->potential(state[p], evaluator.contact_points()[p].cell_diameter);
     return dealii::Utilities::MPI::sum(sum, evaluator.communicator);
   }
 
 
 
-  void
-  PointwiseContact::compute_row_scaling()
+  void PointwiseContact::compute_row_scaling()
   {
     scaling = 0.;
     Vector boundary_mass(scaling);
@@ -164,7 +153,7 @@ namespace Ricochet
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         const ContactPoint &point = evaluator.contact_points()[p];
-        ContactSummary &    sum   = sums[point.boundary_id];
+        ContactSummary     &sum   = sums[point.boundary_id];
         const double pressure = law->pressure(state[p], point.cell_diameter);
         sum.area += point.weight;
         sum.mean_gap += point.weight * state[p].gap;
@@ -179,11 +168,10 @@ namespace Ricochet
 
 
 
-  void
-  add_stress_pressure(
-    const Vector &                                        solution,
-    ContactPointEvaluator &                               evaluator,
-    std::vector<ContactPointState<>> &                    work,
+  void add_stress_pressure(
+    const Vector                                         &solution,
+    ContactPointEvaluator                                &evaluator,
+    std::vector<ContactPointState<>>                     &work,
     std::map<dealii::types::boundary_id, ContactSummary> &sums)
   {
     evaluator.evaluate(solution, work);
@@ -194,8 +182,7 @@ namespace Ricochet
 
 
 
-  std::map<dealii::types::boundary_id, ContactSummary>
-  reduce_summaries(
+  std::map<dealii::types::boundary_id, ContactSummary> reduce_summaries(
     const std::map<dealii::types::boundary_id, ContactSummary> &my_sums,
     const MPI_Comm                                              communicator)
   {
@@ -215,43 +202,46 @@ namespace Ricochet
         const auto           mine = my_sums.find(id);
         const ContactSummary sum =
           mine == my_sums.end() ? ContactSummary() : mine->second;
-        ContactSummary &total   = summaries[id];
-        total.area              = dealii::Utilities::MPI::sum(sum.area, communicator);
-        total.force             = dealii::Utilities::MPI::sum(sum.force, communicator);
-        total.mean_gap          = dealii::Utilities::MPI::sum(sum.mean_gap, communicator) / total.area;
-        total.max_penetration   = max(sum.max_penetration, communicator);
-        total.contact_pressure  = total.force / total.area;
-        total.stress_pressure   = dealii::Utilities::MPI::sum(sum.stress_pressure, communicator) / total.area;
-        total.active_points     = dealii::Utilities::MPI::sum(sum.active_points, communicator);
+        ContactSummary &total = summaries[id];
+        total.area  = dealii::Utilities::MPI::sum(sum.area, communicator);
+        total.force = dealii::Utilities::MPI::sum(sum.force, communicator);
+        total.mean_gap =
+          dealii::Utilities::MPI::sum(sum.mean_gap, communicator) / total.area;
+        total.max_penetration  = max(sum.max_penetration, communicator);
+        total.contact_pressure = total.force / total.area;
+        total.stress_pressure =
+          dealii::Utilities::MPI::sum(sum.stress_pressure, communicator) /
+          total.area;
+        total.active_points =
+          dealii::Utilities::MPI::sum(sum.active_points, communicator);
       }
     return summaries;
   }
 
 
 
-  std::string
-  count_active(const std::vector<int> &values, const MPI_Comm communicator)
+  std::string count_active(const std::vector<int> &values,
+                           const MPI_Comm          communicator)
   {
     unsigned int n_active = 0;
     for (const int value : values)
       n_active += value != 0;
-    const std::vector<unsigned int> my_counts = {
-      n_active, static_cast<unsigned int>(values.size())};
-    std::vector<unsigned int> counts(2);
+    const std::vector<unsigned int> my_counts = {n_active,
+                                                 static_cast<unsigned int>(
+                                                   values.size())};
+    std::vector<unsigned int>       counts(2);
     dealii::Utilities::MPI::sum(my_counts, communicator, counts);
     return std::to_string(counts[0]) + " of " + std::to_string(counts[1]);
   }
 
 
 
-  std::uint64_t
-  global_hash(const std::vector<int> &values, const MPI_Comm communicator)
+  std::uint64_t global_hash(const std::vector<int> &values,
+                            const MPI_Comm          communicator)
   {
     // FNV-1a on each rank, salted with the rank, then a sum over the ranks.
-    std::uint64_t hash =
-      1469598103934665603ull +
-      1099511628211ull *
-        dealii::Utilities::MPI::this_mpi_process(communicator);
+    std::uint64_t hash = 1469598103934665603ull +
+      1099511628211ull * dealii::Utilities::MPI::this_mpi_process(communicator);
     for (const int value : values)
       {
         hash ^= static_cast<std::uint64_t>(value + 1);

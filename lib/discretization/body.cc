@@ -20,8 +20,8 @@ namespace Ricochet
   template <int dim>
   Body<dim>::Body(const Triangulation<dim> &triangulation,
                   const unsigned int        degree,
-                  const BoundaryIds &       clamped_ids,
-                  const BoundaryIds &       contact_ids,
+                  const BoundaryIds        &clamped_ids,
+                  const BoundaryIds        &contact_ids,
                   const MultiplierSpace     multipliers,
                   const MPI_Comm            communicator)
     : communicator(communicator)
@@ -50,8 +50,9 @@ namespace Ricochet
         face_rule = std::make_unique<QGaussSimplex<dim - 1>>(degree + 1);
       }
     else
-      throw InputError("The mesh mixes cells of different kinds; Ricochet "
-                       "takes meshes of hypercubes only or simplices only.");
+      throw InputError(
+        "The mesh mixes cells of different kinds; Ricochet "
+        "takes meshes of hypercubes only or simplices only.");
 
     displacement_dofs.distribute_dofs(*displacement_element);
     number_multipliers();
@@ -69,8 +70,8 @@ namespace Ricochet
     };
     const auto boundary_set = [&](const BoundaryIds &ids) {
       // An empty set of ids means "all boundaries" to deal.II.
-      return ids.empty() ? IndexSet(displacement_dofs.n_dofs()) :
-                           DoFTools::extract_boundary_dofs(displacement_dofs,
+      return ids.empty() ? IndexSet(displacement_dofs.n_dofs())
+                         : DoFTools::extract_boundary_dofs(displacement_dofs,
                                                            ComponentMask(),
                                                            ids);
     };
@@ -83,8 +84,7 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  Body<dim>::number_multipliers()
+  void Body<dim>::number_multipliers()
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
@@ -95,7 +95,7 @@ namespace Ricochet
     if (has_multipliers())
       {
         multiplier_dofs.distribute_dofs(*multiplier_element);
-        contact_dofs         = DoFTools::extract_boundary_dofs(multiplier_dofs,
+        contact_dofs = DoFTools::extract_boundary_dofs(multiplier_dofs,
                                                        ComponentMask(),
                                                        contact_ids);
         relevant_multipliers =
@@ -171,8 +171,7 @@ namespace Ricochet
   {
     if (!has_multipliers())
       return i;
-    const auto next =
-      std::upper_bound(rank_begin.begin(), rank_begin.end(), i);
+    const auto next = std::upper_bound(rank_begin.begin(), rank_begin.end(), i);
     return i + rank_shift[next - rank_begin.begin() - 1];
   }
 
@@ -183,15 +182,14 @@ namespace Ricochet
   Body<dim>::multiplier_system_index(const types::global_dof_index i) const
   {
     const auto entry = multiplier_index.find(i);
-    return entry == multiplier_index.end() ? numbers::invalid_dof_index :
-                                             entry->second;
+    return entry == multiplier_index.end() ? numbers::invalid_dof_index
+                                           : entry->second;
   }
 
 
 
   template <int dim>
-  void
-  Body<dim>::make_sparsity_pattern()
+  void Body<dim>::make_sparsity_pattern()
   {
     pattern.reinit(owned, owned, relevant, communicator);
     std::vector<types::global_dof_index> cell_dofs(
@@ -227,8 +225,8 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  Body<dim>::interpolate(const Function<dim> &function, Vector &vector) const
+  void Body<dim>::interpolate(const Function<dim> &function,
+                              Vector              &vector) const
   {
     Vector displacement(displacement_dofs.locally_owned_dofs(), communicator);
     VectorTools::interpolate(*geometry,
@@ -245,8 +243,7 @@ namespace Ricochet
 
 
   template <int dim>
-  Vector
-  Body<dim>::displacement_part(const Vector &vector) const
+  Vector Body<dim>::displacement_part(const Vector &vector) const
   {
     Vector displacement(displacement_dofs.locally_owned_dofs(), communicator);
     for (const types::global_dof_index i :
@@ -264,8 +261,7 @@ namespace Ricochet
 
 
   template <int dim>
-  Vector
-  Body<dim>::make_vector() const
+  Vector Body<dim>::make_vector() const
   {
     return Vector(owned, communicator);
   }
@@ -273,8 +269,7 @@ namespace Ricochet
 
 
   template <int dim>
-  Vector
-  Body<dim>::make_ghosted_vector() const
+  Vector Body<dim>::make_ghosted_vector() const
   {
     return Vector(owned, relevant, communicator);
   }

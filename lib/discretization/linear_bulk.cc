@@ -15,22 +15,21 @@ namespace Ricochet
     /// The cell loop of all constant matrices. @p integrand gets the FEValues
     /// and a quadrature point and adds to the cell matrix.
     template <int dim>
-    Matrix
-    assemble(const Body<dim> & body,
-             const UpdateFlags flags,
-             const std::function<void(const FEValues<dim> &,
-                                      const unsigned int,
-                                      FullMatrix<double> &)> &integrand)
+    Matrix assemble(const Body<dim>                                 &body,
+                    const UpdateFlags                                flags,
+                    const std::function<void(const FEValues<dim> &,
+                                             const unsigned int,
+                                             FullMatrix<double> &)> &integrand)
     {
       Matrix matrix;
       matrix.reinit(body.sparsity_pattern());
 
-      FEValues<dim>      fe_values(body.mapping(),
+      FEValues<dim>                        fe_values(body.mapping(),
                               body.dof_handler().get_fe(),
                               body.cell_quadrature(),
                               flags | update_JxW_values);
-      const unsigned int n = fe_values.dofs_per_cell;
-      FullMatrix<double> cell_matrix(n, n);
+      const unsigned int                   n = fe_values.dofs_per_cell;
+      FullMatrix<double>                   cell_matrix(n, n);
       std::vector<types::global_dof_index> indices(n);
       for (const auto &cell : body.dof_handler().active_cell_iterators())
         if (cell->is_locally_owned())
@@ -52,11 +51,11 @@ namespace Ricochet
 
 
   template <int dim>
-  LinearBulk<dim>::LinearBulk(const Body<dim> &    body,
+  LinearBulk<dim>::LinearBulk(const Body<dim>     &body,
                               const LinearElastic &material)
     : midpoint(body.make_vector())
   {
-    const FEValuesExtractors::Vector displacement(0);
+    const FEValuesExtractors::Vector     displacement(0);
     std::vector<SymmetricTensor<2, dim>> strains(
       body.dof_handler().get_fe().n_dofs_per_cell());
     stiffness.reinit(body.sparsity_pattern());
@@ -65,7 +64,7 @@ namespace Ricochet
       update_gradients,
       [&](const FEValues<dim> &fe_values,
           const unsigned int   q,
-          FullMatrix<double> & cell_matrix) {
+          FullMatrix<double>  &cell_matrix) {
         for (const unsigned int i : fe_values.dof_indices())
           strains[i] = fe_values[displacement].symmetric_gradient(i, q);
         for (const unsigned int j : fe_values.dof_indices())
@@ -80,8 +79,7 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  LinearBulk<dim>::force(const Vector &solution, Vector &force) const
+  void LinearBulk<dim>::force(const Vector &solution, Vector &force) const
   {
     stiffness.vmult(force, solution);
   }
@@ -89,10 +87,9 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  LinearBulk<dim>::discrete_derivative(const Vector &old_solution,
-                                       const Vector &new_solution,
-                                       Vector &      force) const
+  void LinearBulk<dim>::discrete_derivative(const Vector &old_solution,
+                                            const Vector &new_solution,
+                                            Vector       &force) const
   {
     midpoint = old_solution;
     midpoint.sadd(.5, .5, new_solution);
@@ -102,10 +99,9 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  LinearBulk<dim>::add_tangent(const double factor,
-                               const Vector & /*solution*/,
-                               Matrix &tangent) const
+  void LinearBulk<dim>::add_tangent(const double factor,
+                                    const Vector & /*solution*/,
+                                    Matrix &tangent) const
   {
     tangent.add(factor, stiffness);
   }
@@ -113,8 +109,7 @@ namespace Ricochet
 
 
   template <int dim>
-  double
-  LinearBulk<dim>::energy(const Vector &solution) const
+  double LinearBulk<dim>::energy(const Vector &solution) const
   {
     stiffness.vmult(midpoint, solution);
     return .5 * (midpoint * solution);
@@ -123,20 +118,18 @@ namespace Ricochet
 
 
   template <int dim>
-  Matrix
-  assemble_mass_matrix(const Body<dim> &body, const double density)
+  Matrix assemble_mass_matrix(const Body<dim> &body, const double density)
   {
     const FEValuesExtractors::Vector displacement(0);
     return assemble<dim>(body,
                          update_values,
                          [&](const FEValues<dim> &fe_values,
                              const unsigned int   q,
-                             FullMatrix<double> & cell_matrix) {
+                             FullMatrix<double>  &cell_matrix) {
                            for (const unsigned int i : fe_values.dof_indices())
                              for (const unsigned int j :
                                   fe_values.dof_indices())
-                               cell_matrix(i, j) +=
-                                 density *
+                               cell_matrix(i, j) += density *
                                  (fe_values[displacement].value(i, q) *
                                   fe_values[displacement].value(j, q)) *
                                  fe_values.JxW(q);
@@ -147,10 +140,7 @@ namespace Ricochet
   template class LinearBulk<1>;
   template class LinearBulk<2>;
   template class LinearBulk<3>;
-  template Matrix
-  assemble_mass_matrix(const Body<1> &, const double);
-  template Matrix
-  assemble_mass_matrix(const Body<2> &, const double);
-  template Matrix
-  assemble_mass_matrix(const Body<3> &, const double);
+  template Matrix assemble_mass_matrix(const Body<1> &, const double);
+  template Matrix assemble_mass_matrix(const Body<2> &, const double);
+  template Matrix assemble_mass_matrix(const Body<3> &, const double);
 } // namespace Ricochet

@@ -26,8 +26,8 @@ namespace Ricochet
     stress(const dealii::SymmetricTensor<2, dim, Number> &strain) const
     {
       return lambda * trace(strain) *
-               dealii::unit_symmetric_tensor<dim, Number>() +
-             2. * mu * strain;
+        dealii::unit_symmetric_tensor<dim, Number>() +
+        2. * mu * strain;
     }
   };
 } // namespace Ricochet

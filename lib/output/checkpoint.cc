@@ -24,8 +24,7 @@ namespace Ricochet
 
     /// The vectors of a state, in the order in which they are stored.
     template <typename StateType, typename Visitor>
-    void
-    for_each_vector(StateType &state, const Visitor &visit)
+    void for_each_vector(StateType &state, const Visitor &visit)
     {
       visit(state.solution);
       visit(state.velocity);
@@ -44,15 +43,13 @@ namespace Ricochet
       std::vector<std::vector<double>> values_of_rank;
 
       template <typename Archive>
-      void
-      serialize(Archive &archive, const unsigned int /*version*/)
+      void serialize(Archive &archive, const unsigned int /*version*/)
       {
         archive &parameters &step &time &sums &values_of_rank;
       }
     };
 
-    std::uint32_t
-    checksum(const std::string &data)
+    std::uint32_t checksum(const std::string &data)
     {
       boost::crc_32_type crc;
       crc.process_bytes(data.data(), data.size());
@@ -62,8 +59,7 @@ namespace Ricochet
 
 
 
-  void
-  Checkpoint::write(const RunFolder &folder) const
+  void Checkpoint::write(const RunFolder &folder) const
   {
     std::vector<double> my_values;
     for_each_vector(state, [&](const Vector &vector) {
@@ -86,9 +82,9 @@ namespace Ricochet
           boost::archive::binary_oarchive archive(data);
           archive << payload;
         }
-        const std::string   bytes = data.str();
-        const std::uint64_t size  = bytes.size();
-        const std::uint32_t crc   = checksum(bytes);
+        const std::string   bytes    = data.str();
+        const std::uint64_t size     = bytes.size();
+        const std::uint32_t crc      = checksum(bytes);
         const std::string   new_file = folder.file(file_name + ".new");
         std::ofstream       out(new_file, std::ios::binary | std::ios::trunc);
         out << magic;
@@ -108,8 +104,8 @@ namespace Ricochet
 
 
 
-  Checkpoint
-  Checkpoint::read(const RunFolder &folder, const Vector &empty_vector)
+  Checkpoint Checkpoint::read(const RunFolder &folder,
+                              const Vector    &empty_vector)
   {
     const std::string file = folder.file(file_name);
     const auto        fail = [&](const std::string &why) {
@@ -167,12 +163,12 @@ namespace Ricochet
     checkpoint.sums       = payload.sums;
     checkpoint.state.time = payload.time;
     const std::vector<double> &my_values =
-      payload.values_of_rank[Utilities::MPI::this_mpi_process(
-        folder.communicator)];
+      payload
+        .values_of_rank[Utilities::MPI::this_mpi_process(folder.communicator)];
     std::size_t position = 0;
     for_each_vector(checkpoint.state, [&](Vector &vector) {
       vector.reinit(empty_vector);
-      double *           values = vector.trilinos_vector()[0];
+      double            *values = vector.trilinos_vector()[0];
       const unsigned int n      = vector.locally_owned_size();
       AssertThrow(position + n <= my_values.size(),
                   ExcMessage("The checkpoint has another number of unknowns."));

@@ -16,8 +16,7 @@ namespace Ricochet
   namespace
   {
     /// 17 digits: a double read back is the double that was written.
-    std::string
-    format_row(const std::vector<double> &row)
+    std::string format_row(const std::vector<double> &row)
     {
       std::string line;
       char        number[32];
@@ -32,8 +31,8 @@ namespace Ricochet
 
 
 
-  unsigned int
-  EnergyLedger::add_column(const std::string &name, const std::string &unit)
+  unsigned int EnergyLedger::add_column(const std::string &name,
+                                        const std::string &unit)
   {
     AssertThrow(row_list.empty(), ExcMessage("Columns come before rows."));
     column_list.push_back({name, unit});
@@ -42,8 +41,7 @@ namespace Ricochet
 
 
 
-  unsigned int
-  EnergyLedger::column_number(const std::string &name) const
+  unsigned int EnergyLedger::column_number(const std::string &name) const
   {
     for (unsigned int i = 0; i < column_list.size(); ++i)
       if (column_list[i].name == name)
@@ -54,19 +52,18 @@ namespace Ricochet
 
 
 
-  std::string
-  EnergyLedger::header() const
+  std::string EnergyLedger::header() const
   {
     std::string line;
     for (const Column &column : column_list)
-      line += (line.empty() ? "" : ",") + column.name + " [" + column.unit + "]";
+      line +=
+        (line.empty() ? "" : ",") + column.name + " [" + column.unit + "]";
     return line;
   }
 
 
 
-  void
-  EnergyLedger::start()
+  void EnergyLedger::start()
   {
     if (!folder.is_root)
       return;
@@ -76,8 +73,7 @@ namespace Ricochet
 
 
 
-  void
-  EnergyLedger::resume(const unsigned int n_rows)
+  void EnergyLedger::resume(const unsigned int n_rows)
   {
     // Every rank reads: the rows are also needed for sums over the whole run.
     const std::string file = folder.file("energy.csv");
@@ -94,8 +90,8 @@ namespace Ricochet
           if (!std::getline(in, line) || in.eof())
             {
               problem = "it ends after " + std::to_string(row_list.size()) +
-                        " of the " + std::to_string(n_rows) +
-                        " rows that the checkpoint counts";
+                " of the " + std::to_string(n_rows) +
+                " rows that the checkpoint counts";
               break;
             }
           std::vector<double> row;
@@ -121,8 +117,7 @@ namespace Ricochet
 
 
 
-  void
-  EnergyLedger::add_row(const std::vector<double> &row)
+  void EnergyLedger::add_row(const std::vector<double> &row)
   {
     AssertDimension(row.size(), column_list.size());
     row_list.push_back(row);
@@ -140,12 +135,11 @@ namespace Ricochet
 
 
 
-  void
-  EnergyLedger::write_hdf5() const
+  void EnergyLedger::write_hdf5() const
   {
     if (!folder.is_root)
       return;
-    HDF5::File file(folder.file("energy.h5"),
+    HDF5::File          file(folder.file("energy.h5"),
                     HDF5::File::FileAccessMode::create);
     std::vector<double> values(row_list.size());
     for (unsigned int i = 0; i < column_list.size(); ++i)

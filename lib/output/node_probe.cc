@@ -13,7 +13,7 @@ namespace Ricochet
   NodeProbe<dim>::NodeProbe(const Body<dim> &body, const Point<dim> &point)
     : communicator(body.communicator)
   {
-    double                               nearest = std::numeric_limits<double>::max();
+    double nearest = std::numeric_limits<double>::max();
     std::vector<types::global_dof_index> candidate(dim);
     for (const auto &cell : body.dof_handler().active_cell_iterators())
       {
@@ -34,10 +34,12 @@ namespace Ricochet
     // its unknowns.
     const double global_nearest = Utilities::MPI::min(nearest, communicator);
     const bool   mine           = nearest == global_nearest &&
-                      body.owned_indices().is_element(candidate[0]);
-    const unsigned int rank  = Utilities::MPI::this_mpi_process(communicator);
-    const unsigned int owner = Utilities::MPI::min(
-      mine ? rank : std::numeric_limits<unsigned int>::max(), communicator);
+      body.owned_indices().is_element(candidate[0]);
+    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int owner =
+      Utilities::MPI::min(mine ? rank
+                               : std::numeric_limits<unsigned int>::max(),
+                          communicator);
     if (owner == rank)
       indices = candidate;
   }
@@ -45,9 +47,8 @@ namespace Ricochet
 
 
   template <int dim>
-  double
-  NodeProbe<dim>::value(const Vector &     vector,
-                        const unsigned int component) const
+  double NodeProbe<dim>::value(const Vector      &vector,
+                               const unsigned int component) const
   {
     return Utilities::MPI::sum(
       indices.empty() ? 0. : static_cast<double>(vector(indices[component])),

@@ -22,10 +22,9 @@ namespace Ricochet
         , material(material)
       {}
 
-      void
-      evaluate_vector_field(
+      void evaluate_vector_field(
         const DataPostprocessorInputs::Vector<dim> &inputs,
-        std::vector<dealii::Vector<double>> &       stresses) const override
+        std::vector<dealii::Vector<double>>        &stresses) const override
       {
         for (unsigned int p = 0; p < stresses.size(); ++p)
           {
@@ -42,10 +41,9 @@ namespace Ricochet
       }
 
       /// In 1D deal.II takes a field of one component for a scalar.
-      void
-      evaluate_scalar_field(
+      void evaluate_scalar_field(
         const DataPostprocessorInputs::Scalar<dim> &inputs,
-        std::vector<dealii::Vector<double>> &       stresses) const override
+        std::vector<dealii::Vector<double>>        &stresses) const override
       {
         for (unsigned int p = 0; p < stresses.size(); ++p)
           {
@@ -65,18 +63,18 @@ namespace Ricochet
     interpretation()
     {
       return {static_cast<std::size_t>(dim),
-              dim == 1 ?
-                DataComponentInterpretation::component_is_scalar :
-                DataComponentInterpretation::component_is_part_of_vector};
+              dim == 1
+                ? DataComponentInterpretation::component_is_scalar
+                : DataComponentInterpretation::component_is_part_of_vector};
     }
   } // namespace
 
 
 
   template <int dim>
-  VtuSeries<dim>::VtuSeries(const Body<dim> &    body,
+  VtuSeries<dim>::VtuSeries(const Body<dim>     &body,
                             const LinearElastic &material,
-                            RunFolder &          folder)
+                            RunFolder           &folder)
     : body(body)
     , material(material)
     , folder(folder)
@@ -100,8 +98,7 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  VtuSeries<dim>::write(const State &state, const unsigned int step)
+  void VtuSeries<dim>::write(const State &state, const unsigned int step)
   {
     const Vector displacement = body.displacement_part(state.solution);
     const Vector velocity     = body.displacement_part(state.velocity);

@@ -18,19 +18,18 @@ namespace Ricochet
   class VtuSeries
   {
   public:
-    VtuSeries(const Body<dim> &    body,
+    VtuSeries(const Body<dim>     &body,
               const LinearElastic &material,
-              RunFolder &          folder);
+              RunFolder           &folder);
 
     /// Write @p state as step number @p step. A step that is written again,
     /// after a resumed run, takes the place of the old one.
-    void
-    write(const State &state, const unsigned int step);
+    void write(const State &state, const unsigned int step);
 
   private:
-    const Body<dim> &   body;
+    const Body<dim>    &body;
     const LinearElastic material;
-    RunFolder &         folder;
+    RunFolder          &folder;
     // Time and file name of each step written, by step.
     std::map<unsigned int, std::pair<double, std::string>> written;
   };

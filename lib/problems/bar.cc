@@ -13,8 +13,7 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  void
-  BarParameters::add_parameters(ParameterHandler &parameters)
+  void BarParameters::add_parameters(ParameterHandler &parameters)
   {
     impact.add_parameters(parameters);
     parameters.enter_subsection("Mesh");
@@ -32,8 +31,7 @@ namespace Ricochet
 
 
 
-  void
-  BarParameters::validate() const
+  void BarParameters::validate() const
   {
     impact.validate();
     const double n_elements = 1. / mesh_size;
@@ -50,26 +48,25 @@ namespace Ricochet
 
 
 
-  void
-  make_bar_grid(const double                        mesh_size,
-                parallel::shared::Triangulation<1> &triangulation)
+  void make_bar_grid(const double                        mesh_size,
+                     parallel::shared::Triangulation<1> &triangulation)
   {
-    GridGenerator::subdivided_hyper_cube(
-      triangulation, static_cast<unsigned int>(std::round(1. / mesh_size)));
+    GridGenerator::subdivided_hyper_cube(triangulation,
+                                         static_cast<unsigned int>(
+                                           std::round(1. / mesh_size)));
     for (const auto &cell : triangulation.active_cell_iterators())
       for (const auto &face : cell->face_iterators())
         if (face->at_boundary())
-          face->set_boundary_id(face->center()[0] < .5 ? BarEnds::left :
-                                                         BarEnds::right);
+          face->set_boundary_id(face->center()[0] < .5 ? BarEnds::left
+                                                       : BarEnds::right);
   }
 
 
 
-  void
-  add_bar_end_columns(const types::boundary_id end,
-                      const Body<1> &          body,
-                      BarCharacteristics &     exact,
-                      TimeLoop &               loop)
+  void add_bar_end_columns(const types::boundary_id end,
+                           const Body<1>           &body,
+                           BarCharacteristics      &exact,
+                           TimeLoop                &loop)
   {
     const std::string name = end == BarEnds::left ? "left" : "right";
     const Point<1>    x(end == BarEnds::left ? 0. : 1.);
@@ -103,39 +100,37 @@ namespace Ricochet
 
 
 
-  void
-  add_bar_error_column(const Body<1> &     body,
-                       BarCharacteristics &exact,
-                       TimeLoop &          loop)
+  void add_bar_error_column(const Body<1>      &body,
+                            BarCharacteristics &exact,
+                            TimeLoop           &loop)
   {
     // Kinks of the exact solution lie on nodes when the time step is a multiple
     // of the mesh size; the finer rule takes care of other time steps.
     const QIterated<1> quadrature(QGauss<1>(3), 4);
-    loop.add_column("h1_error",
-                    "1",
-                    [&body, &exact, quadrature](const State &state) {
-                      exact.set_time(state.time);
-                      const auto &triangulation =
-                        body.dof_handler().get_triangulation();
-                      dealii::Vector<double> cell_errors(
-                        triangulation.n_active_cells());
-                      VectorTools::integrate_difference(
-                        body.mapping(),
-                        body.dof_handler(),
-                        body.displacement_part(state.solution),
-                        exact,
-                        cell_errors,
-                        quadrature,
-                        VectorTools::H1_norm);
-                      return VectorTools::compute_global_error(
-                        triangulation, cell_errors, VectorTools::H1_norm);
-                    });
+    loop.add_column(
+      "h1_error",
+      "1",
+      [&body, &exact, quadrature](const State &state) {
+        exact.set_time(state.time);
+        const auto &triangulation = body.dof_handler().get_triangulation();
+        dealii::Vector<double> cell_errors(triangulation.n_active_cells());
+        VectorTools::integrate_difference(body.mapping(),
+                                          body.dof_handler(),
+                                          body.displacement_part(
+                                            state.solution),
+                                          exact,
+                                          cell_errors,
+                                          quadrature,
+                                          VectorTools::H1_norm);
+        return VectorTools::compute_global_error(triangulation,
+                                                 cell_errors,
+                                                 VectorTools::H1_norm);
+      });
   }
 
 
 
-  double
-  bar_error_norm(const double time_step, const TimeLoop &loop)
+  double bar_error_norm(const double time_step, const TimeLoop &loop)
   {
     const EnergyLedger &ledger = loop.energy_ledger();
     const unsigned int  column = ledger.column_number("h1_error");

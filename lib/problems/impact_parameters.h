@@ -21,15 +21,12 @@ namespace Ricochet
     /// "consistent" or "redistributed".
     std::string mass = "consistent";
 
-    void
-    add_parameters(dealii::ParameterHandler &parameters);
+    void add_parameters(dealii::ParameterHandler &parameters);
 
     /// Refuse combinations without meaning. @throws InputError
-    void
-    validate() const;
+    void validate() const;
 
-    bool
-    redistributed_mass() const
+    bool redistributed_mass() const
     {
       return mass == "redistributed";
     }

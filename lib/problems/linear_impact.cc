@@ -19,10 +19,9 @@ namespace Ricochet
     }
 
     template <int dim>
-    Matrix
-    inertia(const bool       redistributed,
-            const Body<dim> &body,
-            const Matrix &   consistent_mass)
+    Matrix inertia(const bool       redistributed,
+                   const Body<dim> &body,
+                   const Matrix    &consistent_mass)
     {
       if (redistributed)
         return redistribute_mass(body, consistent_mass);
@@ -36,14 +35,14 @@ namespace Ricochet
 
   template <int dim>
   LinearImpact<dim>::LinearImpact(
-    const ImpactParameters &               parameters,
-    const Triangulation<dim> &             triangulation,
+    const ImpactParameters                &parameters,
+    const Triangulation<dim>              &triangulation,
     const unsigned int                     degree,
-    const LinearElastic &                  material,
+    const LinearElastic                   &material,
     const double                           density,
     const typename Body<dim>::BoundaryIds &clamped,
-    const Obstacles<dim> &                 obstacles,
-    const SemiDiscreteSystem::Load &       load,
+    const Obstacles<dim>                  &obstacles,
+    const SemiDiscreteSystem::Load        &load,
     const MPI_Comm                         communicator)
     : body(triangulation,
            degree,
@@ -63,9 +62,9 @@ namespace Ricochet
              consistent_mass,
              bulk,
              *contact,
-             parameters.redistributed_mass() ?
-               body.contact_indices() :
-               IndexSet(body.contact_indices().size()),
+             parameters.redistributed_mass()
+               ? body.contact_indices()
+               : IndexSet(body.contact_indices().size()),
              body.clamped_indices(),
              body.multiplier_indices(),
              load,

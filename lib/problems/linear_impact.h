@@ -23,23 +23,23 @@ namespace Ricochet
      * @param obstacles the obstacle of each contact boundary.
      * @param load external load, empty for none.
      */
-    LinearImpact(const ImpactParameters &                   parameters,
-                 const dealii::Triangulation<dim> &         triangulation,
-                 const unsigned int                         degree,
-                 const LinearElastic &                      material,
-                 const double                               density,
-                 const typename Body<dim>::BoundaryIds &    clamped,
-                 const Obstacles<dim> &                     obstacles,
-                 const SemiDiscreteSystem::Load &           load,
-                 const MPI_Comm                             communicator);
+    LinearImpact(const ImpactParameters                &parameters,
+                 const dealii::Triangulation<dim>      &triangulation,
+                 const unsigned int                     degree,
+                 const LinearElastic                   &material,
+                 const double                           density,
+                 const typename Body<dim>::BoundaryIds &clamped,
+                 const Obstacles<dim>                  &obstacles,
+                 const SemiDiscreteSystem::Load        &load,
+                 const MPI_Comm                         communicator);
 
-    const Body<dim>                    body;
-    const LinearBulk<dim>              bulk;
-    const Matrix                       consistent_mass;
-    const Matrix                       mass;
+    const Body<dim>                        body;
+    const LinearBulk<dim>                  bulk;
+    const Matrix                           consistent_mass;
+    const Matrix                           mass;
     const std::unique_ptr<ContactOperator> contact;
-    SemiDiscreteSystem                 system;
-    const std::unique_ptr<TimeScheme>  scheme;
+    SemiDiscreteSystem                     system;
+    const std::unique_ptr<TimeScheme>      scheme;
   };
 } // namespace Ricochet
 

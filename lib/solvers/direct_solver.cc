@@ -6,8 +6,7 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  void
-  DirectSolver::Parameters::add_parameters(ParameterHandler &parameters)
+  void DirectSolver::Parameters::add_parameters(ParameterHandler &parameters)
   {
     parameters.enter_subsection("Linear solver");
     parameters.add_parameter(
@@ -28,8 +27,7 @@ namespace Ricochet
 
 
 
-  std::string
-  DirectSolver::chosen_type(const std::size_t n_unknowns) const
+  std::string DirectSolver::chosen_type(const std::size_t n_unknowns) const
   {
     if (parameters.type != "automatic")
       return parameters.type;
@@ -38,11 +36,10 @@ namespace Ricochet
 
 
 
-  void
-  DirectSolver::solve(const std::optional<Key> &           key,
-                      const std::function<void(Matrix &)> &assemble,
-                      const Vector &                       right_hand_side,
-                      Vector &                             solution)
+  void DirectSolver::solve(const std::optional<Key>            &key,
+                           const std::function<void(Matrix &)> &assemble,
+                           const Vector                        &right_hand_side,
+                           Vector                              &solution)
   {
     auto entry = kept.begin();
     if (key)
@@ -63,8 +60,8 @@ namespace Ricochet
           entry->control,
           TrilinosWrappers::SolverDirect::AdditionalData(
             false,
-            chosen_type(entry->matrix.m()) == "KLU" ? "Amesos_Klu" :
-                                                      "Amesos_Mumps"));
+            chosen_type(entry->matrix.m()) == "KLU" ? "Amesos_Klu"
+                                                    : "Amesos_Mumps"));
         ++factorisation_count;
         try
           {
@@ -73,9 +70,10 @@ namespace Ricochet
         catch (const ExceptionBase &)
           {
             kept.pop_front();
-            throw NewtonFailure("The tangent matrix cannot be factored: it is "
-                                "singular. Is the body held, or does it have "
-                                "inertia?");
+            throw NewtonFailure(
+              "The tangent matrix cannot be factored: it is "
+              "singular. Is the body held, or does it have "
+              "inertia?");
           }
       }
     else

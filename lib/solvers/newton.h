@@ -23,12 +23,11 @@ namespace Ricochet
     struct Parameters
     {
       /// Residual over the norm of the forces that make it up.
-      double       tolerance              = 1e-12;
-      unsigned int max_iterations         = 30;
-      unsigned int line_search_after      = 10;
+      double       tolerance         = 1e-12;
+      unsigned int max_iterations    = 30;
+      unsigned int line_search_after = 10;
 
-      void
-      add_parameters(dealii::ParameterHandler &parameters);
+      void add_parameters(dealii::ParameterHandler &parameters);
     };
 
     /// The equations, as functions of the solution.
@@ -73,12 +72,11 @@ namespace Ricochet
      * @throws NewtonFailure with the table of all iterations in its text: not
      * converged in the allowed number of iterations, or not finite.
      */
-    const std::vector<Iteration> &
-    solve(const Problem &problem, Vector &solution);
+    const std::vector<Iteration> &solve(const Problem &problem,
+                                        Vector        &solution);
 
   private:
-    [[noreturn]] void
-    fail(const std::string &reason) const;
+    [[noreturn]] void fail(const std::string &reason) const;
 
     const Parameters       parameters;
     std::vector<Iteration> history;

@@ -13,11 +13,10 @@ namespace Ricochet
 
 
 
-  StepReport
-  HHT::step(SemiDiscreteSystem &system,
-            const State &       old_state,
-            const double        time_step,
-            State &             new_state)
+  StepReport HHT::step(SemiDiscreteSystem &system,
+                       const State        &old_state,
+                       const double        time_step,
+                       State              &new_state)
   {
     const double dt = time_step;
     new_state       = old_state;
@@ -46,9 +45,11 @@ namespace Ricochet
                            .5 * dt * dt,
                            old_state.acceleration);
     StepReport report;
-    report.newton_iterations = system.solve_stage(
-      stage, old_state, new_state.solution, new_state.contact_force);
-    report.linear_solves = report.newton_iterations;
+    report.newton_iterations = system.solve_stage(stage,
+                                                  old_state,
+                                                  new_state.solution,
+                                                  new_state.contact_force);
+    report.linear_solves     = report.newton_iterations;
 
     new_state.acceleration = new_state.solution;
     new_state.acceleration -= stage.inertia_origin;
@@ -95,8 +96,7 @@ namespace Ricochet
     // dt^2 (beta - gamma/2) (mean + (gamma - 1/2) jump) . M jump
     work.sadd(gamma - .5, .5, new_state.acceleration);
     work.add(.5, old_state.acceleration);
-    dissipation +=
-      dt * dt * (beta - .5 * gamma) * (mass_times_jump * work);
+    dissipation += dt * dt * (beta - .5 * gamma) * (mass_times_jump * work);
 
     report.numerical_dissipation = dissipation;
     add_trapezoidal_works(system, old_state, new_state, report);
@@ -107,11 +107,10 @@ namespace Ricochet
 
 
 
-  void
-  add_trapezoidal_works(const SemiDiscreteSystem &system,
-                        const State &             old_state,
-                        const State &             new_state,
-                        StepReport &              report)
+  void add_trapezoidal_works(const SemiDiscreteSystem &system,
+                             const State              &old_state,
+                             const State              &new_state,
+                             StepReport               &report)
   {
     Vector increment(new_state.solution);
     increment -= old_state.solution;

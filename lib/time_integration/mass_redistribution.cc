@@ -34,10 +34,9 @@ namespace Ricochet
       DoFTools::map_dofs_to_support_points(body.mapping(),
                                            body.dof_handler(),
                                            positions);
-      const IndexSet on_boundary =
-        body.contact_boundary_ids().empty() ?
-          IndexSet(body.dof_handler().n_dofs()) :
-          DoFTools::extract_boundary_dofs(body.dof_handler(),
+      const IndexSet on_boundary = body.contact_boundary_ids().empty()
+        ? IndexSet(body.dof_handler().n_dofs())
+        : DoFTools::extract_boundary_dofs(body.dof_handler(),
                                           ComponentMask(),
                                           body.contact_boundary_ids());
       std::map<types::global_dof_index, DoF<dim>> dofs;
@@ -60,8 +59,7 @@ namespace Ricochet
     /// Symmetrised products a_k b_k^T at a pair of positions, for all moments:
     /// 1 1, x_i 1, x_i x_j.
     template <int dim>
-    Eigen::VectorXd
-    moments_of_pair(const Point<dim> &x, const Point<dim> &y)
+    Eigen::VectorXd moments_of_pair(const Point<dim> &x, const Point<dim> &y)
     {
       Eigen::VectorXd values(n_mass_moments<dim>);
       unsigned int    k = 0;
@@ -76,15 +74,14 @@ namespace Ricochet
 
     /// Visit the owned entries of @p matrix between DoFs of one component.
     template <int dim>
-    void
-    for_each_entry(
-      const Matrix &                                     matrix,
+    void for_each_entry(
+      const Matrix                                      &matrix,
       const std::map<types::global_dof_index, DoF<dim>> &dofs,
       const std::function<void(const types::global_dof_index row,
                                const types::global_dof_index column,
-                               const DoF<dim> &              row_dof,
-                               const DoF<dim> &              column_dof,
-                               const double                  value)> &visit)
+                               const DoF<dim>               &row_dof,
+                               const DoF<dim>               &column_dof,
+                               const double                  value)>     &visit)
     {
       const auto range = matrix.local_range();
       for (auto row = range.first; row < range.second; ++row)
@@ -109,9 +106,9 @@ namespace Ricochet
 
     template <int dim>
     Eigen::VectorXd
-    moments(const Matrix &                                     mass,
+    moments(const Matrix                                      &mass,
             const std::map<types::global_dof_index, DoF<dim>> &dofs,
-            const Point<dim> &                                 origin,
+            const Point<dim>                                  &origin,
             const MPI_Comm                                     communicator)
     {
       Eigen::VectorXd sums = Eigen::VectorXd::Zero(n_mass_moments<dim>);
@@ -123,11 +120,10 @@ namespace Ricochet
                               const DoF<dim> &column,
                               const double    value) {
                             if (row.component == 0)
-                              sums += value * moments_of_pair<dim>(
-                                                Point<dim>(row.position -
-                                                           origin),
-                                                Point<dim>(column.position -
-                                                           origin));
+                              sums += value *
+                                moments_of_pair<dim>(
+                                        Point<dim>(row.position - origin),
+                                        Point<dim>(column.position - origin));
                           });
       MPI_Allreduce(MPI_IN_PLACE,
                     sums.data(),
@@ -144,10 +140,9 @@ namespace Ricochet
      * extreme eigenvalues show first; a mass matrix is so well conditioned that
      * they converge in a few dozen steps otherwise.
      */
-    bool
-    is_positive_definite(const Matrix &  matrix,
-                         const IndexSet &massless,
-                         const Vector &  layout)
+    bool is_positive_definite(const Matrix   &matrix,
+                              const IndexSet &massless,
+                              const Vector   &layout)
     {
       Vector residual(layout), direction(layout), product(layout);
       for (const auto i : residual.locally_owned_elements())
@@ -175,13 +170,11 @@ namespace Ricochet
 
 
   template <int dim>
-  std::array<double, n_mass_moments<dim>>
-  mass_moments(const Body<dim> &body, const Matrix &mass)
+  std::array<double, n_mass_moments<dim>> mass_moments(const Body<dim> &body,
+                                                       const Matrix    &mass)
   {
-    const Eigen::VectorXd sums = moments<dim>(mass,
-                                              describe_dofs(body),
-                                              Point<dim>(),
-                                              body.communicator);
+    const Eigen::VectorXd sums =
+      moments<dim>(mass, describe_dofs(body), Point<dim>(), body.communicator);
     std::array<double, n_mass_moments<dim>> result;
     std::copy(sums.data(), sums.data() + sums.size(), result.begin());
     return result;
@@ -190,8 +183,7 @@ namespace Ricochet
 
 
   template <int dim>
-  Matrix
-  redistribute_mass(const Body<dim> &body, const Matrix &mass)
+  Matrix redistribute_mass(const Body<dim> &body, const Matrix &mass)
   {
     const auto dofs = describe_dofs(body);
 
@@ -249,31 +241,30 @@ namespace Ricochet
     Eigen::FullPivLU<Eigen::MatrixXd> factorisation(scaled);
     factorisation.setThreshold(1e-12);
     if (!factorisation.isInvertible())
-      throw InputError("The mass cannot be redistributed: too few nodes lie "
-                       "off the contact boundary to keep mass, centre of mass "
-                       "and moments of inertia. Refine the mesh or take the "
-                       "consistent mass.");
-    const Eigen::VectorXd multipliers =
-      scale.asDiagonal() *
+      throw InputError(
+        "The mass cannot be redistributed: too few nodes lie "
+        "off the contact boundary to keep mass, centre of mass "
+        "and moments of inertia. Refine the mesh or take the "
+        "consistent mass.");
+    const Eigen::VectorXd multipliers = scale.asDiagonal() *
       factorisation.solve(Eigen::VectorXd(scale.asDiagonal() * missing));
 
     Matrix redistributed;
     redistributed.copy_from(mass);
-    for_each_entry<dim>(mass,
-                        dofs,
-                        [&](const types::global_dof_index row_index,
-                            const types::global_dof_index column_index,
-                            const DoF<dim> &              row,
-                            const DoF<dim> &              column,
-                            const double                  value) {
-                          redistributed.set(
-                            row_index,
-                            column_index,
-                            row.on_contact_boundary ||
-                                column.on_contact_boundary ?
-                              0. :
-                              value + multipliers.dot(pair(row, column)));
-                        });
+    for_each_entry<dim>(
+      mass,
+      dofs,
+      [&](const types::global_dof_index row_index,
+          const types::global_dof_index column_index,
+          const DoF<dim>               &row,
+          const DoF<dim>               &column,
+          const double                  value) {
+        redistributed.set(row_index,
+                          column_index,
+                          row.on_contact_boundary || column.on_contact_boundary
+                            ? 0.
+                            : value + multipliers.dot(pair(row, column)));
+      });
     redistributed.compress(VectorOperation::insert);
 
     // The nearest matrix need not be positive: on coarse meshes, too much of
@@ -281,25 +272,23 @@ namespace Ricochet
     IndexSet no_inertia = body.contact_indices();
     no_inertia.add_indices(body.multiplier_indices());
     if (!is_positive_definite(redistributed, no_inertia, body.make_vector()))
-      throw InputError("The mass cannot be redistributed: on this mesh so much "
-                       "of it sits on the contact boundary that the matrix "
-                       "that keeps mass, centre of mass and moments of inertia "
-                       "is not positive. Refine the mesh or take the "
-                       "consistent mass.");
+      throw InputError(
+        "The mass cannot be redistributed: on this mesh so much "
+        "of it sits on the contact boundary that the matrix "
+        "that keeps mass, centre of mass and moments of inertia "
+        "is not positive. Refine the mesh or take the "
+        "consistent mass.");
     return redistributed;
   }
 
 
-  template Matrix
-  redistribute_mass(const Body<1> &, const Matrix &);
-  template Matrix
-  redistribute_mass(const Body<2> &, const Matrix &);
-  template Matrix
-  redistribute_mass(const Body<3> &, const Matrix &);
-  template std::array<double, n_mass_moments<1>>
-  mass_moments(const Body<1> &, const Matrix &);
-  template std::array<double, n_mass_moments<2>>
-  mass_moments(const Body<2> &, const Matrix &);
-  template std::array<double, n_mass_moments<3>>
-  mass_moments(const Body<3> &, const Matrix &);
+  template Matrix redistribute_mass(const Body<1> &, const Matrix &);
+  template Matrix redistribute_mass(const Body<2> &, const Matrix &);
+  template Matrix redistribute_mass(const Body<3> &, const Matrix &);
+  template std::array<double, n_mass_moments<1>> mass_moments(const Body<1> &,
+                                                              const Matrix &);
+  template std::array<double, n_mass_moments<2>> mass_moments(const Body<2> &,
+                                                              const Matrix &);
+  template std::array<double, n_mass_moments<3>> mass_moments(const Body<3> &,
+                                                              const Matrix &);
 } // namespace Ricochet

@@ -3,11 +3,10 @@
 
 namespace Ricochet
 {
-  StepReport
-  Midpoint::step(SemiDiscreteSystem &system,
-                 const State &       old_state,
-                 const double        time_step,
-                 State &             new_state)
+  StepReport Midpoint::step(SemiDiscreteSystem &system,
+                            const State        &old_state,
+                            const double        time_step,
+                            State              &new_state)
   {
     const double dt = time_step;
     new_state       = old_state;
@@ -32,9 +31,11 @@ namespace Ricochet
                            .5 * dt * dt,
                            old_state.acceleration);
     StepReport report;
-    report.newton_iterations = system.solve_stage(
-      stage, old_state, new_state.solution, new_state.contact_force);
-    report.linear_solves = report.newton_iterations;
+    report.newton_iterations = system.solve_stage(stage,
+                                                  old_state,
+                                                  new_state.solution,
+                                                  new_state.contact_force);
+    report.linear_solves     = report.newton_iterations;
 
     work = new_state.solution;
     work -= old_state.solution;

@@ -9,13 +9,13 @@ namespace Ricochet
   using namespace dealii;
 
   SemiDiscreteSystem::SemiDiscreteSystem(
-    const Matrix &                  mass,
-    const Matrix &                  invertible_mass,
-    const BulkOperator &            bulk,
-    ContactOperator &               contact,
-    const IndexSet &                massless,
-    const IndexSet &                clamped,
-    const IndexSet &                multipliers,
+    const Matrix                   &mass,
+    const Matrix                   &invertible_mass,
+    const BulkOperator             &bulk,
+    ContactOperator                &contact,
+    const IndexSet                 &massless,
+    const IndexSet                 &clamped,
+    const IndexSet                 &multipliers,
     Load                            load,
     const NewtonSolver::Parameters &newton_parameters,
     const DirectSolver::Parameters &solver_parameters)
@@ -37,8 +37,7 @@ namespace Ricochet
 
 
 
-  void
-  SemiDiscreteSystem::set_clamped_to_zero(Vector &vector) const
+  void SemiDiscreteSystem::set_clamped_to_zero(Vector &vector) const
   {
     for (const auto i : clamped)
       vector(i) = 0.;
@@ -47,8 +46,8 @@ namespace Ricochet
 
 
 
-  void
-  SemiDiscreteSystem::external_load(const double time, Vector &result) const
+  void SemiDiscreteSystem::external_load(const double time,
+                                         Vector      &result) const
   {
     result = 0.;
     if (load)
@@ -57,11 +56,10 @@ namespace Ricochet
 
 
 
-  void
-  SemiDiscreteSystem::total_force(const Vector &solution,
-                                  const Vector &contact_force,
-                                  const double  time,
-                                  Vector &      result) const
+  void SemiDiscreteSystem::total_force(const Vector &solution,
+                                       const Vector &contact_force,
+                                       const double  time,
+                                       Vector       &result) const
   {
     bulk.force(solution, result);
     result += contact_force;
@@ -75,9 +73,8 @@ namespace Ricochet
 
 
 
-  void
-  SemiDiscreteSystem::solve_mass(const Vector &right_hand_side,
-                                 Vector &      acceleration)
+  void SemiDiscreteSystem::solve_mass(const Vector &right_hand_side,
+                                      Vector       &acceleration)
   {
     // A key of its own: no stage has a negative weight of the bulk force.
     const DirectSolver::Key key{1., -1., 0., 0};
@@ -97,10 +94,9 @@ namespace Ricochet
 
 
 
-  State
-  SemiDiscreteSystem::initial_state(const Vector &displacement,
-                                    const Vector &velocity,
-                                    const double  time)
+  State SemiDiscreteSystem::initial_state(const Vector &displacement,
+                                          const Vector &velocity,
+                                          const double  time)
   {
     State state;
     state.time     = time;
@@ -124,11 +120,10 @@ namespace Ricochet
 
 
 
-  unsigned int
-  SemiDiscreteSystem::solve_stage(const Stage &stage,
-                                  const State &old_state,
-                                  Vector &     solution,
-                                  Vector &     contact_force)
+  unsigned int SemiDiscreteSystem::solve_stage(const Stage &stage,
+                                               const State &old_state,
+                                               Vector      &solution,
+                                               Vector      &contact_force)
   {
     // What does not change during the iteration: old forces and load.
     constant_part = 0.;
@@ -144,8 +139,8 @@ namespace Ricochet
     // The forces that nearly cancel in a residual: what "small" is measured
     // against.
     double force_scale = 0.;
-    for (const Vector *point : {&stage.inertia_origin,
-                                static_cast<const Vector *>(&solution)})
+    for (const Vector *point :
+         {&stage.inertia_origin, static_cast<const Vector *>(&solution)})
       {
         mass.vmult(work, *point);
         force_scale += stage.inertia * work.l2_norm();
@@ -177,7 +172,7 @@ namespace Ricochet
       stage.bulk_discrete_derivative ? .5 : stage.bulk_weight_new;
     const auto solve = [&](const Vector &right_hand_side, Vector &update) {
       std::optional<DirectSolver::Key> key;
-      const auto signature = contact.tangent_signature();
+      const auto                       signature = contact.tangent_signature();
       if (bulk.is_linear() && signature)
         key = DirectSolver::Key{stage.inertia,
                                 bulk_weight,
@@ -215,10 +210,9 @@ namespace Ricochet
 
 
 
-  void
-  SemiDiscreteSystem::reconstruct_massless(const State &old_state,
-                                           const double time_step,
-                                           State &      new_state) const
+  void SemiDiscreteSystem::reconstruct_massless(const State &old_state,
+                                                const double time_step,
+                                                State       &new_state) const
   {
     for (const auto i : massless)
       {
@@ -234,8 +228,7 @@ namespace Ricochet
 
 
 
-  double
-  SemiDiscreteSystem::kinetic_energy(const Vector &velocity) const
+  double SemiDiscreteSystem::kinetic_energy(const Vector &velocity) const
   {
     mass.vmult(work, velocity);
     return .5 * (work * velocity);

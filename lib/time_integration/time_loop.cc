@@ -12,8 +12,7 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  void
-  TimeLoop::Parameters::add_parameters(ParameterHandler &parameters)
+  void TimeLoop::Parameters::add_parameters(ParameterHandler &parameters)
   {
     parameters.enter_subsection("Time");
     parameters.add_parameter("Final time",
@@ -54,10 +53,10 @@ namespace Ricochet
 
 
   TimeLoop::TimeLoop(
-    const Parameters &                                       parameters,
-    RunFolder &                                              folder,
-    SemiDiscreteSystem &                                     system,
-    TimeScheme &                                             scheme,
+    const Parameters                                        &parameters,
+    RunFolder                                               &folder,
+    SemiDiscreteSystem                                      &system,
+    TimeScheme                                              &scheme,
     const std::map<dealii::types::boundary_id, std::string> &contact_names)
     : parameters(parameters)
     , folder(folder)
@@ -91,10 +90,9 @@ namespace Ricochet
 
 
 
-  void
-  TimeLoop::add_column(const std::string &                         name,
-                       const std::string &                         unit,
-                       const std::function<double(const State &)> &value)
+  void TimeLoop::add_column(const std::string                          &name,
+                            const std::string                          &unit,
+                            const std::function<double(const State &)> &value)
   {
     ledger.add_column(name, unit);
     own_columns.push_back({name, unit, value});
@@ -102,11 +100,10 @@ namespace Ricochet
 
 
 
-  StepReport
-  TimeLoop::advance(const State &      old_state,
-                    const double       time_step,
-                    const unsigned int n_halvings_so_far,
-                    State &            new_state)
+  StepReport TimeLoop::advance(const State       &old_state,
+                               const double       time_step,
+                               const unsigned int n_halvings_so_far,
+                               State             &new_state)
   {
     try
       {
@@ -116,10 +113,10 @@ namespace Ricochet
       {
         if (n_halvings_so_far == parameters.max_halvings)
           throw NewtonFailure(
-            "The step from t = " + to_text(old_state.time) +
-            " s of length " + to_text(time_step) +
-            " s cannot be made, after " + std::to_string(n_halvings_so_far) +
-            " halvings.\n" + failure.what() +
+            "The step from t = " + to_text(old_state.time) + " s of length " +
+            to_text(time_step) + " s cannot be made, after " +
+            std::to_string(n_halvings_so_far) + " halvings.\n" +
+            failure.what() +
             "All results up to then are in the output folder.");
       }
     ++n_halvings;
@@ -132,29 +129,28 @@ namespace Ricochet
 
 
 
-  void
-  TimeLoop::add_row(const State &     state,
-                    const StepReport &report,
-                    const double      balance_residual)
+  void TimeLoop::add_row(const State      &state,
+                         const StepReport &report,
+                         const double      balance_residual)
   {
     const double kinetic_energy = system.kinetic_energy(state.velocity);
     const double elastic_energy = system.bulk.energy(state.solution);
     const double energy         = kinetic_energy + elastic_energy;
 
-    std::vector<double> row = {
-      state.time,
-      kinetic_energy,
-      elastic_energy,
-      energy,
-      energy + system.contact.potential(state.solution),
-      external_work,
-      contact_work,
-      numerical_dissipation,
-      balance_residual,
-      static_cast<double>(report.newton_iterations),
-      static_cast<double>(report.linear_solves),
-      static_cast<double>(n_halvings)};
-    const auto summaries =
+    std::vector<double> row = {state.time,
+                               kinetic_energy,
+                               elastic_energy,
+                               energy,
+                               energy +
+                                 system.contact.potential(state.solution),
+                               external_work,
+                               contact_work,
+                               numerical_dissipation,
+                               balance_residual,
+                               static_cast<double>(report.newton_iterations),
+                               static_cast<double>(report.linear_solves),
+                               static_cast<double>(n_halvings)};
+    const auto          summaries =
       system.contact.summary(state.solution, state.contact_force);
     for (const auto &entry : contact_names)
       {
@@ -174,10 +170,10 @@ namespace Ricochet
 
 
 
-  void
-  TimeLoop::log_row(const unsigned int step, const unsigned int n_steps) const
+  void TimeLoop::log_row(const unsigned int step,
+                         const unsigned int n_steps) const
   {
-    const std::vector<double> &row = ledger.rows().back();
+    const std::vector<double> &row   = ledger.rows().back();
     double                     force = 0., active = 0.;
     for (const auto &entry : contact_names)
       {
@@ -202,17 +198,15 @@ namespace Ricochet
 
 
 
-  State
-  TimeLoop::run(const State &initial_state)
+  State TimeLoop::run(const State &initial_state)
   {
     const double       first_time = initial_state.time;
-    const unsigned int n_steps    = static_cast<unsigned int>(
-      std::ceil((parameters.final_time - first_time) / parameters.time_step -
-                1e-9));
+    const unsigned int n_steps    = static_cast<unsigned int>(std::ceil(
+      (parameters.final_time - first_time) / parameters.time_step - 1e-9));
 
-    State        state = initial_state;
-    unsigned int step  = 0;
-    const bool fields  = write_fields && parameters.fields_every > 0;
+    State        state  = initial_state;
+    unsigned int step   = 0;
+    const bool   fields = write_fields && parameters.fields_every > 0;
     if (folder.resume)
       {
         const Checkpoint checkpoint =
@@ -226,22 +220,23 @@ namespace Ricochet
         largest_energy        = checkpoint.sums.at(4);
         n_halvings = static_cast<unsigned int>(checkpoint.sums.at(5));
         ledger.resume(step + 1);
-        folder.log("resumed after step " + std::to_string(step) + ", t = " +
-                   to_text(state.time) + " s");
+        folder.log("resumed after step " + std::to_string(step) +
+                   ", t = " + to_text(state.time) + " s");
       }
     else
       {
         ledger.start();
         initial_energy = system.kinetic_energy(state.velocity) +
-                         system.bulk.energy(state.solution);
+          system.bulk.energy(state.solution);
         add_row(state, StepReport(), 0.);
         if (fields)
           write_fields(state, 0);
       }
 
-    folder.log("    step/of              time         energy       modified "
-               "   balance        force  active  Newton");
-    State new_state;
+    folder.log(
+      "    step/of              time         energy       modified "
+      "   balance        force  active  Newton");
+    State      new_state;
     const auto write_checkpoint = [&]() {
       Checkpoint{step,
                  {external_work,
@@ -258,7 +253,7 @@ namespace Ricochet
         while (step < n_steps)
           {
             const double old_energy = system.kinetic_energy(state.velocity) +
-                                      system.bulk.energy(state.solution);
+              system.bulk.energy(state.solution);
             const StepReport report =
               advance(state, parameters.time_step, 0, new_state);
             std::swap(state, new_state);
@@ -270,10 +265,10 @@ namespace Ricochet
             contact_work += report.contact_work;
             numerical_dissipation += report.numerical_dissipation;
             const double new_energy = system.kinetic_energy(state.velocity) +
-                                      system.bulk.energy(state.solution);
-            const double residual =
-              new_energy - old_energy - report.external_work +
-              report.contact_work + report.numerical_dissipation;
+              system.bulk.energy(state.solution);
+            const double residual = new_energy - old_energy -
+              report.external_work + report.contact_work +
+              report.numerical_dissipation;
             // Relative to the initial energy; a body that starts at rest is
             // measured by the largest energy so far.
             if (initial_energy == 0.)

@@ -32,8 +32,7 @@ namespace Ricochet
     /// Solutions of linear systems, back-substitutions included.
     unsigned int linear_solves = 0;
 
-    StepReport &
-    operator+=(const StepReport &other);
+    StepReport &operator+=(const StepReport &other);
   };
 
   /**
@@ -46,15 +45,14 @@ namespace Ricochet
   public:
     struct Parameters
     {
-      std::string name       = "Crank-Nicolson";
-      double      hht_alpha  = .05;
+      std::string name      = "Crank-Nicolson";
+      double      hht_alpha = .05;
       /// 2 - sqrt(2), for which both stages have the same tangent.
-      double trbdf2_gamma = 0.5857864376269049;
+      double trbdf2_gamma              = 0.5857864376269049;
       double arkode_relative_tolerance = 1e-8;
       double arkode_absolute_tolerance = 1e-10;
 
-      void
-      add_parameters(dealii::ParameterHandler &parameters);
+      void add_parameters(dealii::ParameterHandler &parameters);
     };
 
     virtual ~TimeScheme() = default;
@@ -63,16 +61,14 @@ namespace Ricochet
      * From @p old_state over @p time_step (s) to @p new_state.
      * @throws NewtonFailure; then @p new_state is not to be used.
      */
-    virtual StepReport
-    step(SemiDiscreteSystem &system,
-         const State &       old_state,
-         const double        time_step,
-         State &             new_state) = 0;
+    virtual StepReport step(SemiDiscreteSystem &system,
+                            const State        &old_state,
+                            const double        time_step,
+                            State              &new_state) = 0;
   };
 
   /// Names of all schemes, as a pattern for Patterns::Selection.
-  std::string
-  time_scheme_names();
+  std::string time_scheme_names();
 
   /// The scheme that @p parameters name.
   std::unique_ptr<TimeScheme>

@@ -16,8 +16,7 @@ namespace Ricochet
     // The table of all time schemes: a new scheme is one file and one line.
     using Maker = std::function<std::unique_ptr<TimeScheme>(
       const TimeScheme::Parameters &)>;
-    const std::vector<std::pair<std::string, Maker>> &
-    table()
+    const std::vector<std::pair<std::string, Maker>> &table()
     {
       static const std::vector<std::pair<std::string, Maker>> schemes = {
         {"Crank-Nicolson",
@@ -39,8 +38,7 @@ namespace Ricochet
 
 
 
-  StepReport &
-  StepReport::operator+=(const StepReport &other)
+  StepReport &StepReport::operator+=(const StepReport &other)
   {
     external_work += other.external_work;
     contact_work += other.contact_work;
@@ -52,8 +50,7 @@ namespace Ricochet
 
 
 
-  std::string
-  time_scheme_names()
+  std::string time_scheme_names()
   {
     std::string names;
     for (const auto &entry : table())
@@ -75,8 +72,7 @@ namespace Ricochet
 
 
 
-  void
-  TimeScheme::Parameters::add_parameters(ParameterHandler &parameters)
+  void TimeScheme::Parameters::add_parameters(ParameterHandler &parameters)
   {
     parameters.enter_subsection("Time");
     parameters.add_parameter(
@@ -100,6 +96,10 @@ namespace Ricochet
       "tilde); at 2 - sqrt(2) both stages have the same matrix. Used by "
       "TR-BDF2.",
       Patterns::Double(.01, .99));
+    // With all digits: the default text has six, and the two stages of TR-BDF2
+    // share a matrix only if gamma is 2 - sqrt(2) to round-off.
+    parameters.set("TR-BDF2 gamma", "0.5857864376269049");
+
     parameters.add_parameter("ARKODE relative tolerance",
                              arkode_relative_tolerance,
                              "Relative error allowed per step. Used by ARKODE.",

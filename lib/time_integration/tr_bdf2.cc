@@ -13,11 +13,10 @@ namespace Ricochet
 
 
 
-  StepReport
-  TRBDF2::step(SemiDiscreteSystem &system,
-               const State &       old_state,
-               const double        time_step,
-               State &             new_state)
+  StepReport TRBDF2::step(SemiDiscreteSystem &system,
+                          const State        &old_state,
+                          const double        time_step,
+                          State              &new_state)
   {
     const double dt = time_step;
 
@@ -38,8 +37,10 @@ namespace Ricochet
     system.external_load(new_state.time, stage.load);
 
     new_state.solution.add((1. - gamma) * dt, middle.velocity);
-    const unsigned int iterations = system.solve_stage(
-      stage, middle, new_state.solution, new_state.contact_force);
+    const unsigned int iterations = system.solve_stage(stage,
+                                                       middle,
+                                                       new_state.solution,
+                                                       new_state.contact_force);
     report.newton_iterations += iterations;
     report.linear_solves += iterations;
 

@@ -46,8 +46,7 @@ using namespace Ricochet;
 class BarSD
 {
 public:
-  void
-  run(RunFolder &folder);
+  void run(RunFolder &folder);
 
   // h = dt = 0.05, T = 12, gamma_0 = 1/epsilon_0 = 5, unless the parameter file
   // says otherwise.
@@ -56,8 +55,7 @@ public:
 
 
 
-void
-BarSD::run(RunFolder &folder)
+void BarSD::run(RunFolder &folder)
 {
   const ImpactParameters &impact = parameters.impact;
 
@@ -68,11 +66,12 @@ BarSD::run(RunFolder &folder)
   // signed distance of a point to it is its coordinate, so that the gap of the
   // left end is its displacement.
   const LinearElastic material{/* lambda */ 0., /* mu */ .5};
-  const double        density = 1.;
+  const double        density   = 1.;
   const Obstacles<1>  obstacles = {
-    {BarEnds::left,
-     std::make_shared<Functions::SignedDistance::Plane<1>>(
-       Point<1>(0.), Tensor<1, 1>({1.}))}};
+     {BarEnds::left,
+      std::make_shared<Functions::SignedDistance::Plane<1>>(Point<1>(0.),
+                                                           Tensor<1, 1>(
+                                                             {1.}))}};
 
   // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
   LinearImpact<1> bar(impact,
@@ -97,7 +96,7 @@ BarSD::run(RunFolder &folder)
                            /* left end */ {/* held */ false, /* gap */ .5},
                            /* right end */ {/* held */ true, /* gap */ 0.},
                            impact.time.final_time + impact.time.time_step);
-  Ricochet::Vector displacement, velocity;
+  Ricochet::Vector   displacement, velocity;
   bar.body.interpolate(exact, displacement);
   bar.body.interpolate(Functions::ZeroFunction<1>(), velocity);
   const State initial_state =
@@ -105,7 +104,11 @@ BarSD::run(RunFolder &folder)
 
   // The time loop writes energies and contact for every benchmark. We add what
   // the figures of the paper plot: the motion of the left end, and the error.
-  TimeLoop loop(impact.time, folder, bar.system, *bar.scheme, {{BarEnds::left, "left"}});
+  TimeLoop loop(impact.time,
+                folder,
+                bar.system,
+                *bar.scheme,
+                {{BarEnds::left, "left"}});
   add_bar_end_columns(BarEnds::left, bar.body, exact, loop);
   add_bar_error_column(bar.body, exact, loop);
 
@@ -127,8 +130,7 @@ BarSD::run(RunFolder &folder)
 
 
 
-int
-main(int argc, char **argv)
+int main(int argc, char **argv)
 {
   BarSD program;
   return run_program(

@@ -40,8 +40,7 @@ using namespace Ricochet;
 class BarSS
 {
 public:
-  void
-  run(RunFolder &folder);
+  void run(RunFolder &folder);
 
   // h = dt = 0.05, T = 12, gamma_0 = 1/epsilon_0 = 5, unless the parameter file
   // says otherwise.
@@ -50,8 +49,7 @@ public:
 
 
 
-void
-BarSS::run(RunFolder &folder)
+void BarSS::run(RunFolder &folder)
 {
   const ImpactParameters &impact = parameters.impact;
 
@@ -61,14 +59,15 @@ BarSS::run(RunFolder &folder)
   // A bar of modulus lambda + 2 mu = 1, and two obstacles that fill x < 0 and x
   // > 3/2; the normal of each points to the bar.
   const LinearElastic material{/* lambda */ 0., /* mu */ .5};
-  const double        density = 1.;
+  const double        density   = 1.;
   const Obstacles<1>  obstacles = {
-    {BarEnds::left,
-     std::make_shared<Functions::SignedDistance::Plane<1>>(
-       Point<1>(0.), Tensor<1, 1>({1.}))},
-    {BarEnds::right,
-     std::make_shared<Functions::SignedDistance::Plane<1>>(
-       Point<1>(1.5), Tensor<1, 1>({-1.}))}};
+     {BarEnds::left,
+      std::make_shared<Functions::SignedDistance::Plane<1>>(Point<1>(0.),
+                                                           Tensor<1, 1>({1.}))},
+     {BarEnds::right,
+      std::make_shared<Functions::SignedDistance::Plane<1>>(Point<1>(1.5),
+                                                           Tensor<1, 1>(
+                                                             {-1.}))}};
 
   // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
   LinearImpact<1> bar(impact,
@@ -94,7 +93,7 @@ BarSS::run(RunFolder &folder)
                            /* left end */ {/* held */ false, /* gap */ 1.},
                            /* right end */ {/* held */ false, /* gap */ 0.},
                            impact.time.final_time + impact.time.time_step);
-  Ricochet::Vector displacement, velocity;
+  Ricochet::Vector   displacement, velocity;
   bar.body.interpolate(exact, displacement);
   bar.body.interpolate(Functions::ConstantFunction<1>(-.5), velocity);
   const State initial_state =
@@ -102,7 +101,11 @@ BarSS::run(RunFolder &folder)
 
   // The time loop writes energies and contact for every benchmark. We add what
   // the figures of the paper plot: the motion of the two ends, and the error.
-  TimeLoop loop(impact.time, folder, bar.system, *bar.scheme, {{BarEnds::left, "left"}, {BarEnds::right, "right"}});
+  TimeLoop loop(impact.time,
+                folder,
+                bar.system,
+                *bar.scheme,
+                {{BarEnds::left, "left"}, {BarEnds::right, "right"}});
   add_bar_end_columns(BarEnds::left, bar.body, exact, loop);
   add_bar_end_columns(BarEnds::right, bar.body, exact, loop);
   add_bar_error_column(bar.body, exact, loop);
@@ -125,8 +128,7 @@ BarSS::run(RunFolder &folder)
 
 
 
-int
-main(int argc, char **argv)
+int main(int argc, char **argv)
 {
   BarSS program;
   return run_program(

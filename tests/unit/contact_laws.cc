@@ -24,20 +24,18 @@ namespace
 
   // Open, closed, nearly grazing from both sides, with and without stress and
   // multiplier. None sits on a kink of any of the laws.
-  const std::vector<ContactPointState<>> states = {
-    {.3, 0., 0.},
-    {.3, .5, .2},
-    {-.02, .1, .1},
-    {-.02, -.4, -.3},
-    {1e-9, 1e-3, 1e-3},
-    {-1e-9, 1e-3, -1e-3},
-    {1e-3, .021, .019},
-    {1e-3, .019, .021},
-    {0., 2., 3.}};
+  const std::vector<ContactPointState<>> states = {{.3, 0., 0.},
+                                                   {.3, .5, .2},
+                                                   {-.02, .1, .1},
+                                                   {-.02, -.4, -.3},
+                                                   {1e-9, 1e-3, 1e-3},
+                                                   {-1e-9, 1e-3, -1e-3},
+                                                   {1e-3, .021, .019},
+                                                   {1e-3, .019, .021},
+                                                   {0., 2., 3.}};
 
   template <typename Law>
-  void
-  compare_tangent(const Law &law)
+  void compare_tangent(const Law &law)
   {
     for (const auto &old_state : states)
       for (const auto &state : states)
@@ -50,8 +48,8 @@ namespace
             law.template force<AD>(ad_state, old_state, cell_diameter);
           const auto tangent = law.tangent(state, old_state, cell_diameter);
           const AD   rows[3] = {ad_force.gap,
-                              ad_force.stress_pressure,
-                              ad_force.multiplier};
+                                ad_force.stress_pressure,
+                                ad_force.multiplier};
           for (unsigned int r = 0; r < 3; ++r)
             for (unsigned int c = 0; c < 3; ++c)
               {
@@ -65,30 +63,31 @@ namespace
 
   /// force() must be the derivative of potential().
   template <typename Law>
-  void
-  compare_potential(const Law &law)
+  void compare_potential(const Law &law)
   {
     const double eps = 1e-6;
     for (const auto &state : states)
       {
-        const auto force = law.template force<double>(state, state, cell_diameter);
-        const auto central_difference = [&](double ContactPointState<>::*entry) {
-          auto plus = state, minus = state;
-          plus.*entry += eps;
-          minus.*entry -= eps;
-          return (law.potential(plus, cell_diameter) -
-                  law.potential(minus, cell_diameter)) /
-                 (2. * eps);
-        };
+        const auto force =
+          law.template force<double>(state, state, cell_diameter);
+        const auto central_difference =
+          [&](double ContactPointState<>::*entry) {
+            auto plus = state, minus = state;
+            plus.*entry += eps;
+            minus.*entry -= eps;
+            return (law.potential(plus, cell_diameter) -
+                    law.potential(minus, cell_diameter)) /
+              (2. * eps);
+          };
         // Kinks of the force within eps smear it by stiffness times eps.
         const double tolerance = 1e-4;
         BOOST_CHECK_SMALL(central_difference(&ContactPointState<>::gap) -
                             force.gap,
                           tolerance);
-        BOOST_CHECK_SMALL(
-          central_difference(&ContactPointState<>::stress_pressure) -
-            force.stress_pressure,
-          tolerance);
+        BOOST_CHECK_SMALL(central_difference(
+                            &ContactPointState<>::stress_pressure) -
+                            force.stress_pressure,
+                          tolerance);
         BOOST_CHECK_SMALL(central_difference(&ContactPointState<>::multiplier) -
                             force.multiplier,
                           tolerance);
@@ -96,17 +95,16 @@ namespace
   }
 
   /// Work of a two-point law over a step less what its potential gains.
-  double
-  excess_work(const NitscheTwoPoint &    law,
-              const ContactPointState<> &old_state,
-              const ContactPointState<> &new_state)
+  double excess_work(const NitscheTwoPoint     &law,
+                     const ContactPointState<> &old_state,
+                     const ContactPointState<> &new_state)
   {
     const auto force = law.force<double>(new_state, old_state, cell_diameter);
     return force.gap * (new_state.gap - old_state.gap) +
-           force.stress_pressure *
-             (new_state.stress_pressure - old_state.stress_pressure) -
-           (law.potential(new_state, cell_diameter) -
-            law.potential(old_state, cell_diameter));
+      force.stress_pressure *
+      (new_state.stress_pressure - old_state.stress_pressure) -
+      (law.potential(new_state, cell_diameter) -
+       law.potential(old_state, cell_diameter));
   }
 } // namespace
 
@@ -146,8 +144,8 @@ BOOST_AUTO_TEST_CASE(grazing_tangent_is_one_sided)
 {
   const Nitsche             law{5., 1.};
   const ContactPointState<> grazing{0., 0., 0.};
-  const auto tangent = law.tangent(grazing, grazing, cell_diameter);
-  const double gamma = law.stiffness(cell_diameter);
+  const auto   tangent = law.tangent(grazing, grazing, cell_diameter);
+  const double gamma   = law.stiffness(cell_diameter);
   BOOST_CHECK(tangent[0][0] == 0. || tangent[0][0] == gamma);
   BOOST_CHECK_EQUAL(heaviside(0.), .5);
 }

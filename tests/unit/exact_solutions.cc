@@ -15,20 +15,17 @@ using namespace Ricochet;
 
 namespace
 {
-  BarCharacteristics
-  bar_sd()
+  BarCharacteristics bar_sd()
   {
     return {.5, -.5, 0., {false, .5}, {true, 0.}, 12.};
   }
 
-  BarCharacteristics
-  bar_ss()
+  BarCharacteristics bar_ss()
   {
     return {1., -.5, -.5, {false, 1.}, {false, 0.}, 12.};
   }
 
-  void
-  check_energy(BarCharacteristics &exact, const double energy)
+  void check_energy(BarCharacteristics &exact, const double energy)
   {
     // The solution is piecewise linear with kinks at multiples of 1/20.
     const dealii::QIterated<1> quadrature(dealii::QGauss<1>(1), 20);
@@ -40,15 +37,15 @@ namespace
           {
             const double strain = exact.gradient(quadrature.point(q))[0];
             const double speed  = exact.velocity(quadrature.point(q)[0]);
-            sum += .5 * (strain * strain + speed * speed) * quadrature.weight(q);
+            sum +=
+              .5 * (strain * strain + speed * speed) * quadrature.weight(q);
           }
         BOOST_CHECK_SMALL(sum - energy, 1e-13);
       }
   }
 
   /// value() must be consistent with gradient() and velocity().
-  void
-  check_derivatives(BarCharacteristics &exact)
+  void check_derivatives(BarCharacteristics &exact)
   {
     const double eps = 1e-6;
     for (double t = .013; t < 11.9; t += .217)
@@ -99,15 +96,15 @@ BOOST_AUTO_TEST_CASE(ss_has_the_values_of_the_benchmark)
     for (double s = .025; s < 6.; s += .05)
       {
         exact.set_time(6. * period + s);
-        const double left  = s < 1. ? 1. - s :
-                             s < 4. ? 0. :
-                             s < 5. ? s - 4. :
-                                      1.;
-        const double right = s < 1. ? .5 :
-                             s < 2. ? .5 - (s - 1.) :
-                             s < 3. ? -.5 :
-                             s < 4. ? s - 3. - .5 :
-                                      .5;
+        const double left  = s < 1. ? 1. - s
+           : s < 4.                 ? 0.
+           : s < 5.                 ? s - 4.
+                                    : 1.;
+        const double right = s < 1. ? .5
+          : s < 2.                  ? .5 - (s - 1.)
+          : s < 3.                  ? -.5
+          : s < 4.                  ? s - 3. - .5
+                                    : .5;
         BOOST_CHECK_SMALL(exact.value(dealii::Point<1>(0.)) - left, 1e-12);
         BOOST_CHECK_SMALL(exact.value(dealii::Point<1>(1.)) - right, 1e-12);
         BOOST_CHECK_SMALL(exact.end_pressure(0) - (s > 2. && s < 3. ? 1. : 0.),

@@ -20,7 +20,8 @@ struct CubeAbovePlane
   {
     if (simplices)
       dealii::GridGenerator::subdivided_hyper_cube_with_simplices(
-        triangulation, n_cells_per_edge);
+        triangulation,
+        n_cells_per_edge);
     else
       dealii::GridGenerator::subdivided_hyper_cube(triangulation,
                                                    n_cells_per_edge);
@@ -29,12 +30,13 @@ struct CubeAbovePlane
         if (face->at_boundary())
           {
             const double height = face->center()[dim - 1];
-            face->set_boundary_id(height < 1e-9 ? 1 : height > 1. - 1e-9 ? 2 : 0);
+            face->set_boundary_id(height < 1e-9          ? 1
+                                    : height > 1. - 1e-9 ? 2
+                                                         : 0);
           }
   }
 
-  Ricochet::Obstacles<dim>
-  plane(const double gap) const
+  Ricochet::Obstacles<dim> plane(const double gap) const
   {
     dealii::Point<dim> point;
     point[dim - 1] = -gap;
@@ -42,7 +44,8 @@ struct CubeAbovePlane
     normal[dim - 1] = 1.;
     return {{1,
              std::make_shared<dealii::Functions::SignedDistance::Plane<dim>>(
-               point, normal)}};
+               point,
+               normal)}};
   }
 
   dealii::parallel::shared::Triangulation<dim> triangulation;

@@ -22,37 +22,35 @@ namespace
 
   /// Fill the owned entries with numbers that depend on the index only, so that
   /// they are the same on any number of ranks.
-  void
-  randomise(Vector &vector, const double size, const unsigned int seed)
+  void randomise(Vector &vector, const double size, const unsigned int seed)
   {
     for (const auto i : vector.locally_owned_elements())
       {
         std::mt19937 generator(7919 * seed + static_cast<unsigned int>(i));
-        vector(i) = size *
-                    std::uniform_real_distribution<double>(-1., 1.)(generator);
+        vector(i) =
+          size * std::uniform_real_distribution<double>(-1., 1.)(generator);
       }
     vector.compress(VectorOperation::insert);
   }
 
   template <int dim>
-  void
-  check(const std::string &treatment,
-        const std::string &scheme,
-        const double       theta,
-        const bool         simplices,
-        const unsigned int degree)
+  void check(const std::string &treatment,
+             const std::string &scheme,
+             const double       theta,
+             const bool         simplices,
+             const unsigned int degree)
   {
     const CubeAbovePlane<dim> cube(simplices);
     ContactParameters         parameters;
     parameters.treatment     = treatment;
     parameters.nitsche_theta = theta;
-    const Body<dim>            body(cube.triangulation,
+    const Body<dim> body(cube.triangulation,
                          degree,
                          {},
                          {1},
                          multiplier_space(parameters),
                          MPI_COMM_WORLD);
-    const auto contact =
+    const auto      contact =
       make_contact(parameters, scheme, body, material, cube.plane(.02));
 
     Vector zero = body.make_vector(), residual(zero), perturbed_residual(zero);
@@ -84,8 +82,7 @@ namespace
 
           contact->begin_stage(old_solution, old_force, weight);
           evaluate(solution, residual);
-          contact_seen =
-            contact_seen ||
+          contact_seen = contact_seen ||
             contact->active_set_description().substr(0, 2) != "0 ";
           const auto signature = contact->tangent_signature();
           contact->complete_tangent(tangent);
@@ -110,8 +107,7 @@ namespace
   }
 
   template <int dim>
-  void
-  check_all(const bool simplices, const unsigned int degree)
+  void check_all(const bool simplices, const unsigned int degree)
   {
     for (const double theta : {1., -1., 0.})
       {

@@ -41,33 +41,30 @@ namespace Ricochet
     double     theta      = 1.;
     Evaluation evaluation = Evaluation::hybrid;
 
-    static constexpr ContactLawTraits
-    traits()
+    static constexpr ContactLawTraits traits()
     {
       ContactLawTraits traits;
       traits.is_two_point = true;
       return traits;
     }
 
-    double
-    stiffness(const double cell_diameter) const
+    double stiffness(const double cell_diameter) const
     {
       return gamma_0 / cell_diameter;
     }
 
     template <typename Number>
-    ContactPointForce<Number>
-    force(const ContactPointState<Number> &new_state,
-          const ContactPointState<double> &old_state,
-          const double                     cell_diameter) const
+    ContactPointForce<Number> force(const ContactPointState<Number> &new_state,
+                                    const ContactPointState<double> &old_state,
+                                    const double cell_diameter) const
     {
       const double gamma = stiffness(cell_diameter);
       const double q_old = trial_pressure(old_state, cell_diameter);
       const Number q_new = trial_pressure(new_state, cell_diameter);
-      const Number q =
-        evaluation == Evaluation::end_of_step ?
-          positive_part(q_new) :
-          Number(heaviside(q_old) * positive_part(Number(.5 * (q_old + q_new))) +
+      const Number q     = evaluation == Evaluation::end_of_step
+            ? positive_part(q_new)
+            : Number(heaviside(q_old) *
+                   positive_part(Number(.5 * (q_old + q_new))) +
                  heaviside(-q_old) * .5 *
                    (positive_part(q_old) + positive_part(q_new)));
       const Number stress_pressure =
@@ -77,16 +74,14 @@ namespace Ricochet
               Number(0.)};
     }
 
-    ContactPointTangent
-    tangent(const ContactPointState<> &new_state,
-            const ContactPointState<> &old_state,
-            const double               cell_diameter) const
+    ContactPointTangent tangent(const ContactPointState<> &new_state,
+                                const ContactPointState<> &old_state,
+                                const double               cell_diameter) const
     {
       const double gamma = stiffness(cell_diameter);
       // Derivative of the positive part with respect to q_new. Whichever part
       // of the hybrid is weighed, it is 1/2 when that part is active.
-      const double slope =
-        (evaluation == Evaluation::end_of_step ? 1. : .5) *
+      const double slope = (evaluation == Evaluation::end_of_step ? 1. : .5) *
         branch(new_state, old_state, cell_diameter);
       return ContactPointTangent(
         {{slope * gamma, -slope, 0.},
@@ -94,27 +89,24 @@ namespace Ricochet
          {0., 0., 0.}});
     }
 
-    int
-    branch(const ContactPointState<> &new_state,
-           const ContactPointState<> &old_state,
-           const double               cell_diameter) const
+    int branch(const ContactPointState<> &new_state,
+               const ContactPointState<> &old_state,
+               const double               cell_diameter) const
     {
       const double q_old = trial_pressure(old_state, cell_diameter);
       const double q_new = trial_pressure(new_state, cell_diameter);
-      return evaluation == Evaluation::hybrid && q_old > 0. ?
-               q_old + q_new > 0. :
-               q_new > 0.;
+      return evaluation == Evaluation::hybrid && q_old > 0. ? q_old + q_new > 0.
+                                                            : q_new > 0.;
     }
 
-    double
-    potential(const ContactPointState<> &state,
-              const double               cell_diameter) const
+    double potential(const ContactPointState<> &state,
+                     const double               cell_diameter) const
     {
       return Nitsche{gamma_0, theta}.potential(state, cell_diameter);
     }
 
-    double
-    pressure(const ContactPointState<> &state, const double cell_diameter) const
+    double pressure(const ContactPointState<> &state,
+                    const double               cell_diameter) const
     {
       return Nitsche{gamma_0, theta}.pressure(state, cell_diameter);
     }
@@ -122,9 +114,8 @@ namespace Ricochet
   private:
     /// q = p - gamma g, that is -P_N(u) of paper C.
     template <typename Number>
-    Number
-    trial_pressure(const ContactPointState<Number> &state,
-                   const double                     cell_diameter) const
+    Number trial_pressure(const ContactPointState<Number> &state,
+                          const double                     cell_diameter) const
     {
       return state.stress_pressure - stiffness(cell_diameter) * state.gap;
     }

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The Newton iteration on scalar equations with known behaviour, one copy per
+// unknown: quadratic convergence, finite termination, line search, and failure.
+
+#include <base/exceptions.h>
+#include <solvers/newton.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace Ricochet;
+
+namespace
+{
+  /// Solve f(x) = 0 in each entry of a vector.
+  std::vector<NewtonSolver::Iteration>
+  solve(const std::function<double(double)> &f,
+        const std::function<double(double)> &derivative,
+        const double                         start,
+        const NewtonSolver::Parameters      &parameters,
+        double                              *root = nullptr)
+  {
+    Vector x(dealii::complete_index_set(4), MPI_COMM_SELF);
+    x = start;
+    Vector point(x);
+
+    NewtonSolver::Problem problem;
+    problem.residual = [&](const Vector &y, Vector &residual) {
+      point = y;
+      for (const auto i : y.locally_owned_elements())
+        residual(i) = f(y(i));
+      residual.compress(dealii::VectorOperation::insert);
+    };
+    problem.solve = [&](const Vector &residual, Vector &update) {
+      for (const auto i : residual.locally_owned_elements())
+        update(i) = residual(i) / derivative(point(i));
+      update.compress(dealii::VectorOperation::insert);
+    };
+    problem.norm        = [](const Vector &v) { return v.linfty_norm(); };
+    problem.active_set  = []() { return std::string("none"); };
+    problem.force_scale = 1.;
+
+    NewtonSolver newton(parameters);
+    const auto   history = newton.solve(problem, x);
+    if (root != nullptr)
+      *root = x(2);
+    return history;
+  }
+} // namespace
+
+
+BOOST_AUTO_TEST_SUITE(newton)
+
+BOOST_AUTO_TEST_CASE(converges_quadratically)
+{
+  double     root;
+  const auto history = solve([](double x) { return x * x - 2.; },
+                             [](double x) { return 2. * x; },
+                             2.,
+                             {1e-14, 30, 10},
+                             &root);
+  BOOST_CHECK_SMALL(root - std::sqrt(2.), 1e-14);
+  // For x^2 - a, the residual is squared over 4 a, to leading order.
+  for (unsigned int k = 1; k + 1 < history.size(); ++k)
+    if (history[k + 1].relative_residual > 1e-14)
+      BOOST_CHECK_LT(history[k + 1].relative_residual,
+                     .2 * std::pow(history[k].relative_residual, 2));
+  BOOST_CHECK_LE(history.size(), 7u);
+}
+
+BOOST_AUTO_TEST_CASE(piecewise_linear_equations_end_exactly)
+{
+  double     root;
+  const auto history =
+    solve([](double x) { return x + 3. * std::max(x, 0.) - 2.; },
+          [](double x) { return x > 0. ? 4. : 1.; },
+          -5.,
+          {1e-14, 30, 10},
+          &root);
+  BOOST_CHECK_EQUAL(root, .5);
+  BOOST_CHECK_LE(history.size(), 4u);
+}
+
+// Full steps for atan(x) diverge from x = 2; shortened ones converge.
+BOOST_AUTO_TEST_CASE(line_search_saves_what_full_steps_lose)
+{
+  const auto f          = [](double x) { return std::atan(x); };
+  const auto derivative = [](double x) { return 1. / (1. + x * x); };
+  BOOST_CHECK_THROW(solve(f, derivative, 2., {1e-12, 20, 1000}), NewtonFailure);
+  double     root;
+  const auto history = solve(f, derivative, 2., {1e-12, 20, 0}, &root);
+  BOOST_CHECK_SMALL(root, 1e-11);
+  BOOST_CHECK_LT(history[1].step_length, 1.);
+}
+
+BOOST_AUTO_TEST_CASE(never_returns_what_is_not_converged)
+{
+  const auto derivative = [](double) { return 1.; };
+  // No root; a residual that is not a number; an iteration too few.
+  BOOST_CHECK_THROW(solve([](double) { return 1.; }, derivative, 0., {}),
+                    NewtonFailure);
+  BOOST_CHECK_THROW(solve(
+                      [](double x) {
+                        return x == 0.
+                          ? 1.
+                          : std::numeric_limits<double>::quiet_NaN();
+                      },
+                      derivative,
+                      0.,
+                      {}),
+                    NewtonFailure);
+  BOOST_CHECK_THROW(solve([](double x) { return x * x - 2.; },
+                          [](double x) { return 2. * x; },
+                          2.,
+                          {1e-14, 2, 10}),
+                    NewtonFailure);
+}
+
+// The message holds the table of iterations.
+BOOST_AUTO_TEST_CASE(failure_shows_its_history)
+{
+  try
+    {
+      solve([](double) { return 1.; }, [](double) { return 1.; }, 0., {});
+      BOOST_FAIL("no exception");
+    }
+  catch (const NewtonFailure &failure)
+    {
+      const std::string text = failure.what();
+      BOOST_CHECK(text.find("not converged in 30 iterations") !=
+                  std::string::npos);
+      BOOST_CHECK(text.find("relative residual") != std::string::npos);
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
