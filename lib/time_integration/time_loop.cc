@@ -4,9 +4,12 @@
 #include <output/checkpoint.h>
 #include <time_integration/time_loop.h>
 
+#include <deal.II/base/timer.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 namespace Ricochet
 {
@@ -47,6 +50,9 @@ namespace Ricochet
                              log_every,
                              "Print a line every so many steps; 0 for never.",
                              Patterns::Integer(0));
+    parameters.add_parameter("Timing",
+                             timing,
+                             "At the end, print where the time was spent.");
     parameters.leave_subsection();
   }
 
@@ -236,8 +242,12 @@ namespace Ricochet
     folder.log(
       "    step/of              time         energy       modified "
       "   balance        force  active  Newton");
-    State      new_state;
-    const auto write_checkpoint = [&]() {
+    std::ostringstream timing_table;
+    TimerOutput        timer(timing_table,
+                      TimerOutput::never,
+                      TimerOutput::wall_times);
+    State              new_state;
+    const auto         write_checkpoint = [&]() {
       Checkpoint{step,
                  {external_work,
                   contact_work,
@@ -254,13 +264,16 @@ namespace Ricochet
           {
             const double old_energy = system.kinetic_energy(state.velocity) +
               system.bulk.energy(state.solution);
+            timer.enter_subsection("steps");
             const StepReport report =
               advance(state, parameters.time_step, 0, new_state);
+            timer.leave_subsection();
             std::swap(state, new_state);
             ++step;
             // Not a sum of many steps, so that no round-off piles up.
             state.time = first_time + step * parameters.time_step;
 
+            timer.enter_subsection("energy ledger");
             external_work += report.external_work;
             contact_work += report.contact_work;
             numerical_dissipation += report.numerical_dissipation;
@@ -276,9 +289,11 @@ namespace Ricochet
             const double scale =
               initial_energy > 0. ? initial_energy : largest_energy;
             add_row(state, report, scale > 0. ? residual / scale : residual);
+            timer.leave_subsection();
 
             if (parameters.log_every > 0 && step % parameters.log_every == 0)
               log_row(step, n_steps);
+            const TimerOutput::Scope scope(timer, "fields and checkpoints");
             if (fields && step % parameters.fields_every == 0)
               write_fields(state, step);
             if (parameters.checkpoint_every > 0 &&
@@ -296,6 +311,11 @@ namespace Ricochet
         throw;
       }
     ledger.write_hdf5();
+    if (parameters.timing)
+      {
+        timer.print_summary();
+        folder.log(timing_table.str());
+      }
     return state;
   }
 } // namespace Ricochet

@@ -27,6 +27,7 @@ namespace Ricochet
       unsigned int fields_every     = 10;
       unsigned int checkpoint_every = 0;
       unsigned int log_every        = 1;
+      bool         timing           = true;
 
       void add_parameters(dealii::ParameterHandler &parameters);
     };

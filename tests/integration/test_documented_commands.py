@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The commands in the introductions of the programs and in the README work."""
+
+import re
+import shlex
+
+from common import *
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def commands_in(file, prefix):
+    """Command lines of our programs that stand alone on a line of @p file."""
+    programs = [folder.name for folder in (ROOT / "steps").iterdir()]
+    for line in file.read_text().splitlines():
+        match = re.match(rf"{prefix}((?:build/release/)?({'|'.join(programs)})"
+                         r"(?: .*)?)$", line)
+        if match:
+            yield shlex.split(match.group(1).replace("build/release/", ""))
+
+
+class DocumentedCommands(ProgramTest):
+
+    def check(self, commands):
+        commands = list(commands)
+        self.assertGreater(len(commands), 2)
+        for words in commands:
+            with self.subTest(" ".join(words)):
+                words[0] = str(pathlib.Path(arguments.programs).resolve() /
+                               words[0])
+                if "--output-dir" not in words and "--help" not in words:
+                    words += ["--output-dir", str(self.folder / "run")]
+                elif "--output-dir" in words:
+                    words[words.index("--output-dir") + 1] = str(
+                        self.folder / "run")
+                result = subprocess.run(words, cwd=ROOT, capture_output=True,
+                                        text=True, timeout=600)
+                self.assertEqual(result.returncode, 0, msg=result.stderr)
+
+    def test_introductions_of_the_steps(self):
+        self.check(command for file in sorted((ROOT / "steps").glob("*/*.cc"))
+                   for command in commands_in(file, "//     "))
+
+    def test_readme(self):
+        self.check(commands_in(ROOT / "README.md", ""))
+
+    def test_all_parameter_files_are_valid(self):
+        files = sorted((ROOT / "parameter_files").glob("*/*.prm"))
+        self.assertGreater(len(files), 20)
+        for file in files:
+            with self.subTest(file.name):
+                code, out, error = self.attempt(file.parent.name, prm=file,
+                                                options=["--validate"])
+                self.assertEqual(code, 0, msg=error)
+
+
+if __name__ == "__main__":
+    main()
