@@ -35,6 +35,10 @@ NO_FIELDS = ["Output/Fields every=0", "Output/Log every=0"]
 arguments = None
 
 
+def program_path(program):
+    return str(pathlib.Path(arguments.programs).resolve() / program)
+
+
 class Ledger:
     """The columns of an energy.csv, by name without unit."""
 
@@ -60,7 +64,7 @@ class ProgramTest(unittest.TestCase):
     def command(self, program, parameters=(), folder=None, options=(), prm=None,
                 n_ranks=1):
         words = [] if n_ranks == 1 else [arguments.mpiexec, "-n", str(n_ranks)]
-        words.append(str(pathlib.Path(arguments.programs) / program))
+        words.append(program_path(program))
         if prm is not None:
             words.append(str(prm))
         for parameter in parameters:
@@ -93,8 +97,8 @@ class ProgramTest(unittest.TestCase):
 
 def is_debug_build():
     """Debug programs are several times slower: tests shorten their runs."""
-    result = subprocess.run([pathlib.Path(arguments.programs) / "bar_sd",
-                             "--version"], capture_output=True, text=True)
+    result = subprocess.run([program_path("bar_sd"), "--version"],
+                            capture_output=True, text=True)
     return "(Debug)" in result.stdout
 
 

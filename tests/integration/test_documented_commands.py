@@ -26,8 +26,7 @@ class DocumentedCommands(ProgramTest):
         self.assertGreater(len(commands), 2)
         for words in commands:
             with self.subTest(" ".join(words)):
-                words[0] = str(pathlib.Path(arguments.programs).resolve() /
-                               words[0])
+                words[0] = program_path(words[0])
                 if "--output-dir" not in words and "--help" not in words:
                     words += ["--output-dir", str(self.folder / "run")]
                 elif "--output-dir" in words:
