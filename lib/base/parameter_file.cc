@@ -31,7 +31,8 @@ namespace Ricochet
     };
     using Declarations = std::map<std::string, Declaration>;
 
-    std::string join(const Path &path)
+    std::string
+    join(const Path &path)
     {
       std::string text;
       for (const std::string &part : path)
@@ -41,7 +42,8 @@ namespace Ricochet
 
     /// ParameterHandler escapes blanks and special characters in its JSON keys
     /// as "_20" and the like.
-    std::string unescape(const std::string &key)
+    std::string
+    unescape(const std::string &key)
     {
       std::string text;
       for (std::size_t i = 0; i < key.size(); ++i)
@@ -55,9 +57,10 @@ namespace Ricochet
       return text;
     }
 
-    void collect(const boost::property_tree::ptree &tree,
-                 const Path                        &path,
-                 Declarations                      &declarations)
+    void
+    collect(const boost::property_tree::ptree &tree,
+            const Path                        &path,
+            Declarations                      &declarations)
     {
       for (const auto &[key, child] : tree)
         {
@@ -74,7 +77,8 @@ namespace Ricochet
     }
 
     /// ParameterHandler has no way to ask what is declared but its own output.
-    Declarations declarations_of(const dealii::ParameterHandler &parameters)
+    Declarations
+    declarations_of(const dealii::ParameterHandler &parameters)
     {
       std::ostringstream json;
       parameters.print_parameters(json, dealii::ParameterHandler::JSON);
@@ -86,7 +90,8 @@ namespace Ricochet
       return declarations;
     }
 
-    unsigned int edit_distance(const std::string &a, const std::string &b)
+    unsigned int
+    edit_distance(const std::string &a, const std::string &b)
     {
       const auto lower = [](const char c) {
         return std::tolower(static_cast<unsigned char>(c));
@@ -111,11 +116,12 @@ namespace Ricochet
       return row[b.size()];
     }
 
-    void assign(const Path               &path,
-                const std::string        &value,
-                const std::string        &where,
-                const Declarations       &declarations,
-                dealii::ParameterHandler &parameters)
+    void
+    assign(const Path               &path,
+           const std::string        &value,
+           const std::string        &where,
+           const Declarations       &declarations,
+           dealii::ParameterHandler &parameters)
     {
       const auto entry = declarations.find(join(path));
       if (entry == declarations.end())
@@ -158,11 +164,12 @@ namespace Ricochet
         parameters.leave_subsection();
     }
 
-    void read(const std::string        &file_name,
-              const std::string        &included_from,
-              std::vector<std::string> &open_files,
-              const Declarations       &declarations,
-              dealii::ParameterHandler &parameters)
+    void
+    read(const std::string        &file_name,
+         const std::string        &included_from,
+         std::vector<std::string> &open_files,
+         const Declarations       &declarations,
+         dealii::ParameterHandler &parameters)
     {
       namespace fs = std::filesystem;
       const std::string origin =
@@ -254,7 +261,8 @@ namespace Ricochet
 
 
 
-  std::string to_text(const double number)
+  std::string
+  to_text(const double number)
   {
     char text[40];
     std::snprintf(text, sizeof(text), "%.10g", number);
@@ -284,8 +292,9 @@ namespace Ricochet
 
 
 
-  void read_parameter_file(const std::string        &file_name,
-                           dealii::ParameterHandler &parameters)
+  void
+  read_parameter_file(const std::string        &file_name,
+                      dealii::ParameterHandler &parameters)
   {
     const Declarations       declarations = declarations_of(parameters);
     std::vector<std::string> open_files;
@@ -294,8 +303,9 @@ namespace Ricochet
 
 
 
-  void set_parameter(const std::string        &assignment,
-                     dealii::ParameterHandler &parameters)
+  void
+  set_parameter(const std::string        &assignment,
+                dealii::ParameterHandler &parameters)
   {
     const std::string where = "--set \"" + assignment + "\"";
     const std::size_t equal = assignment.find('=');

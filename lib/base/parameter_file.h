@@ -20,8 +20,9 @@ namespace Ricochet
    * parameter, value that does not match its pattern, `include` circle,
    * unbalanced `subsection`/`end`.
    */
-  void read_parameter_file(const std::string        &file_name,
-                           dealii::ParameterHandler &parameters);
+  void
+  read_parameter_file(const std::string        &file_name,
+                      dealii::ParameterHandler &parameters);
 
   /**
    * Set one parameter from a text of the form "Section/Name=value", as given to
@@ -30,11 +31,13 @@ namespace Ricochet
    * @throws InputError as read_parameter_file(), with @p assignment in place of
    * file and line.
    */
-  void set_parameter(const std::string        &assignment,
-                     dealii::ParameterHandler &parameters);
+  void
+  set_parameter(const std::string        &assignment,
+                dealii::ParameterHandler &parameters);
 
   /// A number as a person would write it: 0.05, 1e-12.
-  std::string to_text(const double number);
+  std::string
+  to_text(const double number);
 
   /**
    * The names in @p candidates that are closest to @p name by edit distance,

@@ -11,7 +11,8 @@
 
 namespace Ricochet
 {
-  CommandLine parse_command_line(const int argc, char **argv)
+  CommandLine
+  parse_command_line(const int argc, char **argv)
   {
     CommandLine command_line;
 
@@ -103,7 +104,8 @@ namespace Ricochet
 
 
 
-  void RunFolder::log(const std::string &line)
+  void
+  RunFolder::log(const std::string &line)
   {
     if (!is_root)
       return;
@@ -114,7 +116,8 @@ namespace Ricochet
 
 
 
-  std::string RunFolder::file(const std::string &name) const
+  std::string
+  RunFolder::file(const std::string &name) const
   {
     return (std::filesystem::path(path) / name).string();
   }
@@ -123,7 +126,8 @@ namespace Ricochet
 
   namespace
   {
-    void print_help(const Program &program)
+    void
+    print_help(const Program &program)
     {
       std::cout
         << program.description << "\n\n"
@@ -149,7 +153,8 @@ namespace Ricochet
 
 
     /// The parameters but for the section Output and the final time.
-    std::string parameters_that_matter(dealii::ParameterHandler &parameters)
+    std::string
+    parameters_that_matter(dealii::ParameterHandler &parameters)
     {
       std::stringstream all;
       parameters.print_parameters(all, dealii::ParameterHandler::ShortText);
@@ -170,7 +175,8 @@ namespace Ricochet
 
 
 
-    void execute(const int argc, char **argv, const Program &program)
+    void
+    execute(const int argc, char **argv, const Program &program)
     {
       const MPI_Comm communicator = MPI_COMM_WORLD;
       const bool     is_root =
@@ -255,7 +261,8 @@ namespace Ricochet
 
 
 
-  int run_program(const int argc, char **argv, const Program &program)
+  int
+  run_program(const int argc, char **argv, const Program &program)
   {
     // One thread per rank: the parallelism of Ricochet is MPI.
     int                                      mpi_argc = argc;

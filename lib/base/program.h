@@ -27,7 +27,8 @@ namespace Ricochet
   };
 
   /// Parse the arguments of main(). @throws InputError on an unknown option.
-  CommandLine parse_command_line(const int argc, char **argv);
+  CommandLine
+  parse_command_line(const int argc, char **argv);
 
   /**
    * The folder a run writes to, and its log. It holds `log.txt`, the parameter
@@ -48,10 +49,12 @@ namespace Ricochet
               const bool         quiet);
 
     /// Print one line on the console and into `log.txt`, on rank 0 only.
-    void log(const std::string &line);
+    void
+    log(const std::string &line);
 
     /// Path of @p name inside the folder.
-    std::string file(const std::string &name) const;
+    std::string
+    file(const std::string &name) const;
 
     const MPI_Comm communicator;
     const bool     is_root;
@@ -95,7 +98,8 @@ namespace Ricochet
    * @return the exit code: 0 success, 1 InputError, 2 ComputationError,
    * 3 anything else (a bug).
    */
-  int run_program(const int argc, char **argv, const Program &program);
+  int
+  run_program(const int argc, char **argv, const Program &program);
 } // namespace Ricochet
 
 #endif

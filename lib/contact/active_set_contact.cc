@@ -8,8 +8,9 @@ namespace Ricochet
 {
   using dealii::VectorOperation;
 
-  double ActiveSetContact::normal_component(const unsigned int p,
-                                            const Vector      &vector) const
+  double
+  ActiveSetContact::normal_component(const unsigned int p,
+                                     const Vector      &vector) const
   {
     const ContactPoints &coefficients = evaluator.coefficients();
     const ContactPoint  &point        = coefficients.points[p];
@@ -21,7 +22,8 @@ namespace Ricochet
 
 
 
-  double ActiveSetContact::constraint_scale(const unsigned int p) const
+  double
+  ActiveSetContact::constraint_scale(const unsigned int p) const
   {
     const ContactPoint &point = evaluator.contact_points()[p];
     return augmentation / point.cell_diameter * point.weight;
@@ -29,9 +31,10 @@ namespace Ricochet
 
 
 
-  void ActiveSetContact::begin_stage(const Vector & /*old_solution*/,
-                                     const Vector &old_contact_force,
-                                     const double  weight_)
+  void
+  ActiveSetContact::begin_stage(const Vector & /*old_solution*/,
+                                const Vector &old_contact_force,
+                                const double  weight_)
   {
     weight         = weight_;
     first_in_stage = true;
@@ -41,8 +44,8 @@ namespace Ricochet
 
 
 
-  void ActiveSetContact::complete_residual(const Vector &solution,
-                                           Vector       &residual)
+  void
+  ActiveSetContact::complete_residual(const Vector &solution, Vector &residual)
   {
     evaluator.evaluate(solution, state);
     const ContactPoints &coefficients = evaluator.coefficients();
@@ -80,7 +83,8 @@ namespace Ricochet
 
 
 
-  void ActiveSetContact::complete_tangent(Matrix &tangent) const
+  void
+  ActiveSetContact::complete_tangent(Matrix &tangent) const
   {
     // In place, on the rows of the active nodes: T <- (I - n n^T) T + scale n
     // n^T. The rows of one node have the same columns in the same order,
@@ -130,21 +134,24 @@ namespace Ricochet
 
 
 
-  std::optional<std::uint64_t> ActiveSetContact::tangent_signature() const
+  std::optional<std::uint64_t>
+  ActiveSetContact::tangent_signature() const
   {
     return global_hash(active, evaluator.communicator);
   }
 
 
 
-  std::string ActiveSetContact::active_set_description() const
+  std::string
+  ActiveSetContact::active_set_description() const
   {
     return count_active(active, evaluator.communicator);
   }
 
 
 
-  void ActiveSetContact::force_at(const Vector & /*solution*/, Vector &result)
+  void
+  ActiveSetContact::force_at(const Vector & /*solution*/, Vector &result)
   {
     result = 0.;
   }

@@ -42,33 +42,42 @@ namespace Ricochet
       scaling = 1.;
     }
 
-    void begin_stage(const Vector &old_solution,
-                     const Vector &old_contact_force,
-                     const double  weight) override;
+    void
+    begin_stage(const Vector &old_solution,
+                const Vector &old_contact_force,
+                const double  weight) override;
 
-    void complete_residual(const Vector &solution, Vector &residual) override;
+    void
+    complete_residual(const Vector &solution, Vector &residual) override;
 
-    void complete_tangent(Matrix &tangent) const override;
+    void
+    complete_tangent(Matrix &tangent) const override;
 
-    std::optional<std::uint64_t> tangent_signature() const override;
+    std::optional<std::uint64_t>
+    tangent_signature() const override;
 
-    std::string active_set_description() const override;
+    std::string
+    active_set_description() const override;
 
-    const Vector &contact_force() const override
+    const Vector &
+    contact_force() const override
     {
       return force;
     }
 
     /// No force: outside of a stage the constraint has no reaction. Initial
     /// states are expected not to be pressed.
-    void force_at(const Vector &solution, Vector &force) override;
+    void
+    force_at(const Vector &solution, Vector &force) override;
 
-    double potential(const Vector & /*solution*/) override
+    double
+    potential(const Vector & /*solution*/) override
     {
       return 0.;
     }
 
-    const Vector &row_scaling() const override
+    const Vector &
+    row_scaling() const override
     {
       return scaling;
     }
@@ -78,10 +87,12 @@ namespace Ricochet
 
   private:
     /// Component of @p vector at node @p p along the obstacle's normal.
-    double normal_component(const unsigned int p, const Vector &vector) const;
+    double
+    normal_component(const unsigned int p, const Vector &vector) const;
 
     /// Stiffness (N/m) with which the gap of node @p p enters the residual.
-    double constraint_scale(const unsigned int p) const;
+    double
+    constraint_scale(const unsigned int p) const;
 
     ContactPointEvaluator            evaluator;
     ContactPointEvaluator            stress_evaluator;

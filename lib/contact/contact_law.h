@@ -39,13 +39,15 @@ namespace Ricochet
 
   /// Positive part.
   template <typename Number>
-  Number positive_part(const Number &x)
+  Number
+  positive_part(const Number &x)
   {
     return x > 0. ? x : Number(0.);
   }
 
   /// Heaviside function with H(0) = 1/2.
-  inline double heaviside(const double x)
+  inline double
+  heaviside(const double x)
   {
     return x > 0. ? 1. : (x < 0. ? 0. : .5);
   }
@@ -80,38 +82,45 @@ namespace Ricochet
   public:
     virtual ~ContactLaw() = default;
 
-    virtual ContactLawTraits traits() const = 0;
+    virtual ContactLawTraits
+    traits() const = 0;
 
     /**
      * @param new_state state at the point where the law is enforced.
      * @param old_state state at the beginning of the step, for two-point laws.
      * @param cell_diameter h_T (m), by which some laws scale.
      */
-    virtual ContactPointForce<> force(const ContactPointState<> &new_state,
-                                      const ContactPointState<> &old_state,
-                                      const double cell_diameter) const = 0;
+    virtual ContactPointForce<>
+    force(const ContactPointState<> &new_state,
+          const ContactPointState<> &old_state,
+          const double               cell_diameter) const = 0;
 
     /// Derivative of force() with respect to @p new_state.
-    virtual ContactPointTangent tangent(const ContactPointState<> &new_state,
-                                        const ContactPointState<> &old_state,
-                                        const double cell_diameter) const = 0;
+    virtual ContactPointTangent
+    tangent(const ContactPointState<> &new_state,
+            const ContactPointState<> &old_state,
+            const double               cell_diameter) const = 0;
 
     /// Which smooth branch of the law the state is on; 0 means no contact.
-    virtual int branch(const ContactPointState<> &new_state,
-                       const ContactPointState<> &old_state,
-                       const double               cell_diameter) const = 0;
+    virtual int
+    branch(const ContactPointState<> &new_state,
+           const ContactPointState<> &old_state,
+           const double               cell_diameter) const = 0;
 
     /// Energy stored by the law per unit of area (J/m^2).
-    virtual double potential(const ContactPointState<> &state,
-                             const double cell_diameter) const = 0;
+    virtual double
+    potential(const ContactPointState<> &state,
+              const double               cell_diameter) const = 0;
 
     /// The contact pressure that the law itself stands for at a state (Pa).
-    virtual double pressure(const ContactPointState<> &state,
-                            const double               cell_diameter) const = 0;
+    virtual double
+    pressure(const ContactPointState<> &state,
+             const double               cell_diameter) const = 0;
 
     /// Stiffness (Pa/m) that makes the multiplier's equation comparable with
     /// the forces; 1 for laws without multiplier.
-    virtual double multiplier_scale(const double /*cell_diameter*/) const
+    virtual double
+    multiplier_scale(const double /*cell_diameter*/) const
     {
       return 1.;
     }
@@ -130,45 +139,52 @@ namespace Ricochet
       : law(law)
     {}
 
-    ContactLawTraits traits() const override
+    ContactLawTraits
+    traits() const override
     {
       return Law::traits();
     }
 
-    ContactPointForce<> force(const ContactPointState<> &new_state,
-                              const ContactPointState<> &old_state,
-                              const double cell_diameter) const override
+    ContactPointForce<>
+    force(const ContactPointState<> &new_state,
+          const ContactPointState<> &old_state,
+          const double               cell_diameter) const override
     {
       return law.template force<double>(new_state, old_state, cell_diameter);
     }
 
-    ContactPointTangent tangent(const ContactPointState<> &new_state,
-                                const ContactPointState<> &old_state,
-                                const double cell_diameter) const override
+    ContactPointTangent
+    tangent(const ContactPointState<> &new_state,
+            const ContactPointState<> &old_state,
+            const double               cell_diameter) const override
     {
       return law.tangent(new_state, old_state, cell_diameter);
     }
 
-    int branch(const ContactPointState<> &new_state,
-               const ContactPointState<> &old_state,
-               const double               cell_diameter) const override
+    int
+    branch(const ContactPointState<> &new_state,
+           const ContactPointState<> &old_state,
+           const double               cell_diameter) const override
     {
       return law.branch(new_state, old_state, cell_diameter);
     }
 
-    double potential(const ContactPointState<> &state,
-                     const double               cell_diameter) const override
+    double
+    potential(const ContactPointState<> &state,
+              const double               cell_diameter) const override
     {
       return law.potential(state, cell_diameter);
     }
 
-    double pressure(const ContactPointState<> &state,
-                    const double               cell_diameter) const override
+    double
+    pressure(const ContactPointState<> &state,
+             const double               cell_diameter) const override
     {
       return law.pressure(state, cell_diameter);
     }
 
-    double multiplier_scale(const double cell_diameter) const override
+    double
+    multiplier_scale(const double cell_diameter) const override
     {
       if constexpr (Law::traits().needs_multiplier)
         return law.stiffness(cell_diameter);

@@ -3,7 +3,8 @@
 
 namespace Ricochet
 {
-  void ContactPointEvaluator::find_local_indices()
+  void
+  ContactPointEvaluator::find_local_indices()
   {
     unsigned int longest = 0;
     local_index.reserve(points.index.size());
@@ -18,8 +19,9 @@ namespace Ricochet
 
 
 
-  void ContactPointEvaluator::evaluate(const Vector &solution,
-                                       std::vector<ContactPointState<>> &states)
+  void
+  ContactPointEvaluator::evaluate(const Vector                     &solution,
+                                  std::vector<ContactPointState<>> &states)
   {
     ghosted             = solution;
     const double *value = ghosted.trilinos_vector()[0];
@@ -43,9 +45,10 @@ namespace Ricochet
 
 
 
-  void ContactPointEvaluator::add(const unsigned int         p,
-                                  const ContactPointForce<> &force,
-                                  Vector                    &vector)
+  void
+  ContactPointEvaluator::add(const unsigned int         p,
+                             const ContactPointForce<> &force,
+                             Vector                    &vector)
   {
     const ContactPoint &point = points.points[p];
     for (unsigned int k = point.begin; k < point.end; ++k)
@@ -60,10 +63,11 @@ namespace Ricochet
 
 
 
-  void ContactPointEvaluator::add(const unsigned int         p,
-                                  const double               factor,
-                                  const ContactPointTangent &tangent,
-                                  Matrix                    &matrix) const
+  void
+  ContactPointEvaluator::add(const unsigned int         p,
+                             const double               factor,
+                             const ContactPointTangent &tangent,
+                             Matrix                    &matrix) const
   {
     const ContactPoint &point = points.points[p];
     for (unsigned int i = point.begin; i < point.end; ++i)

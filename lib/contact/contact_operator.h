@@ -54,43 +54,51 @@ namespace Ricochet
      * start.
      * @param weight factor of the new contact force in the residual.
      */
-    virtual void begin_stage(const Vector &old_solution,
-                             const Vector &old_contact_force,
-                             const double  weight) = 0;
+    virtual void
+    begin_stage(const Vector &old_solution,
+                const Vector &old_contact_force,
+                const double  weight) = 0;
 
     /// Complete @p residual at @p solution.
-    virtual void complete_residual(const Vector &solution,
-                                   Vector       &residual) = 0;
+    virtual void
+    complete_residual(const Vector &solution, Vector &residual) = 0;
 
     /// Complete @p tangent at the solution of the last complete_residual().
-    virtual void complete_tangent(Matrix &tangent) const = 0;
+    virtual void
+    complete_tangent(Matrix &tangent) const = 0;
 
     /**
      * A number that is the same on all ranks and changes whenever the tangent
      * does, or nothing if the tangent changes with every state.
      */
-    virtual std::optional<std::uint64_t> tangent_signature() const = 0;
+    virtual std::optional<std::uint64_t>
+    tangent_signature() const = 0;
 
     /// The number of active contact points at the last complete_residual(), and
     /// of all, for Newton's table.
-    virtual std::string active_set_description() const = 0;
+    virtual std::string
+    active_set_description() const = 0;
 
     /// The contact force (N, without the stage's weight and without the
     /// multipliers' own equations) at the solution of the last
     /// complete_residual().
-    virtual const Vector &contact_force() const = 0;
+    virtual const Vector &
+    contact_force() const = 0;
 
     /// The contact force at @p solution outside of any stage: for the initial
     /// acceleration and for integrators of their own.
-    virtual void force_at(const Vector &solution, Vector &force) = 0;
+    virtual void
+    force_at(const Vector &solution, Vector &force) = 0;
 
     /// Energy stored by the treatment at @p solution (J): the difference
     /// between modified and mechanical energy. 0 where there is none.
-    virtual double potential(const Vector &solution) = 0;
+    virtual double
+    potential(const Vector &solution) = 0;
 
     /// Per row, the factor that makes the residual a force: 1 for
     /// displacements, a stiffness for multipliers.
-    virtual const Vector &row_scaling() const = 0;
+    virtual const Vector &
+    row_scaling() const = 0;
 
     /// By boundary id, at a solved state.
     virtual std::map<dealii::types::boundary_id, ContactSummary>
@@ -114,8 +122,8 @@ namespace Ricochet
     }
 
     /// Evaluate all points at @p solution into @p states.
-    void evaluate(const Vector                     &solution,
-                  std::vector<ContactPointState<>> &states);
+    void
+    evaluate(const Vector &solution, std::vector<ContactPointState<>> &states);
 
     /// Add @p force of point @p p, weighted, to @p vector (to be compressed by
     /// the caller).
@@ -123,23 +131,27 @@ namespace Ricochet
     add(const unsigned int p, const ContactPointForce<> &force, Vector &vector);
 
     /// Add @p tangent of point @p p, times @p factor, to @p matrix.
-    void add(const unsigned int         p,
-             const double               factor,
-             const ContactPointTangent &tangent,
-             Matrix                    &matrix) const;
+    void
+    add(const unsigned int         p,
+        const double               factor,
+        const ContactPointTangent &tangent,
+        Matrix                    &matrix) const;
 
-    const std::vector<ContactPoint> &contact_points() const
+    const std::vector<ContactPoint> &
+    contact_points() const
     {
       return points.points;
     }
 
-    const ContactPoints &coefficients() const
+    const ContactPoints &
+    coefficients() const
     {
       return points;
     }
 
   private:
-    void find_local_indices();
+    void
+    find_local_indices();
 
     const ContactPoints points;
     Vector              ghosted;

@@ -11,8 +11,9 @@ namespace Ricochet
   namespace
   {
     template <int dim>
-    const Function<dim> &obstacle_of(const Obstacles<dim>    &obstacles,
-                                     const types::boundary_id boundary_id)
+    const Function<dim> &
+    obstacle_of(const Obstacles<dim>    &obstacles,
+                const types::boundary_id boundary_id)
     {
       const auto entry = obstacles.find(boundary_id);
       AssertThrow(entry != obstacles.end(),
@@ -25,9 +26,10 @@ namespace Ricochet
 
 
   template <int dim>
-  ContactPoints make_quadrature_contact_points(const Body<dim>      &body,
-                                               const LinearElastic  &material,
-                                               const Obstacles<dim> &obstacles)
+  ContactPoints
+  make_quadrature_contact_points(const Body<dim>      &body,
+                                 const LinearElastic  &material,
+                                 const Obstacles<dim> &obstacles)
   {
     const FEValuesExtractors::Vector displacement(0);
     const FiniteElement<dim>        &element = body.dof_handler().get_fe();
@@ -123,8 +125,9 @@ namespace Ricochet
 
 
   template <int dim>
-  ContactPoints make_nodal_contact_points(const Body<dim>      &body,
-                                          const Obstacles<dim> &obstacles)
+  ContactPoints
+  make_nodal_contact_points(const Body<dim>      &body,
+                            const Obstacles<dim> &obstacles)
   {
     const FiniteElement<dim> &element = body.dof_handler().get_fe();
     if (body.has_multipliers() && element.degree > 1)
@@ -264,19 +267,22 @@ namespace Ricochet
   }
 
 
-  template ContactPoints make_quadrature_contact_points(const Body<1> &,
-                                                        const LinearElastic &,
-                                                        const Obstacles<1> &);
-  template ContactPoints make_quadrature_contact_points(const Body<2> &,
-                                                        const LinearElastic &,
-                                                        const Obstacles<2> &);
-  template ContactPoints make_quadrature_contact_points(const Body<3> &,
-                                                        const LinearElastic &,
-                                                        const Obstacles<3> &);
-  template ContactPoints make_nodal_contact_points(const Body<1> &,
-                                                   const Obstacles<1> &);
-  template ContactPoints make_nodal_contact_points(const Body<2> &,
-                                                   const Obstacles<2> &);
-  template ContactPoints make_nodal_contact_points(const Body<3> &,
-                                                   const Obstacles<3> &);
+  template ContactPoints
+  make_quadrature_contact_points(const Body<1> &,
+                                 const LinearElastic &,
+                                 const Obstacles<1> &);
+  template ContactPoints
+  make_quadrature_contact_points(const Body<2> &,
+                                 const LinearElastic &,
+                                 const Obstacles<2> &);
+  template ContactPoints
+  make_quadrature_contact_points(const Body<3> &,
+                                 const LinearElastic &,
+                                 const Obstacles<3> &);
+  template ContactPoints
+  make_nodal_contact_points(const Body<1> &, const Obstacles<1> &);
+  template ContactPoints
+  make_nodal_contact_points(const Body<2> &, const Obstacles<2> &);
+  template ContactPoints
+  make_nodal_contact_points(const Body<3> &, const Obstacles<3> &);
 } // namespace Ricochet

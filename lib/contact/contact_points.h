@@ -64,9 +64,10 @@ namespace Ricochet
    * body.
    */
   template <int dim>
-  ContactPoints make_quadrature_contact_points(const Body<dim>      &body,
-                                               const LinearElastic  &material,
-                                               const Obstacles<dim> &obstacles);
+  ContactPoints
+  make_quadrature_contact_points(const Body<dim>      &body,
+                                 const LinearElastic  &material,
+                                 const Obstacles<dim> &obstacles);
 
   /**
    * Owned nodes of the contact boundary, each with its lumped boundary mass.
@@ -77,8 +78,9 @@ namespace Ricochet
    * quadratic tetrahedra), and for nodal multipliers with degree > 1.
    */
   template <int dim>
-  ContactPoints make_nodal_contact_points(const Body<dim>      &body,
-                                          const Obstacles<dim> &obstacles);
+  ContactPoints
+  make_nodal_contact_points(const Body<dim>      &body,
+                            const Obstacles<dim> &obstacles);
 } // namespace Ricochet
 
 #endif

@@ -20,27 +20,32 @@ namespace Ricochet
     double      penalty_epsilon_0 = .2;
     double      augmentation      = 5.;
 
-    void add_parameters(dealii::ParameterHandler &parameters);
+    void
+    add_parameters(dealii::ParameterHandler &parameters);
   };
 
   /// Names of all contact treatments, as a pattern for Patterns::Selection.
-  std::string contact_treatment_names();
+  std::string
+  contact_treatment_names();
 
   /// The time schemes that can be combined with the treatment of @p parameters
   /// and the kind of mass; in the order of the table of schemes.
-  std::vector<std::string> schemes_allowed(const ContactParameters &parameters,
-                                           const bool redistributed_mass);
+  std::vector<std::string>
+  schemes_allowed(const ContactParameters &parameters,
+                  const bool               redistributed_mass);
 
   /**
    * Refuse a combination of treatment, scheme and mass that has no meaning.
    * @throws InputError that names what is allowed.
    */
-  void check_combination(const ContactParameters &parameters,
-                         const std::string       &scheme,
-                         const bool               redistributed_mass);
+  void
+  check_combination(const ContactParameters &parameters,
+                    const std::string       &scheme,
+                    const bool               redistributed_mass);
 
   /// The multiplier space that the treatment of @p parameters needs.
-  MultiplierSpace multiplier_space(const ContactParameters &parameters);
+  MultiplierSpace
+  multiplier_space(const ContactParameters &parameters);
 
   /// The treatment that @p parameters name, for the time scheme @p scheme, on
   /// @p body against @p obstacles.

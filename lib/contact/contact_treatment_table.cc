@@ -34,13 +34,15 @@ namespace Ricochet
     };
 
     template <typename Law>
-    std::unique_ptr<ContactLaw> pointwise(const Law &law)
+    std::unique_ptr<ContactLaw>
+    pointwise(const Law &law)
     {
       return std::make_unique<ContactLawImplementation<Law>>(law);
     }
 
     /// Nodal, no multipliers, no potential: a constraint.
-    constexpr ContactLawTraits active_set_traits()
+    constexpr ContactLawTraits
+    active_set_traits()
     {
       ContactLawTraits traits;
       traits.nodal         = true;
@@ -50,7 +52,8 @@ namespace Ricochet
 
     // The table of all contact treatments: a new pointwise law is one file in
     // laws/ and one line here.
-    const std::vector<Treatment> &table()
+    const std::vector<Treatment> &
+    table()
     {
       using P                                        = ContactParameters;
       static const std::vector<Treatment> treatments = {
@@ -90,7 +93,8 @@ namespace Ricochet
       return treatments;
     }
 
-    const Treatment &find(const ContactParameters &parameters)
+    const Treatment &
+    find(const ContactParameters &parameters)
     {
       for (const Treatment &treatment : table())
         if (treatment.name == parameters.treatment)
@@ -104,7 +108,8 @@ namespace Ricochet
 
 
 
-  std::string contact_treatment_names()
+  std::string
+  contact_treatment_names()
   {
     std::string names;
     for (const Treatment &treatment : table())
@@ -114,7 +119,8 @@ namespace Ricochet
 
 
 
-  MultiplierSpace multiplier_space(const ContactParameters &parameters)
+  MultiplierSpace
+  multiplier_space(const ContactParameters &parameters)
   {
     return find(parameters).traits.needs_multiplier ? MultiplierSpace::linear
                                                     : MultiplierSpace::none;
@@ -122,8 +128,9 @@ namespace Ricochet
 
 
 
-  std::vector<std::string> schemes_allowed(const ContactParameters &parameters,
-                                           const bool redistributed_mass)
+  std::vector<std::string>
+  schemes_allowed(const ContactParameters &parameters,
+                  const bool               redistributed_mass)
   {
     const ContactLawTraits traits = find(parameters).traits;
     if (traits.is_two_point)
@@ -144,9 +151,10 @@ namespace Ricochet
 
 
 
-  void check_combination(const ContactParameters &parameters,
-                         const std::string       &scheme,
-                         const bool               redistributed_mass)
+  void
+  check_combination(const ContactParameters &parameters,
+                    const std::string       &scheme,
+                    const bool               redistributed_mass)
   {
     const std::vector<std::string> allowed =
       schemes_allowed(parameters, redistributed_mass);
@@ -205,7 +213,8 @@ namespace Ricochet
 
 
 
-  void ContactParameters::add_parameters(ParameterHandler &parameters)
+  void
+  ContactParameters::add_parameters(ParameterHandler &parameters)
   {
     parameters.enter_subsection("Contact");
     parameters.add_parameter("Treatment",

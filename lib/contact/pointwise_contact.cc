@@ -9,9 +9,10 @@ namespace Ricochet
 {
   using dealii::VectorOperation;
 
-  void PointwiseContact::begin_stage(const Vector &old_solution,
-                                     const Vector & /*old_contact_force*/,
-                                     const double weight_)
+  void
+  PointwiseContact::begin_stage(const Vector &old_solution,
+                                const Vector & /*old_contact_force*/,
+                                const double weight_)
   {
     weight = weight_;
     evaluator.evaluate(old_solution, old_state);
@@ -19,7 +20,8 @@ namespace Ricochet
 
 
 
-  void PointwiseContact::evaluate_force(
+  void
+  PointwiseContact::evaluate_force(
     const std::vector<ContactPointState<>> &new_states,
     const std::vector<ContactPointState<>> &old_states,
     Vector                                 &result)
@@ -36,8 +38,8 @@ namespace Ricochet
 
 
 
-  void PointwiseContact::complete_residual(const Vector &solution,
-                                           Vector       &residual)
+  void
+  PointwiseContact::complete_residual(const Vector &solution, Vector &residual)
   {
     evaluator.evaluate(solution, state);
     evaluate_force(state, old_state, force);
@@ -53,7 +55,8 @@ namespace Ricochet
 
 
 
-  void PointwiseContact::complete_tangent(Matrix &tangent) const
+  void
+  PointwiseContact::complete_tangent(Matrix &tangent) const
   {
     for (unsigned int p = 0; p < state.size(); ++p)
       evaluator.add(p,
@@ -67,7 +70,8 @@ namespace Ricochet
 
 
 
-  std::vector<int> PointwiseContact::branches() const
+  std::vector<int>
+  PointwiseContact::branches() const
   {
     std::vector<int> branches(state.size());
     for (unsigned int p = 0; p < state.size(); ++p)
@@ -79,7 +83,8 @@ namespace Ricochet
 
 
 
-  std::optional<std::uint64_t> PointwiseContact::tangent_signature() const
+  std::optional<std::uint64_t>
+  PointwiseContact::tangent_signature() const
   {
     if (!law->traits().piecewise_linear)
       return {};
@@ -88,14 +93,16 @@ namespace Ricochet
 
 
 
-  std::string PointwiseContact::active_set_description() const
+  std::string
+  PointwiseContact::active_set_description() const
   {
     return count_active(branches(), evaluator.communicator);
   }
 
 
 
-  void PointwiseContact::force_at(const Vector &solution, Vector &result)
+  void
+  PointwiseContact::force_at(const Vector &solution, Vector &result)
   {
     // With both states the same, a discrete derivative is the derivative.
     evaluator.evaluate(solution, state);
@@ -109,7 +116,8 @@ namespace Ricochet
 
 
 
-  double PointwiseContact::potential(const Vector &solution)
+  double
+  PointwiseContact::potential(const Vector &solution)
   {
     evaluator.evaluate(solution, state);
     double sum = 0.;
@@ -121,7 +129,8 @@ namespace Ricochet
 
 
 
-  void PointwiseContact::compute_row_scaling()
+  void
+  PointwiseContact::compute_row_scaling()
   {
     scaling = 0.;
     Vector boundary_mass(scaling);
@@ -168,7 +177,8 @@ namespace Ricochet
 
 
 
-  void add_stress_pressure(
+  void
+  add_stress_pressure(
     const Vector                                         &solution,
     ContactPointEvaluator                                &evaluator,
     std::vector<ContactPointState<>>                     &work,
@@ -182,7 +192,8 @@ namespace Ricochet
 
 
 
-  std::map<dealii::types::boundary_id, ContactSummary> reduce_summaries(
+  std::map<dealii::types::boundary_id, ContactSummary>
+  reduce_summaries(
     const std::map<dealii::types::boundary_id, ContactSummary> &my_sums,
     const MPI_Comm                                              communicator)
   {
@@ -220,8 +231,8 @@ namespace Ricochet
 
 
 
-  std::string count_active(const std::vector<int> &values,
-                           const MPI_Comm          communicator)
+  std::string
+  count_active(const std::vector<int> &values, const MPI_Comm communicator)
   {
     unsigned int n_active = 0;
     for (const int value : values)
@@ -236,8 +247,8 @@ namespace Ricochet
 
 
 
-  std::uint64_t global_hash(const std::vector<int> &values,
-                            const MPI_Comm          communicator)
+  std::uint64_t
+  global_hash(const std::vector<int> &values, const MPI_Comm communicator)
   {
     // FNV-1a on each rank, salted with the rank, then a sum over the ranks.
     std::uint64_t hash = 1469598103934665603ull +

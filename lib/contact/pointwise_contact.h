@@ -35,28 +35,37 @@ namespace Ricochet
       compute_row_scaling();
     }
 
-    void begin_stage(const Vector &old_solution,
-                     const Vector &old_contact_force,
-                     const double  weight) override;
+    void
+    begin_stage(const Vector &old_solution,
+                const Vector &old_contact_force,
+                const double  weight) override;
 
-    void complete_residual(const Vector &solution, Vector &residual) override;
+    void
+    complete_residual(const Vector &solution, Vector &residual) override;
 
-    void complete_tangent(Matrix &tangent) const override;
+    void
+    complete_tangent(Matrix &tangent) const override;
 
-    std::optional<std::uint64_t> tangent_signature() const override;
+    std::optional<std::uint64_t>
+    tangent_signature() const override;
 
-    std::string active_set_description() const override;
+    std::string
+    active_set_description() const override;
 
-    const Vector &contact_force() const override
+    const Vector &
+    contact_force() const override
     {
       return force;
     }
 
-    void force_at(const Vector &solution, Vector &force) override;
+    void
+    force_at(const Vector &solution, Vector &force) override;
 
-    double potential(const Vector &solution) override;
+    double
+    potential(const Vector &solution) override;
 
-    const Vector &row_scaling() const override
+    const Vector &
+    row_scaling() const override
     {
       return scaling;
     }
@@ -66,13 +75,16 @@ namespace Ricochet
 
   private:
     /// The law's branch in each point at the last complete_residual().
-    std::vector<int> branches() const;
+    std::vector<int>
+    branches() const;
 
-    void compute_row_scaling();
+    void
+    compute_row_scaling();
 
-    void evaluate_force(const std::vector<ContactPointState<>> &new_state,
-                        const std::vector<ContactPointState<>> &old_state,
-                        Vector                                 &result);
+    void
+    evaluate_force(const std::vector<ContactPointState<>> &new_state,
+                   const std::vector<ContactPointState<>> &old_state,
+                   Vector                                 &result);
 
     const std::unique_ptr<ContactLaw> law;
     ContactPointEvaluator             evaluator;
@@ -87,12 +99,14 @@ namespace Ricochet
 
   /// Complete the entries of @p summaries that are means or totals over all
   /// ranks, from weighted sums on each rank.
-  std::map<dealii::types::boundary_id, ContactSummary> reduce_summaries(
+  std::map<dealii::types::boundary_id, ContactSummary>
+  reduce_summaries(
     const std::map<dealii::types::boundary_id, ContactSummary> &my_sums,
     const MPI_Comm                                              communicator);
 
   /// Add the weighted stress pressures of @p evaluator to @p sums.
-  void add_stress_pressure(
+  void
+  add_stress_pressure(
     const Vector                                         &solution,
     ContactPointEvaluator                                &evaluator,
     std::vector<ContactPointState<>>                     &work,
@@ -100,12 +114,12 @@ namespace Ricochet
 
   /// "3 of 20": the number of entries of @p values that are not zero, and of
   /// all, on all ranks.
-  std::string count_active(const std::vector<int> &values,
-                           const MPI_Comm          communicator);
+  std::string
+  count_active(const std::vector<int> &values, const MPI_Comm communicator);
 
   /// Hash of a sequence of small integers on all ranks, the same on all.
-  std::uint64_t global_hash(const std::vector<int> &values,
-                            const MPI_Comm          communicator);
+  std::uint64_t
+  global_hash(const std::vector<int> &values, const MPI_Comm communicator);
 } // namespace Ricochet
 
 #endif

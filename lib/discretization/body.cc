@@ -84,7 +84,8 @@ namespace Ricochet
 
 
   template <int dim>
-  void Body<dim>::number_multipliers()
+  void
+  Body<dim>::number_multipliers()
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
@@ -189,7 +190,8 @@ namespace Ricochet
 
 
   template <int dim>
-  void Body<dim>::make_sparsity_pattern()
+  void
+  Body<dim>::make_sparsity_pattern()
   {
     pattern.reinit(owned, owned, relevant, communicator);
     std::vector<types::global_dof_index> cell_dofs(
@@ -225,8 +227,8 @@ namespace Ricochet
 
 
   template <int dim>
-  void Body<dim>::interpolate(const Function<dim> &function,
-                              Vector              &vector) const
+  void
+  Body<dim>::interpolate(const Function<dim> &function, Vector &vector) const
   {
     Vector displacement(displacement_dofs.locally_owned_dofs(), communicator);
     VectorTools::interpolate(*geometry,
@@ -243,7 +245,8 @@ namespace Ricochet
 
 
   template <int dim>
-  Vector Body<dim>::displacement_part(const Vector &vector) const
+  Vector
+  Body<dim>::displacement_part(const Vector &vector) const
   {
     Vector displacement(displacement_dofs.locally_owned_dofs(), communicator);
     for (const types::global_dof_index i :
@@ -261,7 +264,8 @@ namespace Ricochet
 
 
   template <int dim>
-  Vector Body<dim>::make_vector() const
+  Vector
+  Body<dim>::make_vector() const
   {
     return Vector(owned, communicator);
   }
@@ -269,7 +273,8 @@ namespace Ricochet
 
 
   template <int dim>
-  Vector Body<dim>::make_ghosted_vector() const
+  Vector
+  Body<dim>::make_ghosted_vector() const
   {
     return Vector(owned, relevant, communicator);
   }

@@ -69,37 +69,44 @@ namespace Ricochet
 
     /// Nodal interpolation of @p function (dim components) into the
     /// displacement part of @p vector.
-    void interpolate(const dealii::Function<dim> &function,
-                     Vector                      &vector) const;
+    void
+    interpolate(const dealii::Function<dim> &function, Vector &vector) const;
 
     /// The displacement part of a system vector, with ghost values, in the
     /// numbering of dof_handler(): for output and error norms.
-    Vector displacement_part(const Vector &vector) const;
+    Vector
+    displacement_part(const Vector &vector) const;
 
     /// An empty system vector on the owned unknowns.
-    Vector make_vector() const;
+    Vector
+    make_vector() const;
 
     /// A system vector that also holds ghost values.
-    Vector make_ghosted_vector() const;
+    Vector
+    make_ghosted_vector() const;
 
     /// The sparsity pattern of all system matrices.
-    const dealii::TrilinosWrappers::SparsityPattern &sparsity_pattern() const
+    const dealii::TrilinosWrappers::SparsityPattern &
+    sparsity_pattern() const
     {
       return pattern;
     }
 
-    const dealii::DoFHandler<dim> &dof_handler() const
+    const dealii::DoFHandler<dim> &
+    dof_handler() const
     {
       return displacement_dofs;
     }
 
-    const dealii::DoFHandler<dim> &multiplier_dof_handler() const
+    const dealii::DoFHandler<dim> &
+    multiplier_dof_handler() const
     {
       return multiplier_dofs;
     }
 
     /// The cell of multiplier_dof_handler() behind @p cell of dof_handler().
-    typename dealii::DoFHandler<dim>::active_cell_iterator multiplier_cell(
+    typename dealii::DoFHandler<dim>::active_cell_iterator
+    multiplier_cell(
       const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const
     {
       return {&displacement_dofs.get_triangulation(),
@@ -108,57 +115,67 @@ namespace Ricochet
               &multiplier_dofs};
     }
 
-    bool has_multipliers() const
+    bool
+    has_multipliers() const
     {
       return multipliers != MultiplierSpace::none;
     }
 
-    const dealii::Mapping<dim> &mapping() const
+    const dealii::Mapping<dim> &
+    mapping() const
     {
       return *geometry;
     }
 
-    const dealii::Quadrature<dim> &cell_quadrature() const
+    const dealii::Quadrature<dim> &
+    cell_quadrature() const
     {
       return *cell_rule;
     }
 
-    const dealii::Quadrature<dim - 1> &face_quadrature() const
+    const dealii::Quadrature<dim - 1> &
+    face_quadrature() const
     {
       return *face_rule;
     }
 
-    const BoundaryIds &contact_boundary_ids() const
+    const BoundaryIds &
+    contact_boundary_ids() const
     {
       return contact_ids;
     }
 
     /// Owned system indices whose displacement is prescribed to be zero.
-    const dealii::IndexSet &clamped_indices() const
+    const dealii::IndexSet &
+    clamped_indices() const
     {
       return clamped;
     }
 
     /// Owned system indices of all displacements of nodes on the contact
     /// boundary: the ones that mass redistribution frees of inertia.
-    const dealii::IndexSet &contact_indices() const
+    const dealii::IndexSet &
+    contact_indices() const
     {
       return contact_displacements;
     }
 
     /// Owned system indices of the multipliers.
-    const dealii::IndexSet &multiplier_indices() const
+    const dealii::IndexSet &
+    multiplier_indices() const
     {
       return owned_multipliers;
     }
 
-    const dealii::IndexSet &owned_indices() const
+    const dealii::IndexSet &
+    owned_indices() const
     {
       return owned;
     }
 
     /// Owned and ghost indices.
-    const dealii::IndexSet &relevant_indices() const
+    const dealii::IndexSet &
+    relevant_indices() const
     {
       return relevant;
     }
@@ -166,9 +183,11 @@ namespace Ricochet
     const MPI_Comm communicator;
 
   private:
-    void number_multipliers();
+    void
+    number_multipliers();
 
-    void make_sparsity_pattern();
+    void
+    make_sparsity_pattern();
 
     std::unique_ptr<dealii::FESystem<dim>>       displacement_element;
     std::unique_ptr<dealii::FiniteElement<dim>>  multiplier_element;

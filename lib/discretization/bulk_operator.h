@@ -21,24 +21,29 @@ namespace Ricochet
     virtual ~BulkOperator() = default;
 
     /// @p force = derivative of the stored energy at @p solution (N).
-    virtual void force(const Vector &solution, Vector &force) const = 0;
+    virtual void
+    force(const Vector &solution, Vector &force) const = 0;
 
     /// @p force with force . (new - old) = energy(new) - energy(old).
-    virtual void discrete_derivative(const Vector &old_solution,
-                                     const Vector &new_solution,
-                                     Vector       &force) const = 0;
+    virtual void
+    discrete_derivative(const Vector &old_solution,
+                        const Vector &new_solution,
+                        Vector       &force) const = 0;
 
     /// @p tangent += @p factor times the derivative of force().
-    virtual void add_tangent(const double  factor,
-                             const Vector &solution,
-                             Matrix       &tangent) const = 0;
+    virtual void
+    add_tangent(const double  factor,
+                const Vector &solution,
+                Matrix       &tangent) const = 0;
 
     /// Stored energy (J).
-    virtual double energy(const Vector &solution) const = 0;
+    virtual double
+    energy(const Vector &solution) const = 0;
 
     /// Whether the tangent is the same for all states, so that factorisations
     /// can be kept.
-    virtual bool is_linear() const = 0;
+    virtual bool
+    is_linear() const = 0;
   };
 } // namespace Ricochet
 

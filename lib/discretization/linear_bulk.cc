@@ -15,11 +15,12 @@ namespace Ricochet
     /// The cell loop of all constant matrices. @p integrand gets the FEValues
     /// and a quadrature point and adds to the cell matrix.
     template <int dim>
-    Matrix assemble(const Body<dim>                                 &body,
-                    const UpdateFlags                                flags,
-                    const std::function<void(const FEValues<dim> &,
-                                             const unsigned int,
-                                             FullMatrix<double> &)> &integrand)
+    Matrix
+    assemble(const Body<dim>                                 &body,
+             const UpdateFlags                                flags,
+             const std::function<void(const FEValues<dim> &,
+                                      const unsigned int,
+                                      FullMatrix<double> &)> &integrand)
     {
       Matrix matrix;
       matrix.reinit(body.sparsity_pattern());
@@ -79,7 +80,8 @@ namespace Ricochet
 
 
   template <int dim>
-  void LinearBulk<dim>::force(const Vector &solution, Vector &force) const
+  void
+  LinearBulk<dim>::force(const Vector &solution, Vector &force) const
   {
     stiffness.vmult(force, solution);
   }
@@ -87,9 +89,10 @@ namespace Ricochet
 
 
   template <int dim>
-  void LinearBulk<dim>::discrete_derivative(const Vector &old_solution,
-                                            const Vector &new_solution,
-                                            Vector       &force) const
+  void
+  LinearBulk<dim>::discrete_derivative(const Vector &old_solution,
+                                       const Vector &new_solution,
+                                       Vector       &force) const
   {
     midpoint = old_solution;
     midpoint.sadd(.5, .5, new_solution);
@@ -99,9 +102,10 @@ namespace Ricochet
 
 
   template <int dim>
-  void LinearBulk<dim>::add_tangent(const double factor,
-                                    const Vector & /*solution*/,
-                                    Matrix &tangent) const
+  void
+  LinearBulk<dim>::add_tangent(const double factor,
+                               const Vector & /*solution*/,
+                               Matrix &tangent) const
   {
     tangent.add(factor, stiffness);
   }
@@ -109,7 +113,8 @@ namespace Ricochet
 
 
   template <int dim>
-  double LinearBulk<dim>::energy(const Vector &solution) const
+  double
+  LinearBulk<dim>::energy(const Vector &solution) const
   {
     stiffness.vmult(midpoint, solution);
     return .5 * (midpoint * solution);
@@ -118,7 +123,8 @@ namespace Ricochet
 
 
   template <int dim>
-  Matrix assemble_mass_matrix(const Body<dim> &body, const double density)
+  Matrix
+  assemble_mass_matrix(const Body<dim> &body, const double density)
   {
     const FEValuesExtractors::Vector displacement(0);
     return assemble<dim>(body,
@@ -140,7 +146,10 @@ namespace Ricochet
   template class LinearBulk<1>;
   template class LinearBulk<2>;
   template class LinearBulk<3>;
-  template Matrix assemble_mass_matrix(const Body<1> &, const double);
-  template Matrix assemble_mass_matrix(const Body<2> &, const double);
-  template Matrix assemble_mass_matrix(const Body<3> &, const double);
+  template Matrix
+  assemble_mass_matrix(const Body<1> &, const double);
+  template Matrix
+  assemble_mass_matrix(const Body<2> &, const double);
+  template Matrix
+  assemble_mass_matrix(const Body<3> &, const double);
 } // namespace Ricochet

@@ -19,24 +19,30 @@ namespace Ricochet
   public:
     LinearBulk(const Body<dim> &body, const LinearElastic &material);
 
-    void force(const Vector &solution, Vector &force) const override;
+    void
+    force(const Vector &solution, Vector &force) const override;
 
-    void discrete_derivative(const Vector &old_solution,
-                             const Vector &new_solution,
-                             Vector       &force) const override;
+    void
+    discrete_derivative(const Vector &old_solution,
+                        const Vector &new_solution,
+                        Vector       &force) const override;
 
-    void add_tangent(const double  factor,
-                     const Vector &solution,
-                     Matrix       &tangent) const override;
+    void
+    add_tangent(const double  factor,
+                const Vector &solution,
+                Matrix       &tangent) const override;
 
-    double energy(const Vector &solution) const override;
+    double
+    energy(const Vector &solution) const override;
 
-    bool is_linear() const override
+    bool
+    is_linear() const override
     {
       return true;
     }
 
-    const Matrix &stiffness_matrix() const
+    const Matrix &
+    stiffness_matrix() const
     {
       return stiffness;
     }
@@ -50,7 +56,8 @@ namespace Ricochet
   /// Consistent mass matrix (kg) of @p body with the constant @p density
   /// (kg/m^dim).
   template <int dim>
-  Matrix assemble_mass_matrix(const Body<dim> &body, const double density);
+  Matrix
+  assemble_mass_matrix(const Body<dim> &body, const double density);
 } // namespace Ricochet
 
 #endif

@@ -61,7 +61,8 @@ namespace Ricochet
 
 
 
-  std::pair<double, double> BarCharacteristics::invariants(const double x) const
+  std::pair<double, double>
+  BarCharacteristics::invariants(const double x) const
   {
     // u_t + u_x travels to the left, from the right end or from time 0.
     const double t              = get_time();
@@ -78,7 +79,8 @@ namespace Ricochet
 
 
 
-  double BarCharacteristics::velocity(const double x) const
+  double
+  BarCharacteristics::velocity(const double x) const
   {
     const auto [left_going, right_going] = invariants(x);
     return .5 * (left_going + right_going);
@@ -86,8 +88,8 @@ namespace Ricochet
 
 
 
-  Tensor<1, 1> BarCharacteristics::gradient(const Point<1> &x,
-                                            const unsigned int) const
+  Tensor<1, 1>
+  BarCharacteristics::gradient(const Point<1> &x, const unsigned int) const
   {
     const auto [left_going, right_going] = invariants(x[0]);
     Tensor<1, 1> gradient;
@@ -97,7 +99,8 @@ namespace Ricochet
 
 
 
-  double BarCharacteristics::value(const Point<1> &x, const unsigned int) const
+  double
+  BarCharacteristics::value(const Point<1> &x, const unsigned int) const
   {
     // Displacement of the left end, then the integral of the strain, which is
     // constant between the two characteristics that leave the ends at integer
@@ -118,7 +121,8 @@ namespace Ricochet
 
 
 
-  double BarCharacteristics::end_pressure(const unsigned int end) const
+  double
+  BarCharacteristics::end_pressure(const unsigned int end) const
   {
     return -gradient(Point<1>(end == 0 ? 0. : 1.))[0];
   }

@@ -46,8 +46,9 @@ namespace Ricochet
                        const double final_time);
 
     /// u(x, t) (m) at the time of set_time().
-    double value(const dealii::Point<1> &x,
-                 const unsigned int      component = 0) const override;
+    double
+    value(const dealii::Point<1> &x,
+          const unsigned int      component = 0) const override;
 
     /// u_x(x, t); at a jump, the value on its right.
     dealii::Tensor<1, 1>
@@ -55,15 +56,18 @@ namespace Ricochet
              const unsigned int      component = 0) const override;
 
     /// u_t(x, t) (m/s) at the time of set_time().
-    double velocity(const double x) const;
+    double
+    velocity(const double x) const;
 
     /// Pressure -u_x on an end (0 left, 1 right) at the time of set_time() (Pa
     /// for unit modulus).
-    double end_pressure(const unsigned int end) const;
+    double
+    end_pressure(const unsigned int end) const;
 
   private:
     /// u_t + u_x and u_t - u_x at @p x and the time of set_time().
-    std::pair<double, double> invariants(const double x) const;
+    std::pair<double, double>
+    invariants(const double x) const;
 
     const double initial_left_displacement;
     const double initial_left_going, initial_right_going;

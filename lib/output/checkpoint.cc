@@ -24,7 +24,8 @@ namespace Ricochet
 
     /// The vectors of a state, in the order in which they are stored.
     template <typename StateType, typename Visitor>
-    void for_each_vector(StateType &state, const Visitor &visit)
+    void
+    for_each_vector(StateType &state, const Visitor &visit)
     {
       visit(state.solution);
       visit(state.velocity);
@@ -43,13 +44,15 @@ namespace Ricochet
       std::vector<std::vector<double>> values_of_rank;
 
       template <typename Archive>
-      void serialize(Archive &archive, const unsigned int /*version*/)
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
       {
         archive &parameters &step &time &sums &values_of_rank;
       }
     };
 
-    std::uint32_t checksum(const std::string &data)
+    std::uint32_t
+    checksum(const std::string &data)
     {
       boost::crc_32_type crc;
       crc.process_bytes(data.data(), data.size());
@@ -59,7 +62,8 @@ namespace Ricochet
 
 
 
-  void Checkpoint::write(const RunFolder &folder) const
+  void
+  Checkpoint::write(const RunFolder &folder) const
   {
     std::vector<double> my_values;
     for_each_vector(state, [&](const Vector &vector) {
@@ -104,8 +108,8 @@ namespace Ricochet
 
 
 
-  Checkpoint Checkpoint::read(const RunFolder &folder,
-                              const Vector    &empty_vector)
+  Checkpoint
+  Checkpoint::read(const RunFolder &folder, const Vector &empty_vector)
   {
     const std::string file = folder.file(file_name);
     const auto        fail = [&](const std::string &why) {

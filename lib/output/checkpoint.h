@@ -21,7 +21,8 @@ namespace Ricochet
      * takes the place of the first, so that there is a whole checkpoint at any
      * time.
      */
-    void write(const RunFolder &folder) const;
+    void
+    write(const RunFolder &folder) const;
 
     /**
      * Read what write() has written, on the same number of ranks and with the
@@ -31,7 +32,8 @@ namespace Ricochet
      * @throws InputError no checkpoint, truncated or damaged, other parameters,
      * other number of ranks.
      */
-    static Checkpoint read(const RunFolder &folder, const Vector &empty_vector);
+    static Checkpoint
+    read(const RunFolder &folder, const Vector &empty_vector);
   };
 } // namespace Ricochet
 

@@ -16,7 +16,8 @@ namespace Ricochet
   namespace
   {
     /// 17 digits: a double read back is the double that was written.
-    std::string format_row(const std::vector<double> &row)
+    std::string
+    format_row(const std::vector<double> &row)
     {
       std::string line;
       char        number[32];
@@ -31,8 +32,8 @@ namespace Ricochet
 
 
 
-  unsigned int EnergyLedger::add_column(const std::string &name,
-                                        const std::string &unit)
+  unsigned int
+  EnergyLedger::add_column(const std::string &name, const std::string &unit)
   {
     AssertThrow(row_list.empty(), ExcMessage("Columns come before rows."));
     column_list.push_back({name, unit});
@@ -41,7 +42,8 @@ namespace Ricochet
 
 
 
-  unsigned int EnergyLedger::column_number(const std::string &name) const
+  unsigned int
+  EnergyLedger::column_number(const std::string &name) const
   {
     for (unsigned int i = 0; i < column_list.size(); ++i)
       if (column_list[i].name == name)
@@ -52,7 +54,8 @@ namespace Ricochet
 
 
 
-  std::string EnergyLedger::header() const
+  std::string
+  EnergyLedger::header() const
   {
     std::string line;
     for (const Column &column : column_list)
@@ -63,7 +66,8 @@ namespace Ricochet
 
 
 
-  void EnergyLedger::start()
+  void
+  EnergyLedger::start()
   {
     if (!folder.is_root)
       return;
@@ -73,7 +77,8 @@ namespace Ricochet
 
 
 
-  void EnergyLedger::resume(const unsigned int n_rows)
+  void
+  EnergyLedger::resume(const unsigned int n_rows)
   {
     // Every rank reads: the rows are also needed for sums over the whole run.
     const std::string file = folder.file("energy.csv");
@@ -117,7 +122,8 @@ namespace Ricochet
 
 
 
-  void EnergyLedger::add_row(const std::vector<double> &row)
+  void
+  EnergyLedger::add_row(const std::vector<double> &row)
   {
     AssertDimension(row.size(), column_list.size());
     row_list.push_back(row);
@@ -135,7 +141,8 @@ namespace Ricochet
 
 
 
-  void EnergyLedger::write_hdf5() const
+  void
+  EnergyLedger::write_hdf5() const
   {
     if (!folder.is_root)
       return;

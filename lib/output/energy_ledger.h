@@ -31,40 +31,49 @@ namespace Ricochet
     {}
 
     /// Before the first row: @return the column's number.
-    unsigned int add_column(const std::string &name, const std::string &unit);
+    unsigned int
+    add_column(const std::string &name, const std::string &unit);
 
     /// Begin `energy.csv`.
-    void start();
+    void
+    start();
 
     /**
      * Go on with the table that the folder holds: keep its first @p n_rows rows
      * and drop what a later part of an earlier run has added.
      * @throws InputError when it has other columns or fewer rows.
      */
-    void resume(const unsigned int n_rows);
+    void
+    resume(const unsigned int n_rows);
 
     /// Append one row and write it. @throws ComputationError when the disk is
     /// full.
-    void add_row(const std::vector<double> &row);
+    void
+    add_row(const std::vector<double> &row);
 
     /// Write `energy.h5`.
-    void write_hdf5() const;
+    void
+    write_hdf5() const;
 
-    const std::vector<Column> &columns() const
+    const std::vector<Column> &
+    columns() const
     {
       return column_list;
     }
 
-    const std::vector<std::vector<double>> &rows() const
+    const std::vector<std::vector<double>> &
+    rows() const
     {
       return row_list;
     }
 
     /// Number of the column called @p name.
-    unsigned int column_number(const std::string &name) const;
+    unsigned int
+    column_number(const std::string &name) const;
 
   private:
-    std::string header() const;
+    std::string
+    header() const;
 
     RunFolder                       &folder;
     std::vector<Column>              column_list;

@@ -47,8 +47,9 @@ namespace Ricochet
 
 
   template <int dim>
-  double NodeProbe<dim>::value(const Vector      &vector,
-                               const unsigned int component) const
+  double
+  NodeProbe<dim>::value(const Vector      &vector,
+                        const unsigned int component) const
   {
     return Utilities::MPI::sum(
       indices.empty() ? 0. : static_cast<double>(vector(indices[component])),

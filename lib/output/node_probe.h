@@ -14,7 +14,8 @@ namespace Ricochet
     NodeProbe(const Body<dim> &body, const dealii::Point<dim> &point);
 
     /// Component @p component of @p vector in the node; collective.
-    double value(const Vector &vector, const unsigned int component = 0) const;
+    double
+    value(const Vector &vector, const unsigned int component = 0) const;
 
   private:
     const MPI_Comm communicator;

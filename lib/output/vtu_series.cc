@@ -22,7 +22,8 @@ namespace Ricochet
         , material(material)
       {}
 
-      void evaluate_vector_field(
+      void
+      evaluate_vector_field(
         const DataPostprocessorInputs::Vector<dim> &inputs,
         std::vector<dealii::Vector<double>>        &stresses) const override
       {
@@ -41,7 +42,8 @@ namespace Ricochet
       }
 
       /// In 1D deal.II takes a field of one component for a scalar.
-      void evaluate_scalar_field(
+      void
+      evaluate_scalar_field(
         const DataPostprocessorInputs::Scalar<dim> &inputs,
         std::vector<dealii::Vector<double>>        &stresses) const override
       {
@@ -98,7 +100,8 @@ namespace Ricochet
 
 
   template <int dim>
-  void VtuSeries<dim>::write(const State &state, const unsigned int step)
+  void
+  VtuSeries<dim>::write(const State &state, const unsigned int step)
   {
     const Vector displacement = body.displacement_part(state.solution);
     const Vector velocity     = body.displacement_part(state.velocity);

@@ -24,7 +24,8 @@ namespace Ricochet
 
     /// Write @p state as step number @p step. A step that is written again,
     /// after a resumed run, takes the place of the old one.
-    void write(const State &state, const unsigned int step);
+    void
+    write(const State &state, const unsigned int step);
 
   private:
     const Body<dim>    &body;

@@ -13,7 +13,8 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  void BarParameters::add_parameters(ParameterHandler &parameters)
+  void
+  BarParameters::add_parameters(ParameterHandler &parameters)
   {
     impact.add_parameters(parameters);
     parameters.enter_subsection("Mesh");
@@ -31,7 +32,8 @@ namespace Ricochet
 
 
 
-  void BarParameters::validate() const
+  void
+  BarParameters::validate() const
   {
     impact.validate();
     const double n_elements = 1. / mesh_size;
@@ -48,8 +50,9 @@ namespace Ricochet
 
 
 
-  void make_bar_grid(const double                        mesh_size,
-                     parallel::shared::Triangulation<1> &triangulation)
+  void
+  make_bar_grid(const double                        mesh_size,
+                parallel::shared::Triangulation<1> &triangulation)
   {
     GridGenerator::subdivided_hyper_cube(triangulation,
                                          static_cast<unsigned int>(
@@ -63,10 +66,11 @@ namespace Ricochet
 
 
 
-  void add_bar_end_columns(const types::boundary_id end,
-                           const Body<1>           &body,
-                           BarCharacteristics      &exact,
-                           TimeLoop                &loop)
+  void
+  add_bar_end_columns(const types::boundary_id end,
+                      const Body<1>           &body,
+                      BarCharacteristics      &exact,
+                      TimeLoop                &loop)
   {
     const std::string name = end == BarEnds::left ? "left" : "right";
     const Point<1>    x(end == BarEnds::left ? 0. : 1.);
@@ -100,9 +104,10 @@ namespace Ricochet
 
 
 
-  void add_bar_error_column(const Body<1>      &body,
-                            BarCharacteristics &exact,
-                            TimeLoop           &loop)
+  void
+  add_bar_error_column(const Body<1>      &body,
+                       BarCharacteristics &exact,
+                       TimeLoop           &loop)
   {
     // Kinks of the exact solution lie on nodes when the time step is a multiple
     // of the mesh size; the finer rule takes care of other time steps.
@@ -130,7 +135,8 @@ namespace Ricochet
 
 
 
-  double bar_error_norm(const double time_step, const TimeLoop &loop)
+  double
+  bar_error_norm(const double time_step, const TimeLoop &loop)
   {
     const EnergyLedger &ledger = loop.energy_ledger();
     const unsigned int  column = ledger.column_number("h1_error");

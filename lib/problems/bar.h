@@ -21,11 +21,13 @@ namespace Ricochet
     double       mesh_size = .05;
     unsigned int degree    = 1;
 
-    void add_parameters(dealii::ParameterHandler &parameters);
+    void
+    add_parameters(dealii::ParameterHandler &parameters);
 
     /// @throws InputError mesh size that does not divide the bar, combination
     /// without meaning.
-    void validate() const;
+    void
+    validate() const;
   };
 
   /// Boundary ids of the ends of the bar.
@@ -37,27 +39,31 @@ namespace Ricochet
 
   /// The bar 0 < x < 1 in elements of length @p mesh_size; every rank stores
   /// the whole mesh and works on its part.
-  void make_bar_grid(const double                                mesh_size,
-                     dealii::parallel::shared::Triangulation<1> &triangulation);
+  void
+  make_bar_grid(const double                                mesh_size,
+                dealii::parallel::shared::Triangulation<1> &triangulation);
 
   /**
    * Add to the ledger of @p loop, for the end @p end called "left" or "right":
    * displacement and velocity, computed and exact, and the exact pressure.
    * @p body and @p exact must live as long as the loop.
    */
-  void add_bar_end_columns(const dealii::types::boundary_id end,
-                           const Body<1>                   &body,
-                           BarCharacteristics              &exact,
-                           TimeLoop                        &loop);
+  void
+  add_bar_end_columns(const dealii::types::boundary_id end,
+                      const Body<1>                   &body,
+                      BarCharacteristics              &exact,
+                      TimeLoop                        &loop);
 
   /// Add the column `h1_error`: the H^1 norm of the error at each time.
-  void add_bar_error_column(const Body<1>      &body,
-                            BarCharacteristics &exact,
-                            TimeLoop           &loop);
+  void
+  add_bar_error_column(const Body<1>      &body,
+                       BarCharacteristics &exact,
+                       TimeLoop           &loop);
 
   /// The norm of the error in L^2(0, T; H^1) over the run of @p loop, by the
   /// rectangle rule (paper C, figure 10).
-  double bar_error_norm(const double time_step, const TimeLoop &loop);
+  double
+  bar_error_norm(const double time_step, const TimeLoop &loop);
 } // namespace Ricochet
 
 #endif

@@ -5,7 +5,8 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  void ImpactParameters::add_parameters(ParameterHandler &parameters)
+  void
+  ImpactParameters::add_parameters(ParameterHandler &parameters)
   {
     contact.add_parameters(parameters);
     scheme.add_parameters(parameters);
@@ -25,7 +26,8 @@ namespace Ricochet
 
 
 
-  void ImpactParameters::validate() const
+  void
+  ImpactParameters::validate() const
   {
     check_combination(contact, scheme.name, redistributed_mass());
   }

@@ -5,7 +5,7 @@
 #include <contact/contact_treatment.h>
 #include <solvers/direct_solver.h>
 #include <solvers/newton.h>
-#include <time_integration/time_loop.h>
+#include <problems/time_loop.h>
 #include <time_integration/time_scheme.h>
 
 namespace Ricochet
@@ -21,12 +21,15 @@ namespace Ricochet
     /// "consistent" or "redistributed".
     std::string mass = "consistent";
 
-    void add_parameters(dealii::ParameterHandler &parameters);
+    void
+    add_parameters(dealii::ParameterHandler &parameters);
 
     /// Refuse combinations without meaning. @throws InputError
-    void validate() const;
+    void
+    validate() const;
 
-    bool redistributed_mass() const
+    bool
+    redistributed_mass() const
     {
       return mass == "redistributed";
     }

@@ -19,9 +19,10 @@ namespace Ricochet
     }
 
     template <int dim>
-    Matrix inertia(const bool       redistributed,
-                   const Body<dim> &body,
-                   const Matrix    &consistent_mass)
+    Matrix
+    inertia(const bool       redistributed,
+            const Body<dim> &body,
+            const Matrix    &consistent_mass)
     {
       if (redistributed)
         return redistribute_mass(body, consistent_mass);

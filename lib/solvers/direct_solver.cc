@@ -6,7 +6,8 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  void DirectSolver::Parameters::add_parameters(ParameterHandler &parameters)
+  void
+  DirectSolver::Parameters::add_parameters(ParameterHandler &parameters)
   {
     parameters.enter_subsection("Linear solver");
     parameters.add_parameter(
@@ -27,7 +28,8 @@ namespace Ricochet
 
 
 
-  std::string DirectSolver::chosen_type(const std::size_t n_unknowns) const
+  std::string
+  DirectSolver::chosen_type(const std::size_t n_unknowns) const
   {
     if (parameters.type != "automatic")
       return parameters.type;
@@ -36,10 +38,11 @@ namespace Ricochet
 
 
 
-  void DirectSolver::solve(const std::optional<Key>            &key,
-                           const std::function<void(Matrix &)> &assemble,
-                           const Vector                        &right_hand_side,
-                           Vector                              &solution)
+  void
+  DirectSolver::solve(const std::optional<Key>            &key,
+                      const std::function<void(Matrix &)> &assemble,
+                      const Vector                        &right_hand_side,
+                      Vector                              &solution)
   {
     auto entry = kept.begin();
     if (key)

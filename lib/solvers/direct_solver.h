@@ -32,7 +32,8 @@ namespace Ricochet
       std::string  type   = "automatic";
       unsigned int n_kept = 8;
 
-      void add_parameters(dealii::ParameterHandler &parameters);
+      void
+      add_parameters(dealii::ParameterHandler &parameters);
     };
 
     /// What names a tangent: numbers that it depends on, and a hash of the
@@ -44,7 +45,8 @@ namespace Ricochet
       double        contact_weight;
       std::uint64_t contact_signature;
 
-      bool operator==(const Key &other) const
+      bool
+      operator==(const Key &other) const
       {
         return inertia == other.inertia && bulk_weight == other.bulk_weight &&
           contact_weight == other.contact_weight &&
@@ -64,19 +66,22 @@ namespace Ricochet
      * factorisation for @p key.
      * @throws NewtonFailure when the matrix cannot be factored.
      */
-    void solve(const std::optional<Key>            &key,
-               const std::function<void(Matrix &)> &assemble,
-               const Vector                        &right_hand_side,
-               Vector                              &solution);
+    void
+    solve(const std::optional<Key>            &key,
+          const std::function<void(Matrix &)> &assemble,
+          const Vector                        &right_hand_side,
+          Vector                              &solution);
 
     /// Number of factorisations made so far.
-    unsigned int n_factorisations() const
+    unsigned int
+    n_factorisations() const
     {
       return factorisation_count;
     }
 
     /// The solver that is used for @p n_unknowns, "KLU" or "MUMPS".
-    std::string chosen_type(const std::size_t n_unknowns) const;
+    std::string
+    chosen_type(const std::size_t n_unknowns) const;
 
   private:
     // The entry owns its matrix because the solver refers to it.

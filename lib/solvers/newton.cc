@@ -10,7 +10,8 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  void NewtonSolver::Parameters::add_parameters(ParameterHandler &parameters)
+  void
+  NewtonSolver::Parameters::add_parameters(ParameterHandler &parameters)
   {
     parameters.enter_subsection("Newton");
     parameters.add_parameter(
@@ -36,7 +37,8 @@ namespace Ricochet
 
 
 
-  void NewtonSolver::fail(const std::string &reason) const
+  void
+  NewtonSolver::fail(const std::string &reason) const
   {
     std::ostringstream text;
     text << "Newton's method failed: " << reason << "\n"

@@ -27,7 +27,8 @@ namespace Ricochet
       unsigned int max_iterations    = 30;
       unsigned int line_search_after = 10;
 
-      void add_parameters(dealii::ParameterHandler &parameters);
+      void
+      add_parameters(dealii::ParameterHandler &parameters);
     };
 
     /// The equations, as functions of the solution.
@@ -72,11 +73,12 @@ namespace Ricochet
      * @throws NewtonFailure with the table of all iterations in its text: not
      * converged in the allowed number of iterations, or not finite.
      */
-    const std::vector<Iteration> &solve(const Problem &problem,
-                                        Vector        &solution);
+    const std::vector<Iteration> &
+    solve(const Problem &problem, Vector &solution);
 
   private:
-    [[noreturn]] void fail(const std::string &reason) const;
+    [[noreturn]] void
+    fail(const std::string &reason) const;
 
     const Parameters       parameters;
     std::vector<Iteration> history;

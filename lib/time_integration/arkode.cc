@@ -19,10 +19,11 @@ namespace Ricochet
 
 
 
-  StepReport ARKode::step(SemiDiscreteSystem &system,
-                          const State        &old_state,
-                          const double        time_step,
-                          State              &new_state)
+  StepReport
+  ARKode::step(SemiDiscreteSystem &system,
+               const State        &old_state,
+               const double        time_step,
+               State              &new_state)
   {
     // (displacement, velocity)
     using BlockVector = TrilinosWrappers::MPI::BlockVector;

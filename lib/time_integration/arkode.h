@@ -22,10 +22,11 @@ namespace Ricochet
   public:
     ARKode(const double relative_tolerance, const double absolute_tolerance);
 
-    StepReport step(SemiDiscreteSystem &system,
-                    const State        &old_state,
-                    const double        time_step,
-                    State              &new_state) override;
+    StepReport
+    step(SemiDiscreteSystem &system,
+         const State        &old_state,
+         const double        time_step,
+         State              &new_state) override;
 
   private:
     const double relative_tolerance, absolute_tolerance;

@@ -13,10 +13,11 @@ namespace Ricochet
 
 
 
-  StepReport HHT::step(SemiDiscreteSystem &system,
-                       const State        &old_state,
-                       const double        time_step,
-                       State              &new_state)
+  StepReport
+  HHT::step(SemiDiscreteSystem &system,
+            const State        &old_state,
+            const double        time_step,
+            State              &new_state)
   {
     const double dt = time_step;
     new_state       = old_state;
@@ -107,10 +108,11 @@ namespace Ricochet
 
 
 
-  void add_trapezoidal_works(const SemiDiscreteSystem &system,
-                             const State              &old_state,
-                             const State              &new_state,
-                             StepReport               &report)
+  void
+  add_trapezoidal_works(const SemiDiscreteSystem &system,
+                        const State              &old_state,
+                        const State              &new_state,
+                        StepReport               &report)
   {
     Vector increment(new_state.solution);
     increment -= old_state.solution;

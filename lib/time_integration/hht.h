@@ -20,10 +20,11 @@ namespace Ricochet
   public:
     explicit HHT(const double alpha);
 
-    StepReport step(SemiDiscreteSystem &system,
-                    const State        &old_state,
-                    const double        time_step,
-                    State              &new_state) override;
+    StepReport
+    step(SemiDiscreteSystem &system,
+         const State        &old_state,
+         const double        time_step,
+         State              &new_state) override;
 
   private:
     const double alpha, beta, gamma;
@@ -36,10 +37,11 @@ namespace Ricochet
 
   /// The parts of the energy balance that all schemes with collocated forces
   /// share: external work and work against contact by the trapezoidal rule.
-  void add_trapezoidal_works(const SemiDiscreteSystem &system,
-                             const State              &old_state,
-                             const State              &new_state,
-                             StepReport               &report);
+  void
+  add_trapezoidal_works(const SemiDiscreteSystem &system,
+                        const State              &old_state,
+                        const State              &new_state,
+                        StepReport               &report);
 } // namespace Ricochet
 
 #endif

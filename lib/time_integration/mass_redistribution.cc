@@ -59,7 +59,8 @@ namespace Ricochet
     /// Symmetrised products a_k b_k^T at a pair of positions, for all moments:
     /// 1 1, x_i 1, x_i x_j.
     template <int dim>
-    Eigen::VectorXd moments_of_pair(const Point<dim> &x, const Point<dim> &y)
+    Eigen::VectorXd
+    moments_of_pair(const Point<dim> &x, const Point<dim> &y)
     {
       Eigen::VectorXd values(n_mass_moments<dim>);
       unsigned int    k = 0;
@@ -74,7 +75,8 @@ namespace Ricochet
 
     /// Visit the owned entries of @p matrix between DoFs of one component.
     template <int dim>
-    void for_each_entry(
+    void
+    for_each_entry(
       const Matrix                                      &matrix,
       const std::map<types::global_dof_index, DoF<dim>> &dofs,
       const std::function<void(const types::global_dof_index row,
@@ -140,9 +142,10 @@ namespace Ricochet
      * extreme eigenvalues show first; a mass matrix is so well conditioned that
      * they converge in a few dozen steps otherwise.
      */
-    bool is_positive_definite(const Matrix   &matrix,
-                              const IndexSet &massless,
-                              const Vector   &layout)
+    bool
+    is_positive_definite(const Matrix   &matrix,
+                         const IndexSet &massless,
+                         const Vector   &layout)
     {
       Vector residual(layout), direction(layout), product(layout);
       for (const auto i : residual.locally_owned_elements())
@@ -170,8 +173,8 @@ namespace Ricochet
 
 
   template <int dim>
-  std::array<double, n_mass_moments<dim>> mass_moments(const Body<dim> &body,
-                                                       const Matrix    &mass)
+  std::array<double, n_mass_moments<dim>>
+  mass_moments(const Body<dim> &body, const Matrix &mass)
   {
     const Eigen::VectorXd sums =
       moments<dim>(mass, describe_dofs(body), Point<dim>(), body.communicator);
@@ -183,7 +186,8 @@ namespace Ricochet
 
 
   template <int dim>
-  Matrix redistribute_mass(const Body<dim> &body, const Matrix &mass)
+  Matrix
+  redistribute_mass(const Body<dim> &body, const Matrix &mass)
   {
     const auto dofs = describe_dofs(body);
 
@@ -282,13 +286,16 @@ namespace Ricochet
   }
 
 
-  template Matrix redistribute_mass(const Body<1> &, const Matrix &);
-  template Matrix redistribute_mass(const Body<2> &, const Matrix &);
-  template Matrix redistribute_mass(const Body<3> &, const Matrix &);
-  template std::array<double, n_mass_moments<1>> mass_moments(const Body<1> &,
-                                                              const Matrix &);
-  template std::array<double, n_mass_moments<2>> mass_moments(const Body<2> &,
-                                                              const Matrix &);
-  template std::array<double, n_mass_moments<3>> mass_moments(const Body<3> &,
-                                                              const Matrix &);
+  template Matrix
+  redistribute_mass(const Body<1> &, const Matrix &);
+  template Matrix
+  redistribute_mass(const Body<2> &, const Matrix &);
+  template Matrix
+  redistribute_mass(const Body<3> &, const Matrix &);
+  template std::array<double, n_mass_moments<1>>
+  mass_moments(const Body<1> &, const Matrix &);
+  template std::array<double, n_mass_moments<2>>
+  mass_moments(const Body<2> &, const Matrix &);
+  template std::array<double, n_mass_moments<3>>
+  mass_moments(const Body<3> &, const Matrix &);
 } // namespace Ricochet

@@ -24,7 +24,8 @@ namespace Ricochet
    * definite on them (seen in 2D and 3D with 3 or 4 elements across the body).
    */
   template <int dim>
-  Matrix redistribute_mass(const Body<dim> &body, const Matrix &mass);
+  Matrix
+  redistribute_mass(const Body<dim> &body, const Matrix &mass);
 
   /// Number of moments that redistribute_mass() keeps.
   template <int dim>
@@ -33,8 +34,8 @@ namespace Ricochet
   /// Total mass (kg), first moments (kg m) and second moments (kg m^2: xx, xy,
   /// ..., in lexicographic order) of the scalar matrix behind @p mass.
   template <int dim>
-  std::array<double, n_mass_moments<dim>> mass_moments(const Body<dim> &body,
-                                                       const Matrix    &mass);
+  std::array<double, n_mass_moments<dim>>
+  mass_moments(const Body<dim> &body, const Matrix &mass);
 } // namespace Ricochet
 
 #endif

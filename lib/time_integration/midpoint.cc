@@ -3,10 +3,11 @@
 
 namespace Ricochet
 {
-  StepReport Midpoint::step(SemiDiscreteSystem &system,
-                            const State        &old_state,
-                            const double        time_step,
-                            State              &new_state)
+  StepReport
+  Midpoint::step(SemiDiscreteSystem &system,
+                 const State        &old_state,
+                 const double        time_step,
+                 State              &new_state)
   {
     const double dt = time_step;
     new_state       = old_state;

@@ -20,10 +20,11 @@ namespace Ricochet
   class Midpoint : public TimeScheme
   {
   public:
-    StepReport step(SemiDiscreteSystem &system,
-                    const State        &old_state,
-                    const double        time_step,
-                    State              &new_state) override;
+    StepReport
+    step(SemiDiscreteSystem &system,
+         const State        &old_state,
+         const double        time_step,
+         State              &new_state) override;
 
   private:
     Stage  stage;

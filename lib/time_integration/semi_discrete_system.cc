@@ -37,7 +37,8 @@ namespace Ricochet
 
 
 
-  void SemiDiscreteSystem::set_clamped_to_zero(Vector &vector) const
+  void
+  SemiDiscreteSystem::set_clamped_to_zero(Vector &vector) const
   {
     for (const auto i : clamped)
       vector(i) = 0.;
@@ -46,8 +47,8 @@ namespace Ricochet
 
 
 
-  void SemiDiscreteSystem::external_load(const double time,
-                                         Vector      &result) const
+  void
+  SemiDiscreteSystem::external_load(const double time, Vector &result) const
   {
     result = 0.;
     if (load)
@@ -56,10 +57,11 @@ namespace Ricochet
 
 
 
-  void SemiDiscreteSystem::total_force(const Vector &solution,
-                                       const Vector &contact_force,
-                                       const double  time,
-                                       Vector       &result) const
+  void
+  SemiDiscreteSystem::total_force(const Vector &solution,
+                                  const Vector &contact_force,
+                                  const double  time,
+                                  Vector       &result) const
   {
     bulk.force(solution, result);
     result += contact_force;
@@ -73,8 +75,9 @@ namespace Ricochet
 
 
 
-  void SemiDiscreteSystem::solve_mass(const Vector &right_hand_side,
-                                      Vector       &acceleration)
+  void
+  SemiDiscreteSystem::solve_mass(const Vector &right_hand_side,
+                                 Vector       &acceleration)
   {
     // A key of its own: no stage has a negative weight of the bulk force.
     const DirectSolver::Key key{1., -1., 0., 0};
@@ -94,9 +97,10 @@ namespace Ricochet
 
 
 
-  State SemiDiscreteSystem::initial_state(const Vector &displacement,
-                                          const Vector &velocity,
-                                          const double  time)
+  State
+  SemiDiscreteSystem::initial_state(const Vector &displacement,
+                                    const Vector &velocity,
+                                    const double  time)
   {
     State state;
     state.time     = time;
@@ -120,10 +124,11 @@ namespace Ricochet
 
 
 
-  unsigned int SemiDiscreteSystem::solve_stage(const Stage &stage,
-                                               const State &old_state,
-                                               Vector      &solution,
-                                               Vector      &contact_force)
+  unsigned int
+  SemiDiscreteSystem::solve_stage(const Stage &stage,
+                                  const State &old_state,
+                                  Vector      &solution,
+                                  Vector      &contact_force)
   {
     // What does not change during the iteration: old forces and load.
     constant_part = 0.;
@@ -202,17 +207,20 @@ namespace Ricochet
     contact.begin_stage(old_state.solution,
                         old_state.contact_force,
                         stage.contact_weight_new);
-    last_history =
+    const std::vector<NewtonSolver::Iteration> &history =
       newton.solve({residual, solve, norm, active_set, force_scale}, solution);
     contact_force = contact.contact_force();
-    return last_history.size() - 1;
+    if (newton_observer)
+      newton_observer(history);
+    return history.size() - 1;
   }
 
 
 
-  void SemiDiscreteSystem::reconstruct_massless(const State &old_state,
-                                                const double time_step,
-                                                State       &new_state) const
+  void
+  SemiDiscreteSystem::reconstruct_massless(const State &old_state,
+                                           const double time_step,
+                                           State       &new_state) const
   {
     for (const auto i : massless)
       {
@@ -228,7 +236,8 @@ namespace Ricochet
 
 
 
-  double SemiDiscreteSystem::kinetic_energy(const Vector &velocity) const
+  double
+  SemiDiscreteSystem::kinetic_energy(const Vector &velocity) const
   {
     mass.vmult(work, velocity);
     return .5 * (work * velocity);

@@ -97,9 +97,10 @@ namespace Ricochet
     /// A state with @p displacement and @p velocity (system vectors) at time
     /// @p time, with the contact force and the acceleration M^{-1}(load - bulk
     /// - contact) that follow (paper C, section 4).
-    State initial_state(const Vector &displacement,
-                        const Vector &velocity,
-                        const double  time);
+    State
+    initial_state(const Vector &displacement,
+                  const Vector &velocity,
+                  const double  time);
 
     /**
      * Solve @p stage. @p solution holds the initial guess and gets the
@@ -108,34 +109,41 @@ namespace Ricochet
      * @return the number of Newton iterations (linear solves).
      * @throws NewtonFailure
      */
-    unsigned int solve_stage(const Stage &stage,
-                             const State &old_state,
-                             Vector      &solution,
-                             Vector      &contact_force);
+    unsigned int
+    solve_stage(const Stage &stage,
+                const State &old_state,
+                Vector      &solution,
+                Vector      &contact_force);
 
     /// bulk(solution) + @p contact_force - load(time).
-    void total_force(const Vector &solution,
-                     const Vector &contact_force,
-                     const double  time,
-                     Vector       &force) const;
+    void
+    total_force(const Vector &solution,
+                const Vector &contact_force,
+                const double  time,
+                Vector       &force) const;
 
     /// The external load at @p time.
-    void external_load(const double time, Vector &load) const;
+    void
+    external_load(const double time, Vector &load) const;
 
     /// Backward differences for the displacements without inertia, from @p
     /// old_state over @p time_step: paper C, algorithm 1.
-    void reconstruct_massless(const State &old_state,
-                              const double time_step,
-                              State       &new_state) const;
+    void
+    reconstruct_massless(const State &old_state,
+                         const double time_step,
+                         State       &new_state) const;
 
     /// Solve M a = force, rows of clamped displacements being zero.
-    void solve_mass(const Vector &force, Vector &acceleration);
+    void
+    solve_mass(const Vector &force, Vector &acceleration);
 
     /// 1/2 v.M v (J).
-    double kinetic_energy(const Vector &velocity) const;
+    double
+    kinetic_energy(const Vector &velocity) const;
 
     /// Mass matrix of the equation of motion (kg).
-    const Matrix &mass_matrix() const
+    const Matrix &
+    mass_matrix() const
     {
       return mass;
     }
@@ -144,19 +152,20 @@ namespace Ricochet
     ContactOperator    &contact;
 
     /// Number of factorisations made so far.
-    unsigned int n_factorisations() const
+    unsigned int
+    n_factorisations() const
     {
       return linear_solver.n_factorisations();
     }
 
-    /// Newton's table of the last stage: residuals, step lengths, active sets.
-    const std::vector<NewtonSolver::Iteration> &newton_history() const
-    {
-      return last_history;
-    }
+    /// Called after each stage with Newton's table: residuals, step lengths,
+    /// active sets.
+    std::function<void(const std::vector<NewtonSolver::Iteration> &)>
+      newton_observer;
 
   private:
-    void set_clamped_to_zero(Vector &vector) const;
+    void
+    set_clamped_to_zero(Vector &vector) const;
 
     const Matrix          &mass;
     const Matrix          &invertible_mass;
@@ -166,8 +175,7 @@ namespace Ricochet
     std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type> clamped_list;
     const Load                                                     load;
     NewtonSolver                                                   newton;
-    DirectSolver                         linear_solver;
-    std::vector<NewtonSolver::Iteration> last_history;
+    DirectSolver linear_solver;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, constant_part, force;
   };

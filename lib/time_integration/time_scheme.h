@@ -32,7 +32,8 @@ namespace Ricochet
     /// Solutions of linear systems, back-substitutions included.
     unsigned int linear_solves = 0;
 
-    StepReport &operator+=(const StepReport &other);
+    StepReport &
+    operator+=(const StepReport &other);
   };
 
   /**
@@ -52,7 +53,8 @@ namespace Ricochet
       double arkode_relative_tolerance = 1e-8;
       double arkode_absolute_tolerance = 1e-10;
 
-      void add_parameters(dealii::ParameterHandler &parameters);
+      void
+      add_parameters(dealii::ParameterHandler &parameters);
     };
 
     virtual ~TimeScheme() = default;
@@ -61,14 +63,16 @@ namespace Ricochet
      * From @p old_state over @p time_step (s) to @p new_state.
      * @throws NewtonFailure; then @p new_state is not to be used.
      */
-    virtual StepReport step(SemiDiscreteSystem &system,
-                            const State        &old_state,
-                            const double        time_step,
-                            State              &new_state) = 0;
+    virtual StepReport
+    step(SemiDiscreteSystem &system,
+         const State        &old_state,
+         const double        time_step,
+         State              &new_state) = 0;
   };
 
   /// Names of all schemes, as a pattern for Patterns::Selection.
-  std::string time_scheme_names();
+  std::string
+  time_scheme_names();
 
   /// The scheme that @p parameters name.
   std::unique_ptr<TimeScheme>

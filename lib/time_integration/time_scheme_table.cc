@@ -16,7 +16,8 @@ namespace Ricochet
     // The table of all time schemes: a new scheme is one file and one line.
     using Maker = std::function<std::unique_ptr<TimeScheme>(
       const TimeScheme::Parameters &)>;
-    const std::vector<std::pair<std::string, Maker>> &table()
+    const std::vector<std::pair<std::string, Maker>> &
+    table()
     {
       static const std::vector<std::pair<std::string, Maker>> schemes = {
         {"Crank-Nicolson",
@@ -38,7 +39,8 @@ namespace Ricochet
 
 
 
-  StepReport &StepReport::operator+=(const StepReport &other)
+  StepReport &
+  StepReport::operator+=(const StepReport &other)
   {
     external_work += other.external_work;
     contact_work += other.contact_work;
@@ -50,7 +52,8 @@ namespace Ricochet
 
 
 
-  std::string time_scheme_names()
+  std::string
+  time_scheme_names()
   {
     std::string names;
     for (const auto &entry : table())
@@ -72,7 +75,8 @@ namespace Ricochet
 
 
 
-  void TimeScheme::Parameters::add_parameters(ParameterHandler &parameters)
+  void
+  TimeScheme::Parameters::add_parameters(ParameterHandler &parameters)
   {
     parameters.enter_subsection("Time");
     parameters.add_parameter(

@@ -13,10 +13,11 @@ namespace Ricochet
 
 
 
-  StepReport TRBDF2::step(SemiDiscreteSystem &system,
-                          const State        &old_state,
-                          const double        time_step,
-                          State              &new_state)
+  StepReport
+  TRBDF2::step(SemiDiscreteSystem &system,
+               const State        &old_state,
+               const double        time_step,
+               State              &new_state)
   {
     const double dt = time_step;
 

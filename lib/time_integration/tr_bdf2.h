@@ -15,10 +15,11 @@ namespace Ricochet
   public:
     explicit TRBDF2(const double gamma);
 
-    StepReport step(SemiDiscreteSystem &system,
-                    const State        &old_state,
-                    const double        time_step,
-                    State              &new_state) override;
+    StepReport
+    step(SemiDiscreteSystem &system,
+         const State        &old_state,
+         const double        time_step,
+         State              &new_state) override;
 
   private:
     const double gamma;

@@ -46,7 +46,8 @@ using namespace Ricochet;
 class BarSD
 {
 public:
-  void run(RunFolder &folder);
+  void
+  run(RunFolder &folder);
 
   // h = dt = 0.05, T = 12, gamma_0 = 1/epsilon_0 = 5, unless the parameter file
   // says otherwise.
@@ -55,7 +56,8 @@ public:
 
 
 
-void BarSD::run(RunFolder &folder)
+void
+BarSD::run(RunFolder &folder)
 {
   const ImpactParameters &impact = parameters.impact;
 
@@ -130,7 +132,8 @@ void BarSD::run(RunFolder &folder)
 
 
 
-int main(int argc, char **argv)
+int
+main(int argc, char **argv)
 {
   BarSD program;
   return run_program(

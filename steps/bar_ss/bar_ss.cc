@@ -40,7 +40,8 @@ using namespace Ricochet;
 class BarSS
 {
 public:
-  void run(RunFolder &folder);
+  void
+  run(RunFolder &folder);
 
   // h = dt = 0.05, T = 12, gamma_0 = 1/epsilon_0 = 5, unless the parameter file
   // says otherwise.
@@ -49,7 +50,8 @@ public:
 
 
 
-void BarSS::run(RunFolder &folder)
+void
+BarSS::run(RunFolder &folder)
 {
   const ImpactParameters &impact = parameters.impact;
 
@@ -128,7 +130,8 @@ void BarSS::run(RunFolder &folder)
 
 
 
-int main(int argc, char **argv)
+int
+main(int argc, char **argv)
 {
   BarSS program;
   return run_program(

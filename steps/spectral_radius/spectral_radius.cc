@@ -44,9 +44,11 @@ using namespace Ricochet;
 class SpectralRadius
 {
 public:
-  void add_parameters(ParameterHandler &prm);
+  void
+  add_parameters(ParameterHandler &prm);
 
-  void run(RunFolder &folder);
+  void
+  run(RunFolder &folder);
 
 private:
   /// A scheme and its name in the tables.
@@ -56,19 +58,21 @@ private:
     TimeScheme::Parameters scheme;
   };
 
-  std::vector<Entry> schemes() const;
+  std::vector<Entry>
+  schemes() const;
 
   std::unique_ptr<LinearImpact<1>>
   make_oscillator(const Triangulation<1>       &triangulation,
                   const TimeScheme::Parameters &scheme,
                   const MPI_Comm                communicator) const;
 
-  double spectral_radius(LinearImpact<1> &oscillator,
-                         const double     time_step) const;
+  double
+  spectral_radius(LinearImpact<1> &oscillator, const double time_step) const;
 
-  double error(LinearImpact<1>   &oscillator,
-               const double       final_time,
-               const unsigned int n_steps) const;
+  double
+  error(LinearImpact<1>   &oscillator,
+        const double       final_time,
+        const unsigned int n_steps) const;
 
   double              smallest = 1e-3, largest = 1e7;
   unsigned int        n_points     = 201;
@@ -82,7 +86,8 @@ private:
 
 
 
-void SpectralRadius::add_parameters(ParameterHandler &prm)
+void
+SpectralRadius::add_parameters(ParameterHandler &prm)
 {
   prm.enter_subsection("Spectrum");
   prm.add_parameter("Smallest omega tilde",
@@ -111,7 +116,8 @@ void SpectralRadius::add_parameters(ParameterHandler &prm)
 
 
 
-std::vector<SpectralRadius::Entry> SpectralRadius::schemes() const
+std::vector<SpectralRadius::Entry>
+SpectralRadius::schemes() const
 {
   TimeScheme::Parameters scheme;
   scheme.trbdf2_gamma        = trbdf2_gamma;
@@ -161,8 +167,9 @@ SpectralRadius::make_oscillator(const Triangulation<1>       &triangulation,
 
 // One step from each of the three unit states gives the three columns of the
 // amplification matrix.
-double SpectralRadius::spectral_radius(LinearImpact<1> &oscillator,
-                                       const double     time_step) const
+double
+SpectralRadius::spectral_radius(LinearImpact<1> &oscillator,
+                                const double     time_step) const
 {
   const double           scale[3] = {1., time_step, time_step * time_step};
   Eigen::Matrix3d        amplification;
@@ -187,9 +194,10 @@ double SpectralRadius::spectral_radius(LinearImpact<1> &oscillator,
 
 
 // Free vibration from u = 1 at rest: u = cos(omega t).
-double SpectralRadius::error(LinearImpact<1>   &oscillator,
-                             const double       final_time,
-                             const unsigned int n_steps) const
+double
+SpectralRadius::error(LinearImpact<1>   &oscillator,
+                      const double       final_time,
+                      const unsigned int n_steps) const
 {
   Ricochet::Vector displacement = oscillator.body.make_vector();
   Ricochet::Vector velocity     = displacement;
@@ -211,7 +219,8 @@ double SpectralRadius::error(LinearImpact<1>   &oscillator,
 
 
 
-void SpectralRadius::run(RunFolder &folder)
+void
+SpectralRadius::run(RunFolder &folder)
 {
   // A system with one unknown has no use for more than one rank: each rank
   // computes the same, and rank 0 writes.
@@ -295,7 +304,8 @@ void SpectralRadius::run(RunFolder &folder)
 
 
 
-int main(int argc, char **argv)
+int
+main(int argc, char **argv)
 {
   SpectralRadius program;
   return run_program(

@@ -51,6 +51,21 @@ class Output(ProgramTest):
                     attribute = attribute.decode()
                 self.assertEqual(attribute, unit)
 
+    def test_newton_table(self):
+        """One line per residual: a step has one more than linear solves."""
+        ledger = self.run_program("bar_ss", ["Output/Newton table=true"])
+        lines = [line.split() for line in
+                 (self.folder / "run" / "log.txt").read_text().splitlines()
+                 if line.lstrip().startswith("Newton")]
+        n_steps = len(ledger["time"]) - 1
+        self.assertEqual(len(lines), sum(ledger["newton_iterations"]) + n_steps)
+        # The last residual of each step is below the tolerance, and both ends
+        # of the bar are counted as contact points.
+        for line, following in zip(lines, lines[1:] + [["Newton", "0"]]):
+            self.assertEqual(line[-2:], ["of", "2"])
+            if following[1] == "0":
+                self.assertLess(float(line[3]), 1e-12)
+
     def test_help_and_version(self):
         for program in ("bar_sd", "bar_ss", "spectral_radius"):
             code, out, _ = self.attempt(program, options=["--help"])

@@ -35,7 +35,8 @@ namespace
                                                    {0., 2., 3.}};
 
   template <typename Law>
-  void compare_tangent(const Law &law)
+  void
+  compare_tangent(const Law &law)
   {
     for (const auto &old_state : states)
       for (const auto &state : states)
@@ -63,7 +64,8 @@ namespace
 
   /// force() must be the derivative of potential().
   template <typename Law>
-  void compare_potential(const Law &law)
+  void
+  compare_potential(const Law &law)
   {
     const double eps = 1e-6;
     for (const auto &state : states)
@@ -95,9 +97,10 @@ namespace
   }
 
   /// Work of a two-point law over a step less what its potential gains.
-  double excess_work(const NitscheTwoPoint     &law,
-                     const ContactPointState<> &old_state,
-                     const ContactPointState<> &new_state)
+  double
+  excess_work(const NitscheTwoPoint     &law,
+              const ContactPointState<> &old_state,
+              const ContactPointState<> &new_state)
   {
     const auto force = law.force<double>(new_state, old_state, cell_diameter);
     return force.gap * (new_state.gap - old_state.gap) +

@@ -15,17 +15,20 @@ using namespace Ricochet;
 
 namespace
 {
-  BarCharacteristics bar_sd()
+  BarCharacteristics
+  bar_sd()
   {
     return {.5, -.5, 0., {false, .5}, {true, 0.}, 12.};
   }
 
-  BarCharacteristics bar_ss()
+  BarCharacteristics
+  bar_ss()
   {
     return {1., -.5, -.5, {false, 1.}, {false, 0.}, 12.};
   }
 
-  void check_energy(BarCharacteristics &exact, const double energy)
+  void
+  check_energy(BarCharacteristics &exact, const double energy)
   {
     // The solution is piecewise linear with kinks at multiples of 1/20.
     const dealii::QIterated<1> quadrature(dealii::QGauss<1>(1), 20);
@@ -45,7 +48,8 @@ namespace
   }
 
   /// value() must be consistent with gradient() and velocity().
-  void check_derivatives(BarCharacteristics &exact)
+  void
+  check_derivatives(BarCharacteristics &exact)
   {
     const double eps = 1e-6;
     for (double t = .013; t < 11.9; t += .217)

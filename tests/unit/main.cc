@@ -9,7 +9,8 @@
 
 #include <deal.II/base/mpi.h>
 
-int main(int argc, char **argv)
+int
+main(int argc, char **argv)
 {
   int                                      mpi_argc = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(mpi_argc, argv, 1);

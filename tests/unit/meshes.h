@@ -36,7 +36,8 @@ struct CubeAbovePlane
           }
   }
 
-  Ricochet::Obstacles<dim> plane(const double gap) const
+  Ricochet::Obstacles<dim>
+  plane(const double gap) const
   {
     dealii::Point<dim> point;
     point[dim - 1] = -gap;

@@ -22,7 +22,8 @@ namespace
 
   /// Fill the owned entries with numbers that depend on the index only, so that
   /// they are the same on any number of ranks.
-  void randomise(Vector &vector, const double size, const unsigned int seed)
+  void
+  randomise(Vector &vector, const double size, const unsigned int seed)
   {
     for (const auto i : vector.locally_owned_elements())
       {
@@ -34,11 +35,12 @@ namespace
   }
 
   template <int dim>
-  void check(const std::string &treatment,
-             const std::string &scheme,
-             const double       theta,
-             const bool         simplices,
-             const unsigned int degree)
+  void
+  check(const std::string &treatment,
+        const std::string &scheme,
+        const double       theta,
+        const bool         simplices,
+        const unsigned int degree)
   {
     const CubeAbovePlane<dim> cube(simplices);
     ContactParameters         parameters;
@@ -107,7 +109,8 @@ namespace
   }
 
   template <int dim>
-  void check_all(const bool simplices, const unsigned int degree)
+  void
+  check_all(const bool simplices, const unsigned int degree)
   {
     for (const double theta : {1., -1., 0.})
       {

@@ -17,14 +17,16 @@ namespace Ricochet
     /// gamma_a (Pa).
     double gamma_a = 1.;
 
-    static constexpr ContactLawTraits traits()
+    static constexpr ContactLawTraits
+    traits()
     {
       ContactLawTraits traits;
       traits.needs_multiplier = true;
       return traits;
     }
 
-    double stiffness(const double cell_diameter) const
+    double
+    stiffness(const double cell_diameter) const
     {
       return gamma_a / cell_diameter;
     }
@@ -41,9 +43,10 @@ namespace Ricochet
       return {Number(-q), Number(0.), Number((q - state.multiplier) / gamma)};
     }
 
-    ContactPointTangent tangent(const ContactPointState<> &state,
-                                const ContactPointState<> &old_state,
-                                const double               cell_diameter) const
+    ContactPointTangent
+    tangent(const ContactPointState<> &state,
+            const ContactPointState<> &old_state,
+            const double               cell_diameter) const
     {
       const double gamma = stiffness(cell_diameter);
       const double on    = branch(state, old_state, cell_diameter);
@@ -51,23 +54,25 @@ namespace Ricochet
         {{on * gamma, 0., -on}, {0., 0., 0.}, {-on, 0., (on - 1.) / gamma}});
     }
 
-    int branch(const ContactPointState<> &state,
-               const ContactPointState<> & /*old_state*/,
-               const double cell_diameter) const
+    int
+    branch(const ContactPointState<> &state,
+           const ContactPointState<> & /*old_state*/,
+           const double cell_diameter) const
     {
       return state.multiplier - stiffness(cell_diameter) * state.gap > 0.;
     }
 
-    double potential(const ContactPointState<> &state,
-                     const double               cell_diameter) const
+    double
+    potential(const ContactPointState<> &state,
+              const double               cell_diameter) const
     {
       const double q = pressure(state, cell_diameter);
       return (q * q - state.multiplier * state.multiplier) /
         (2. * stiffness(cell_diameter));
     }
 
-    double pressure(const ContactPointState<> &state,
-                    const double               cell_diameter) const
+    double
+    pressure(const ContactPointState<> &state, const double cell_diameter) const
     {
       return positive_part(state.multiplier -
                            stiffness(cell_diameter) * state.gap);

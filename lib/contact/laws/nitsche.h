@@ -25,12 +25,14 @@ namespace Ricochet
     /// theta: 1, -1 or 0.
     double theta = 1.;
 
-    static constexpr ContactLawTraits traits()
+    static constexpr ContactLawTraits
+    traits()
     {
       return {};
     }
 
-    double stiffness(const double cell_diameter) const
+    double
+    stiffness(const double cell_diameter) const
     {
       return gamma_0 / cell_diameter;
     }
@@ -49,9 +51,10 @@ namespace Ricochet
               Number(0.)};
     }
 
-    ContactPointTangent tangent(const ContactPointState<> &state,
-                                const ContactPointState<> &old_state,
-                                const double               cell_diameter) const
+    ContactPointTangent
+    tangent(const ContactPointState<> &state,
+            const ContactPointState<> &old_state,
+            const double               cell_diameter) const
     {
       const double gamma = stiffness(cell_diameter);
       const double on    = branch(state, old_state, cell_diameter);
@@ -60,23 +63,25 @@ namespace Ricochet
                                   {0., 0., 0.}});
     }
 
-    int branch(const ContactPointState<> &state,
-               const ContactPointState<> & /*old_state*/,
-               const double cell_diameter) const
+    int
+    branch(const ContactPointState<> &state,
+           const ContactPointState<> & /*old_state*/,
+           const double cell_diameter) const
     {
       return state.stress_pressure - stiffness(cell_diameter) * state.gap > 0.;
     }
 
-    double potential(const ContactPointState<> &state,
-                     const double               cell_diameter) const
+    double
+    potential(const ContactPointState<> &state,
+              const double               cell_diameter) const
     {
       const double q = pressure(state, cell_diameter);
       return (q * q - state.stress_pressure * state.stress_pressure) /
         (2. * stiffness(cell_diameter));
     }
 
-    double pressure(const ContactPointState<> &state,
-                    const double               cell_diameter) const
+    double
+    pressure(const ContactPointState<> &state, const double cell_diameter) const
     {
       return positive_part(state.stress_pressure -
                            stiffness(cell_diameter) * state.gap);

@@ -41,22 +41,25 @@ namespace Ricochet
     double     theta      = 1.;
     Evaluation evaluation = Evaluation::hybrid;
 
-    static constexpr ContactLawTraits traits()
+    static constexpr ContactLawTraits
+    traits()
     {
       ContactLawTraits traits;
       traits.is_two_point = true;
       return traits;
     }
 
-    double stiffness(const double cell_diameter) const
+    double
+    stiffness(const double cell_diameter) const
     {
       return gamma_0 / cell_diameter;
     }
 
     template <typename Number>
-    ContactPointForce<Number> force(const ContactPointState<Number> &new_state,
-                                    const ContactPointState<double> &old_state,
-                                    const double cell_diameter) const
+    ContactPointForce<Number>
+    force(const ContactPointState<Number> &new_state,
+          const ContactPointState<double> &old_state,
+          const double                     cell_diameter) const
     {
       const double gamma = stiffness(cell_diameter);
       const double q_old = trial_pressure(old_state, cell_diameter);
@@ -74,9 +77,10 @@ namespace Ricochet
               Number(0.)};
     }
 
-    ContactPointTangent tangent(const ContactPointState<> &new_state,
-                                const ContactPointState<> &old_state,
-                                const double               cell_diameter) const
+    ContactPointTangent
+    tangent(const ContactPointState<> &new_state,
+            const ContactPointState<> &old_state,
+            const double               cell_diameter) const
     {
       const double gamma = stiffness(cell_diameter);
       // Derivative of the positive part with respect to q_new. Whichever part
@@ -89,9 +93,10 @@ namespace Ricochet
          {0., 0., 0.}});
     }
 
-    int branch(const ContactPointState<> &new_state,
-               const ContactPointState<> &old_state,
-               const double               cell_diameter) const
+    int
+    branch(const ContactPointState<> &new_state,
+           const ContactPointState<> &old_state,
+           const double               cell_diameter) const
     {
       const double q_old = trial_pressure(old_state, cell_diameter);
       const double q_new = trial_pressure(new_state, cell_diameter);
@@ -99,14 +104,15 @@ namespace Ricochet
                                                             : q_new > 0.;
     }
 
-    double potential(const ContactPointState<> &state,
-                     const double               cell_diameter) const
+    double
+    potential(const ContactPointState<> &state,
+              const double               cell_diameter) const
     {
       return Nitsche{gamma_0, theta}.potential(state, cell_diameter);
     }
 
-    double pressure(const ContactPointState<> &state,
-                    const double               cell_diameter) const
+    double
+    pressure(const ContactPointState<> &state, const double cell_diameter) const
     {
       return Nitsche{gamma_0, theta}.pressure(state, cell_diameter);
     }
@@ -114,8 +120,9 @@ namespace Ricochet
   private:
     /// q = p - gamma g, that is -P_N(u) of paper C.
     template <typename Number>
-    Number trial_pressure(const ContactPointState<Number> &state,
-                          const double                     cell_diameter) const
+    Number
+    trial_pressure(const ContactPointState<Number> &state,
+                   const double                     cell_diameter) const
     {
       return state.stress_pressure - stiffness(cell_diameter) * state.gap;
     }

@@ -15,7 +15,8 @@ namespace Ricochet
     /// epsilon_0 (1/Pa).
     double epsilon_0 = 1.;
 
-    static constexpr ContactLawTraits traits()
+    static constexpr ContactLawTraits
+    traits()
     {
       return {};
     }
@@ -32,9 +33,10 @@ namespace Ricochet
               Number(0.)};
     }
 
-    ContactPointTangent tangent(const ContactPointState<> &state,
-                                const ContactPointState<> &old_state,
-                                const double               cell_diameter) const
+    ContactPointTangent
+    tangent(const ContactPointState<> &state,
+            const ContactPointState<> &old_state,
+            const double               cell_diameter) const
     {
       ContactPointTangent tangent;
       if (branch(state, old_state, cell_diameter))
@@ -42,22 +44,24 @@ namespace Ricochet
       return tangent;
     }
 
-    int branch(const ContactPointState<> &state,
-               const ContactPointState<> & /*old_state*/,
-               const double /*cell_diameter*/) const
+    int
+    branch(const ContactPointState<> &state,
+           const ContactPointState<> & /*old_state*/,
+           const double /*cell_diameter*/) const
     {
       return state.gap < 0.;
     }
 
-    double potential(const ContactPointState<> &state,
-                     const double               cell_diameter) const
+    double
+    potential(const ContactPointState<> &state,
+              const double               cell_diameter) const
     {
       const double penetration = positive_part(-state.gap);
       return penetration * penetration / (2. * epsilon_0 * cell_diameter);
     }
 
-    double pressure(const ContactPointState<> &state,
-                    const double               cell_diameter) const
+    double
+    pressure(const ContactPointState<> &state, const double cell_diameter) const
     {
       return positive_part(-state.gap) / (epsilon_0 * cell_diameter);
     }

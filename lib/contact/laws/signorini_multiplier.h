@@ -19,7 +19,8 @@ namespace Ricochet
     /// r_0 (Pa).
     double augmentation = 1.;
 
-    static constexpr ContactLawTraits traits()
+    static constexpr ContactLawTraits
+    traits()
     {
       ContactLawTraits traits;
       traits.nodal            = true;
@@ -27,7 +28,8 @@ namespace Ricochet
       return traits;
     }
 
-    double stiffness(const double cell_diameter) const
+    double
+    stiffness(const double cell_diameter) const
     {
       return augmentation / cell_diameter;
     }
@@ -46,9 +48,10 @@ namespace Ricochet
                      r)};
     }
 
-    ContactPointTangent tangent(const ContactPointState<> &state,
-                                const ContactPointState<> &old_state,
-                                const double               cell_diameter) const
+    ContactPointTangent
+    tangent(const ContactPointState<> &state,
+            const ContactPointState<> &old_state,
+            const double               cell_diameter) const
     {
       const double on = branch(state, old_state, cell_diameter);
       return ContactPointTangent(
@@ -57,22 +60,25 @@ namespace Ricochet
          {-on, 0., (on - 1.) / stiffness(cell_diameter)}});
     }
 
-    int branch(const ContactPointState<> &state,
-               const ContactPointState<> & /*old_state*/,
-               const double cell_diameter) const
+    int
+    branch(const ContactPointState<> &state,
+           const ContactPointState<> & /*old_state*/,
+           const double cell_diameter) const
     {
       return state.multiplier - stiffness(cell_diameter) * state.gap > 0.;
     }
 
     /// At a solution lambda g = 0 and nothing is stored.
-    double potential(const ContactPointState<> & /*state*/,
-                     const double /*cell_diameter*/) const
+    double
+    potential(const ContactPointState<> & /*state*/,
+              const double /*cell_diameter*/) const
     {
       return 0.;
     }
 
-    double pressure(const ContactPointState<> &state,
-                    const double /*cell_diameter*/) const
+    double
+    pressure(const ContactPointState<> &state,
+             const double /*cell_diameter*/) const
     {
       return state.multiplier;
     }

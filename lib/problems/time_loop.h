@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ricochet_time_integration_time_loop_h
-#define ricochet_time_integration_time_loop_h
+#ifndef ricochet_problems_time_loop_h
+#define ricochet_problems_time_loop_h
 
 #include <base/program.h>
 #include <output/energy_ledger.h>
@@ -27,9 +27,11 @@ namespace Ricochet
       unsigned int fields_every     = 10;
       unsigned int checkpoint_every = 0;
       unsigned int log_every        = 1;
+      bool         newton_table     = false;
       bool         timing           = true;
 
-      void add_parameters(dealii::ParameterHandler &parameters);
+      void
+      add_parameters(dealii::ParameterHandler &parameters);
     };
 
     /**
@@ -44,9 +46,10 @@ namespace Ricochet
       const std::map<dealii::types::boundary_id, std::string> &contact_names);
 
     /// Add a column of the benchmark's own to the ledger.
-    void add_column(const std::string                          &name,
-                    const std::string                          &unit,
-                    const std::function<double(const State &)> &value);
+    void
+    add_column(const std::string                          &name,
+               const std::string                          &unit,
+               const std::function<double(const State &)> &value);
 
     /// Called with the state and the number of the step when fields are due.
     std::function<void(const State &, const unsigned int)> write_fields;
@@ -58,26 +61,31 @@ namespace Ricochet
      * @return the state at the end.
      * @throws ComputationError after the last halving has failed.
      */
-    State run(const State &initial_state);
+    State
+    run(const State &initial_state);
 
     /// The ledger with all its rows, for sums over the run.
-    const EnergyLedger &energy_ledger() const
+    const EnergyLedger &
+    energy_ledger() const
     {
       return ledger;
     }
 
   private:
     /// One step of length @p time_step, as two of half the length if need be.
-    StepReport advance(const State       &old_state,
-                       const double       time_step,
-                       const unsigned int n_halvings_so_far,
-                       State             &new_state);
+    StepReport
+    advance(const State       &old_state,
+            const double       time_step,
+            const unsigned int n_halvings_so_far,
+            State             &new_state);
 
-    void add_row(const State      &state,
-                 const StepReport &report,
-                 const double      balance_residual);
+    void
+    add_row(const State      &state,
+            const StepReport &report,
+            const double      balance_residual);
 
-    void log_row(const unsigned int step, const unsigned int n_steps) const;
+    void
+    log_row(const unsigned int step, const unsigned int n_steps) const;
 
     struct Column
     {

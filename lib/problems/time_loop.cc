@@ -2,7 +2,7 @@
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
 #include <output/checkpoint.h>
-#include <time_integration/time_loop.h>
+#include <problems/time_loop.h>
 
 #include <deal.II/base/timer.h>
 
@@ -15,7 +15,8 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  void TimeLoop::Parameters::add_parameters(ParameterHandler &parameters)
+  void
+  TimeLoop::Parameters::add_parameters(ParameterHandler &parameters)
   {
     parameters.enter_subsection("Time");
     parameters.add_parameter("Final time",
@@ -50,6 +51,11 @@ namespace Ricochet
                              log_every,
                              "Print a line every so many steps; 0 for never.",
                              Patterns::Integer(0));
+    parameters.add_parameter("Newton table",
+                             newton_table,
+                             "Print each Newton iteration: residual over the "
+                             "forces that make it up, length of the step, "
+                             "active contact points.");
     parameters.add_parameter("Timing",
                              timing,
                              "At the end, print where the time was spent.");
@@ -96,9 +102,10 @@ namespace Ricochet
 
 
 
-  void TimeLoop::add_column(const std::string                          &name,
-                            const std::string                          &unit,
-                            const std::function<double(const State &)> &value)
+  void
+  TimeLoop::add_column(const std::string                          &name,
+                       const std::string                          &unit,
+                       const std::function<double(const State &)> &value)
   {
     ledger.add_column(name, unit);
     own_columns.push_back({name, unit, value});
@@ -106,10 +113,11 @@ namespace Ricochet
 
 
 
-  StepReport TimeLoop::advance(const State       &old_state,
-                               const double       time_step,
-                               const unsigned int n_halvings_so_far,
-                               State             &new_state)
+  StepReport
+  TimeLoop::advance(const State       &old_state,
+                    const double       time_step,
+                    const unsigned int n_halvings_so_far,
+                    State             &new_state)
   {
     try
       {
@@ -135,9 +143,10 @@ namespace Ricochet
 
 
 
-  void TimeLoop::add_row(const State      &state,
-                         const StepReport &report,
-                         const double      balance_residual)
+  void
+  TimeLoop::add_row(const State      &state,
+                    const StepReport &report,
+                    const double      balance_residual)
   {
     const double kinetic_energy = system.kinetic_energy(state.velocity);
     const double elastic_energy = system.bulk.energy(state.solution);
@@ -176,8 +185,8 @@ namespace Ricochet
 
 
 
-  void TimeLoop::log_row(const unsigned int step,
-                         const unsigned int n_steps) const
+  void
+  TimeLoop::log_row(const unsigned int step, const unsigned int n_steps) const
   {
     const std::vector<double> &row   = ledger.rows().back();
     double                     force = 0., active = 0.;
@@ -204,7 +213,8 @@ namespace Ricochet
 
 
 
-  State TimeLoop::run(const State &initial_state)
+  State
+  TimeLoop::run(const State &initial_state)
   {
     const double       first_time = initial_state.time;
     const unsigned int n_steps    = static_cast<unsigned int>(std::ceil(
@@ -242,6 +252,24 @@ namespace Ricochet
     folder.log(
       "    step/of              time         energy       modified "
       "   balance        force  active  Newton");
+    if (parameters.newton_table)
+      system.newton_observer =
+        [this](const std::vector<NewtonSolver::Iteration> &history) {
+          for (unsigned int k = 0; k < history.size(); ++k)
+            {
+              char line[120];
+              std::snprintf(line,
+                            sizeof(line),
+                            "      Newton %3u   residual %10.3e   step %6.4f   "
+                            "active %s",
+                            k,
+                            history[k].relative_residual,
+                            history[k].step_length,
+                            history[k].active_set.c_str());
+              folder.log(line);
+            }
+        };
+
     std::ostringstream timing_table;
     TimerOutput        timer(timing_table,
                       TimerOutput::never,
