@@ -36,6 +36,27 @@ namespace Ricochet
   BarParameters::validate() const
   {
     impact.validate();
+
+    // On an interval of length h, h sigma_n(u)^2 <= degree^2 * modulus * (u', u')
+    // for polynomials of that degree, and the bound is sharp. Below it the
+    // symmetric and the non-symmetric operators are not positive and energy
+    // grows without bound.
+    const std::string &treatment = impact.contact.treatment;
+    if (treatment == "Nitsche" || treatment == "Nitsche-hybrid")
+      {
+        const double theta = impact.contact.nitsche_theta;
+        const double bound =
+          .25 * (1. + theta) * (1. + theta) * modulus * degree * degree;
+        if (impact.contact.nitsche_gamma_0 <= bound)
+          throw InputError(
+            "Nitsche gamma0 = " + to_text(impact.contact.nitsche_gamma_0) +
+            " is too small for theta = " + to_text(theta) + " and degree " +
+            std::to_string(degree) +
+            ": the method is not stable. It must be larger than " +
+            to_text(bound) +
+            " (modulus times degree^2 times (1 + theta)^2 / 4).");
+      }
+
     const double n_elements = 1. / mesh_size;
     if (std::abs(n_elements - std::round(n_elements)) > 1e-9 * n_elements)
       {

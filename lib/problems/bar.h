@@ -21,11 +21,14 @@ namespace Ricochet
     double       mesh_size = .05;
     unsigned int degree    = 1;
 
+    /// lambda + 2 mu of the bar (Pa).
+    static constexpr double modulus = 1.;
+
     void
     add_parameters(dealii::ParameterHandler &parameters);
 
     /// @throws InputError mesh size that does not divide the bar, combination
-    /// without meaning.
+    /// without meaning, gamma_0 below the bound of stability.
     void
     validate() const;
   };

@@ -106,6 +106,17 @@ class BadInput(ProgramTest):
                     parameters=["Mesh/Mesh size=0.5",
                                 "Time/Mass=redistributed"], program="bar_ss")
 
+    def test_nitsche_below_its_bound_of_stability(self):
+        self.refuse("It must be larger than 9",
+                    parameters=["Mesh/Degree=3"])
+        self.refuse("It must be larger than 1",
+                    parameters=["Contact/Nitsche gamma0=1"])
+        # The skew-symmetric method has no bound.
+        code, _, error = self.attempt(
+            "bar_sd", ["Mesh/Degree=3", "Contact/Nitsche theta=-1"],
+            options=["--validate"])
+        self.assertEqual(code, 0, msg=error)
+
     def test_unwritable_output_folder(self):
         blocker = self.folder / "file"
         blocker.write_text("")
