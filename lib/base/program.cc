@@ -239,14 +239,17 @@ namespace Ricochet
         {
           namespace fs = std::filesystem;
           std::error_code error;
-          if (!command_line.parameter_file.empty())
+          if (!command_line.parameter_file.empty() && !command_line.resume)
             fs::copy_file(
               command_line.parameter_file,
               folder.file(
                 fs::path(command_line.parameter_file).filename().string()),
               fs::copy_options::overwrite_existing,
               error);
-          std::ofstream all(folder.file("parameters.prm"));
+          // An attempt to resume with other parameters must not overwrite the
+          // ones that the results in the folder belong to.
+          std::ofstream all(folder.file(
+            command_line.resume ? "parameters.resumed.prm" : "parameters.prm"));
           parameters.print_parameters(all, dealii::ParameterHandler::Text);
         }
       folder.parameters_that_matter = parameters_that_matter(parameters);

@@ -234,11 +234,14 @@ namespace Ricochet
 
     ContactPoints points;
     bool          positive = true;
+    bool          clamped  = false;
     for (auto &[first, node] : nodes)
       {
         node.point.weight = lumped_boundary_mass(first);
         positive          = positive && node.point.weight > 0.;
-        node.point.begin  = points.index.size();
+        for (unsigned int c = 0; c < dim; ++c)
+          clamped = clamped || body.clamped_indices().is_element(node.index[c]);
+        node.point.begin = points.index.size();
         for (unsigned int c = 0; c < dim; ++c)
           {
             points.index.push_back(node.index[c]);
@@ -256,6 +259,12 @@ namespace Ricochet
         node.point.end = points.index.size();
         points.points.push_back(node.point);
       }
+    if (Utilities::MPI::max(clamped ? 1 : 0, body.communicator) == 1)
+      throw InputError(
+        "Nodal contact needs nodes that can move: the contact "
+        "boundary and the clamped boundary share some. Leave a "
+        "part of the boundary free between them, or take one of "
+        "the treatments that integrate over the boundary.");
     if (Utilities::MPI::min(positive ? 1 : 0, body.communicator) == 0)
       throw InputError(
         "Nodal contact needs nodes with a positive lumped "

@@ -75,7 +75,8 @@ namespace Ricochet
    * pressure.
    *
    * @throws InputError when a lumped boundary mass is not positive (vertices of
-   * quadratic tetrahedra), and for nodal multipliers with degree > 1.
+   * quadratic tetrahedra), for nodal multipliers with degree > 1, and when a
+   * node is clamped.
    */
   template <int dim>
   ContactPoints

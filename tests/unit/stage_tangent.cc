@@ -7,6 +7,7 @@
 
 #include "meshes.h"
 
+#include <base/exceptions.h>
 #include <contact/contact_treatment.h>
 
 #include <boost/test/unit_test.hpp>
@@ -148,6 +149,27 @@ BOOST_AUTO_TEST_CASE(in_3d)
 {
   check_all<3>(false, 1);
   check_all<3>(true, 1);
+}
+
+BOOST_AUTO_TEST_CASE(clamped_contact_nodes_are_refused)
+{
+  const CubeAbovePlane<2> cube(false);
+  for (const std::string treatment :
+       {"Signorini multipliers", "Signorini active set"})
+    {
+      ContactParameters parameters;
+      parameters.treatment = treatment;
+      // The sides (id 0) share the corners with the contact boundary (id 1).
+      const Body<2> body(cube.triangulation,
+                         1,
+                         {0},
+                         {1},
+                         multiplier_space(parameters),
+                         MPI_COMM_WORLD);
+      BOOST_CHECK_THROW(
+        make_contact(parameters, "HHT", body, material, cube.plane(.02)),
+        InputError);
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
