@@ -20,7 +20,11 @@ namespace Ricochet
     const auto next_value = [&](const std::string &option) {
       if (i + 1 >= argc)
         throw InputError("The option " + option + " needs a value after it.");
-      return std::string(argv[++i]);
+      const std::string value = argv[++i];
+      if (value.empty() || value.compare(0, 2, "--") == 0)
+        throw InputError("The option " + option +
+                         " needs a value after it, not '" + value + "'.");
+      return value;
     };
     for (; i < argc; ++i)
       {
@@ -152,7 +156,8 @@ namespace Ricochet
 
 
 
-    /// The parameters but for the section Output and the final time.
+    /// The parameters but for those that say what to write, when to stop, and
+    /// how hard the solvers try.
     std::string
     parameters_that_matter(dealii::ParameterHandler &parameters)
     {
@@ -163,11 +168,13 @@ namespace Ricochet
       while (std::getline(all, line))
         {
           const std::string text = dealii::Utilities::trim(line);
-          if (text == "subsection Output")
+          if (text == "subsection Output" || text == "subsection Newton" ||
+              text == "subsection Linear solver")
             skipping = true;
           else if (skipping)
             skipping = (text != "end");
-          else if (text.find("set Final time") != 0)
+          else if (text.find("set Final time") != 0 &&
+                   text.find("set Maximum halvings") != 0)
             kept += text + "\n";
         }
       return kept;

@@ -61,7 +61,8 @@ namespace Ricochet
     const bool     resume;
 
     /// All parameters that change the results of a step, as text: a run can be
-    /// resumed only with the same. Output and final time are not among them.
+    /// resumed only with the same. Output, final time and the settings of the
+    /// solvers are not among them.
     std::string parameters_that_matter;
 
   private:

@@ -75,7 +75,7 @@ namespace Ricochet
    * knows nothing of meshes, materials and time schemes.
    *
    * Concrete laws derive from ContactLawImplementation and are listed in
-   * contact_law_table.cc.
+   * contact_treatment_table.cc.
    */
   class ContactLaw
   {

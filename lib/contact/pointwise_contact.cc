@@ -250,14 +250,20 @@ namespace Ricochet
   std::uint64_t
   global_hash(const std::vector<int> &values, const MPI_Comm communicator)
   {
-    // FNV-1a on each rank, salted with the rank, then a sum over the ranks.
-    std::uint64_t hash = 1469598103934665603ull +
-      1099511628211ull * dealii::Utilities::MPI::this_mpi_process(communicator);
+    // A chain of full mixings (splitmix64) over rank, number of values and
+    // values on each rank; the sum over the ranks is then as good as a random
+    // number. Without the mixing, changes on two ranks could cancel.
+    const auto mix = [](std::uint64_t x) {
+      x += 0x9e3779b97f4a7c15ull;
+      x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+      x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+      return x ^ (x >> 31);
+    };
+    std::uint64_t hash =
+      mix(dealii::Utilities::MPI::this_mpi_process(communicator) + 1);
+    hash = mix(hash ^ values.size());
     for (const int value : values)
-      {
-        hash ^= static_cast<std::uint64_t>(value + 1);
-        hash *= 1099511628211ull;
-      }
+      hash = mix(hash ^ static_cast<std::uint64_t>(value));
     return dealii::Utilities::MPI::sum(hash, communicator);
   }
 } // namespace Ricochet

@@ -93,6 +93,8 @@ namespace Ricochet
     std::vector<types::global_dof_index> my_multipliers;
     IndexSet                             contact_dofs;
     IndexSet                             relevant_multipliers;
+    AssertThrow(!has_multipliers() || !contact_ids.empty(),
+                ExcMessage("Multipliers need a contact boundary."));
     if (has_multipliers())
       {
         multiplier_dofs.distribute_dofs(*multiplier_element);

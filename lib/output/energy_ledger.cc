@@ -103,6 +103,13 @@ namespace Ricochet
           for (const std::string &value :
                Utilities::split_string_list(line, ','))
             row.push_back(std::strtod(value.c_str(), nullptr));
+          if (row.size() != column_list.size())
+            {
+              problem = "row " + std::to_string(row_list.size() + 1) + " has " +
+                std::to_string(row.size()) + " of " +
+                std::to_string(column_list.size()) + " columns";
+              break;
+            }
           row_list.push_back(row);
         }
     }

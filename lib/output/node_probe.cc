@@ -40,6 +40,8 @@ namespace Ricochet
       Utilities::MPI::min(mine ? rank
                                : std::numeric_limits<unsigned int>::max(),
                           communicator);
+    AssertThrow(owner != std::numeric_limits<unsigned int>::max(),
+                ExcMessage("No rank owns the node of a probe."));
     if (owner == rank)
       indices = candidate;
   }

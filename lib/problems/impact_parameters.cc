@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <base/parameter_file.h>
 #include <problems/impact_parameters.h>
 
 namespace Ricochet
@@ -30,5 +32,9 @@ namespace Ricochet
   ImpactParameters::validate() const
   {
     check_combination(contact, scheme.name, redistributed_mass());
+    if (time.final_time > 1e8 * time.time_step)
+      throw InputError("The final time " + to_text(time.final_time) +
+                       " s is more than 1e8 time steps of " +
+                       to_text(time.time_step) + " s away.");
   }
 } // namespace Ricochet

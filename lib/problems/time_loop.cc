@@ -45,7 +45,7 @@ namespace Ricochet
     parameters.add_parameter("Checkpoint every",
                              checkpoint_every,
                              "Write a checkpoint every so many steps and at "
-                             "the end; 0 for never.",
+                             "the end; 0 for none but after a failure.",
                              Patterns::Integer(0));
     parameters.add_parameter("Log every",
                              log_every,
@@ -180,6 +180,11 @@ namespace Ricochet
       }
     for (const Column &column : own_columns)
       row.push_back(column.value(state));
+    for (const double value : row)
+      if (!std::isfinite(value))
+        throw ComputationError("The state at t = " + to_text(state.time) +
+                               " s is not finite. All results up to then are "
+                               "in the output folder.");
     ledger.add_row(row);
   }
 
@@ -235,6 +240,12 @@ namespace Ricochet
         initial_energy        = checkpoint.sums.at(3);
         largest_energy        = checkpoint.sums.at(4);
         n_halvings = static_cast<unsigned int>(checkpoint.sums.at(5));
+        if (step > n_steps)
+          throw InputError(
+            "The run cannot be resumed: its checkpoint is at t "
+            "= " +
+            to_text(state.time) + " s, after the final time " +
+            to_text(parameters.final_time) + " s.");
         ledger.resume(step + 1);
         folder.log("resumed after step " + std::to_string(step) +
                    ", t = " + to_text(state.time) + " s");
@@ -286,12 +297,14 @@ namespace Ricochet
                  state}
         .write(folder);
     };
+    unsigned int halvings_before = n_halvings;
     try
       {
         while (step < n_steps)
           {
             const double old_energy = system.kinetic_energy(state.velocity) +
               system.bulk.energy(state.solution);
+            halvings_before = n_halvings;
             timer.enter_subsection("steps");
             const StepReport report =
               advance(state, parameters.time_step, 0, new_state);
@@ -331,7 +344,9 @@ namespace Ricochet
       }
     catch (const ComputationError &)
       {
-        // Everything up to the last complete step is safe on disk.
+        // Everything up to the last complete step is safe on disk. A step that
+        // was not completed leaves no trace.
+        n_halvings = halvings_before;
         ledger.write_hdf5();
         if (fields)
           write_fields(state, step);
@@ -339,6 +354,14 @@ namespace Ricochet
         throw;
       }
     ledger.write_hdf5();
+
+    const unsigned int column = ledger.column_number("balance_residual");
+    double             worst  = 0.;
+    for (const auto &row : ledger.rows())
+      worst = std::max(worst, std::abs(row[column]));
+    folder.log(
+      "largest balance residual: " + to_text(worst) +
+      (worst < 1e-9 ? " (closed)" : " - THE ENERGY BALANCE DOES NOT CLOSE"));
     if (parameters.timing)
       {
         timer.print_summary();

@@ -19,7 +19,7 @@ namespace Ricochet
       tolerance,
       "Newton's method has converged when the norm of the residual is below "
       "this fraction of the norm of the forces that make it up.",
-      Patterns::Double(1e-15, 1e-2));
+      Patterns::Double(1e-15, 1e-6));
     parameters.add_parameter("Maximum iterations",
                              max_iterations,
                              "Number of linear solves after which Newton's "
@@ -71,9 +71,15 @@ namespace Ricochet
       return problem.force_scale > 0. ? norm / problem.force_scale : norm;
     };
 
-    double norm = evaluate(solution);
+    double     norm      = evaluate(solution);
+    const auto converged = [&]() {
+      const double scale = problem.force_scale > 0. ? problem.force_scale : 1.;
+      return history.size() > 1
+        ? norm <= parameters.tolerance + problem.round_off / scale
+        : norm == 0.;
+    };
     history.push_back({norm, 0., problem.active_set()});
-    while (norm > parameters.tolerance)
+    while (!converged())
       {
         if (!std::isfinite(norm))
           fail("the state is not finite.");
@@ -94,12 +100,13 @@ namespace Ricochet
               trial.add(-step_length, update);
               new_norm = evaluate(trial);
             }
+        if (history.size() > parameters.line_search_after &&
+            !(new_norm < norm) && std::isfinite(new_norm))
+          fail("no step length makes the residual smaller.");
         solution.swap(trial);
         norm = new_norm;
         history.push_back({norm, step_length, problem.active_set()});
       }
-    if (!std::isfinite(norm))
-      fail("the state is not finite.");
     return history;
   }
 } // namespace Ricochet

@@ -50,6 +50,9 @@ namespace Ricochet
 
       /// Magnitude of the forces that make up the residual (N).
       double force_scale = 0.;
+
+      /// Residual (N) that round-off alone can cause.
+      double round_off = 0.;
     };
 
     /// What an iteration did.
@@ -66,7 +69,9 @@ namespace Ricochet
     {}
 
     /**
-     * Solve @p problem, from @p solution to @p solution.
+     * Solve @p problem, from @p solution to @p solution. The guess is never
+     * accepted as it is, unless its residual is exactly zero: there is at least
+     * one linear solve.
      *
      * @return one entry per residual that was looked at: the number of linear
      * solves plus one.

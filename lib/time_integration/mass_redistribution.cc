@@ -166,7 +166,7 @@ namespace Ricochet
           direction.sadd(new_rho / rho, 1., residual);
           rho = new_rho;
         }
-      return true;
+      return rho <= 1e-20 * initial;
     }
   } // namespace
 

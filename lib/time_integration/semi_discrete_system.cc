@@ -3,6 +3,7 @@
 #include <time_integration/semi_discrete_system.h>
 
 #include <cmath>
+#include <limits>
 
 namespace Ricochet
 {
@@ -141,17 +142,19 @@ namespace Ricochet
       constant_part.add(stage.contact_weight_old, old_state.contact_force);
     constant_part.add(-1., stage.load);
 
-    // The forces that nearly cancel in a residual: what "small" is measured
-    // against.
-    double force_scale = 0.;
-    for (const Vector *point :
-         {&stage.inertia_origin, static_cast<const Vector *>(&solution)})
-      {
-        mass.vmult(work, *point);
-        force_scale += stage.inertia * work.l2_norm();
-      }
+    // The forces that nearly cancel in a residual are what "small" is measured
+    // against: inertia, bulk and what is constant. The inertia term is a small
+    // difference of large numbers when the step is short; their round-off
+    // remains, whatever Newton's method does.
+    work = solution;
+    work -= stage.inertia_origin;
+    mass.vmult(force, work);
+    double force_scale = stage.inertia * force.l2_norm();
     bulk.force(solution, work);
     force_scale += work.l2_norm() + constant_part.l2_norm();
+    mass.vmult(work, stage.inertia_origin);
+    const double round_off = 4. * std::numeric_limits<double>::epsilon() *
+      stage.inertia * work.l2_norm();
 
     const auto residual = [&](const Vector &point, Vector &result) {
       work = point;
@@ -208,7 +211,8 @@ namespace Ricochet
                         old_state.contact_force,
                         stage.contact_weight_new);
     const std::vector<NewtonSolver::Iteration> &history =
-      newton.solve({residual, solve, norm, active_set, force_scale}, solution);
+      newton.solve({residual, solve, norm, active_set, force_scale, round_off},
+                   solution);
     contact_force = contact.contact_force();
     if (newton_observer)
       newton_observer(history);
@@ -230,6 +234,8 @@ namespace Ricochet
         new_state.acceleration(i) =
           (velocity - old_state.velocity(i)) / time_step;
       }
+    for (const auto i : multipliers)
+      new_state.velocity(i) = new_state.acceleration(i) = 0.;
     new_state.velocity.compress(VectorOperation::insert);
     new_state.acceleration.compress(VectorOperation::insert);
   }

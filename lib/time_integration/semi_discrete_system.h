@@ -127,7 +127,8 @@ namespace Ricochet
     external_load(const double time, Vector &load) const;
 
     /// Backward differences for the displacements without inertia, from @p
-    /// old_state over @p time_step: paper C, algorithm 1.
+    /// old_state over @p time_step: paper C, algorithm 1. Multipliers have
+    /// neither velocity nor acceleration.
     void
     reconstruct_massless(const State &old_state,
                          const double time_step,

@@ -127,6 +127,14 @@ class BadInput(ProgramTest):
         self.refuse("There is no option '--resum'. Is --resume meant?",
                     options=["--resum"])
 
+    def test_option_in_the_place_of_a_value(self):
+        self.refuse("--set needs a value after it, not '--resume'",
+                    options=["--set", "--resume"])
+
+    def test_too_many_steps(self):
+        self.refuse("is more than 1e8 time steps",
+                    parameters=["Time/Final time=1e10"])
+
     def test_assignment_without_value(self):
         self.refuse("expected the form", parameters=["Time/Time step"])
 
@@ -174,6 +182,11 @@ class FailureWhileRunning(ProgramTest):
         self.assertEqual(code, 2)
         self.assertEqual(again, error)
         self.assertEqual((run / "energy.csv").read_text(), text)
+
+        # With more patience it goes on to the end.
+        code, _, again = self.attempt("bar_sd", options=["--resume"])
+        self.assertEqual(code, 0, msg=again)
+        self.assertEqual(len(Ledger(run)["time"]), 241)
 
     def test_halved_steps_are_counted_and_close_their_balance(self):
         """Halving helps where one iteration is not enough."""

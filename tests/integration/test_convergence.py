@@ -31,8 +31,9 @@ class Convergence(ProgramTest):
                 orders = [math.log(a / b, 4) for a, b in zip(errors, errors[1:])]
                 print(f"{program} {scheme}: errors {errors}, orders {orders}")
                 with self.subTest(f"{program} {scheme}"):
-                    self.assertGreater(min(orders), .1)
-                    self.assertLess(max(orders), 1.2)
+                    # Measured: 0.27 to 0.38 on 1D-SD, 0.28 to 0.63 on 1D-SS.
+                    self.assertGreater(min(orders), .22)
+                    self.assertLess(max(orders), .75)
 
 
 if __name__ == "__main__":

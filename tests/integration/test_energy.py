@@ -93,6 +93,27 @@ class Energy(ProgramTest):
                     for n in in_flight(ledger, "left"))
         self.assertGreater(worst, 1e-2)
 
+    def test_short_steps_are_solved(self):
+        """The inertia of a short step is a small difference of large numbers;
+        that must not make its equation look solved."""
+        for step in (1e-5, 1e-6):
+            ledger = self.sd(f"Time/Time step={step}",
+                             f"Time/Final time={1000 * step}",
+                             "Contact/Treatment=penalty",
+                             "Time/Scheme=Crank-Nicolson")
+            self.assertEqual(min(ledger["newton_iterations"][1:]), 1)
+            # The first element relaxes: its end moves by a t^2/2 at first, with
+            # the initial acceleration of the discrete bar.
+            coarse = self.run_program(
+                "bar_sd", NO_FIELDS + [f"Time/Time step={100 * step}",
+                                       f"Time/Final time={1000 * step}",
+                                       "Contact/Treatment=penalty"],
+                self.folder / "coarse")
+            moved = .5 - ledger["displacement_left"][-1]
+            self.assertAlmostEqual(
+                moved / (.5 - coarse["displacement_left"][-1]), 1., delta=1e-2)
+            shutil.rmtree(self.folder / "coarse")
+
     def test_skew_symmetric_and_symmetric_agree_under_refinement(self):
         """All variants converge to the same solution (C, after (8))."""
         ends = []

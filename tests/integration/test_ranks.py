@@ -45,6 +45,17 @@ class Ranks(ProgramTest):
                              [f"Contact/Treatment={treatment}",
                               f"Time/Mass={mass}"])
 
+    def test_more_ranks_than_cells(self):
+        """Ranks without cells take part in everything."""
+        parameters = NO_FIELDS + ["Mesh/Mesh size=0.5", "Time/Final time=1",
+                                  "Contact/Treatment=proximal augmented "
+                                  "Lagrangian"]
+        one = self.run_program("bar_ss", parameters, self.folder / "one")
+        four = self.run_program("bar_ss", parameters, self.folder / "four",
+                                n_ranks=4)
+        for a, b in zip(one["energy"], four["energy"]):
+            self.assertAlmostEqual(a, b, delta=1e-12)
+
     def test_fields_are_written_in_parallel(self):
         self.run_program("bar_ss", ["Time/Final time=0.5"], n_ranks=2)
         files = sorted((self.folder / "run" / "solution").iterdir())

@@ -108,6 +108,10 @@ class BadCheckpoint(ProgramTest):
         self.refuse("belongs to a run with other parameters",
                     ["Time/Time step=0.025"])
 
+    def test_earlier_final_time(self):
+        self.refuse("its checkpoint is at t = 0.5 s, after the final time 0.25",
+                    ["Time/Final time=0.25"])
+
     def test_other_number_of_ranks(self):
         self.refuse("was written by 1 MPI rank(s) and this run has 2",
                     n_ranks=2)

@@ -124,7 +124,10 @@ BOOST_AUTO_TEST_CASE(failure_shows_its_history)
 {
   try
     {
-      solve([](double) { return 1.; }, [](double) { return 1.; }, 0., {});
+      solve([](double) { return 1.; },
+            [](double) { return 1.; },
+            0.,
+            {1e-12, 30, 1000});
       BOOST_FAIL("no exception");
     }
   catch (const NewtonFailure &failure)

@@ -9,10 +9,12 @@
 
 #include <base/exceptions.h>
 #include <contact/contact_treatment.h>
+#include <contact/pointwise_contact.h>
 
 #include <boost/test/unit_test.hpp>
 
 #include <random>
+#include <set>
 
 using namespace Ricochet;
 using dealii::VectorOperation;
@@ -60,7 +62,8 @@ namespace
     Vector solution(zero), old_solution(zero), direction(zero);
     Vector old_force(zero), difference(zero), product(zero);
 
-    bool contact_seen = false;
+    bool         contact_seen  = false;
+    unsigned int n_comparisons = 0;
     for (const double size : {1e-3, .05, .2})
       for (unsigned int seed = 0; seed < 4; ++seed)
         {
@@ -99,6 +102,7 @@ namespace
           evaluate(point, perturbed_residual);
           if (contact->tangent_signature() != signature)
             continue;
+          ++n_comparisons;
           difference = perturbed_residual;
           difference -= residual;
           difference *= 1. / eps;
@@ -107,6 +111,7 @@ namespace
                             2e-6 * (1. + product.linfty_norm()));
         }
     BOOST_CHECK(contact_seen);
+    BOOST_CHECK_GE(n_comparisons, 6u);
   }
 
   template <int dim>
@@ -149,6 +154,27 @@ BOOST_AUTO_TEST_CASE(in_3d)
 {
   check_all<3>(false, 1);
   check_all<3>(true, 1);
+}
+
+// Factorisations are found again by a hash of the branches of all contact
+// points: no two states may share one.
+BOOST_AUTO_TEST_CASE(signatures_differ)
+{
+  const unsigned int n_points = 6;
+  const unsigned int n_ranks =
+    dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const unsigned int rank =
+    dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  std::set<std::uint64_t> signatures;
+  const unsigned int      n_states = 1u << (n_points * n_ranks);
+  for (unsigned int state = 0; state < n_states; ++state)
+    {
+      std::vector<int> branches;
+      for (unsigned int p = 0; p < n_points; ++p)
+        branches.push_back((state >> (rank * n_points + p)) & 1);
+      signatures.insert(global_hash(branches, MPI_COMM_WORLD));
+    }
+  BOOST_CHECK_EQUAL(signatures.size(), n_states);
 }
 
 BOOST_AUTO_TEST_CASE(clamped_contact_nodes_are_refused)

@@ -71,10 +71,13 @@ namespace Ricochet
       return state.stress_pressure - stiffness(cell_diameter) * state.gap > 0.;
     }
 
+    /// The non-symmetric variants have none: 0.
     double
     potential(const ContactPointState<> &state,
               const double               cell_diameter) const
     {
+      if (theta != 1.)
+        return 0.;
       const double q = pressure(state, cell_diameter);
       return (q * q - state.stress_pressure * state.stress_pressure) /
         (2. * stiffness(cell_diameter));
