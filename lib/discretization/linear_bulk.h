@@ -41,12 +41,6 @@ namespace Ricochet
       return true;
     }
 
-    const Matrix &
-    stiffness_matrix() const
-    {
-      return stiffness;
-    }
-
   private:
     Matrix stiffness;
     // Work space, so that nothing is allocated in a time step.

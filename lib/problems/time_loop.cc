@@ -108,7 +108,7 @@ namespace Ricochet
                        const std::function<double(const State &)> &value)
   {
     ledger.add_column(name, unit);
-    own_columns.push_back({name, unit, value});
+    own_columns.push_back(value);
   }
 
 
@@ -139,6 +139,15 @@ namespace Ricochet
       advance(old_state, .5 * time_step, n_halvings_so_far + 1, middle);
     report += advance(middle, .5 * time_step, n_halvings_so_far + 1, new_state);
     return report;
+  }
+
+
+
+  double
+  TimeLoop::mechanical_energy(const State &state) const
+  {
+    return system.kinetic_energy(state.velocity) +
+      system.bulk.energy(state.solution);
   }
 
 
@@ -178,8 +187,8 @@ namespace Ricochet
                     contact.stress_pressure,
                     static_cast<double>(contact.active_points)});
       }
-    for (const Column &column : own_columns)
-      row.push_back(column.value(state));
+    for (const auto &value : own_columns)
+      row.push_back(value(state));
     for (const double value : row)
       if (!std::isfinite(value))
         throw ComputationError("The state at t = " + to_text(state.time) +
@@ -253,8 +262,7 @@ namespace Ricochet
     else
       {
         ledger.start();
-        initial_energy = system.kinetic_energy(state.velocity) +
-          system.bulk.energy(state.solution);
+        initial_energy = mechanical_energy(state);
         add_row(state, StepReport(), 0.);
         if (fields)
           write_fields(state, 0);
@@ -297,13 +305,12 @@ namespace Ricochet
                  state}
         .write(folder);
     };
+    double       energy          = mechanical_energy(state);
     unsigned int halvings_before = n_halvings;
     try
       {
         while (step < n_steps)
           {
-            const double old_energy = system.kinetic_energy(state.velocity) +
-              system.bulk.energy(state.solution);
             halvings_before = n_halvings;
             timer.enter_subsection("steps");
             const StepReport report =
@@ -318,15 +325,14 @@ namespace Ricochet
             external_work += report.external_work;
             contact_work += report.contact_work;
             numerical_dissipation += report.numerical_dissipation;
-            const double new_energy = system.kinetic_energy(state.velocity) +
-              system.bulk.energy(state.solution);
-            const double residual = new_energy - old_energy -
-              report.external_work + report.contact_work +
-              report.numerical_dissipation;
+            const double old_energy = energy;
+            energy                  = mechanical_energy(state);
+            const double residual = energy - old_energy - report.external_work +
+              report.contact_work + report.numerical_dissipation;
             // Relative to the initial energy; a body that starts at rest is
             // measured by the largest energy so far.
             if (initial_energy == 0.)
-              largest_energy = std::max(largest_energy, new_energy);
+              largest_energy = std::max(largest_energy, energy);
             const double scale =
               initial_energy > 0. ? initial_energy : largest_energy;
             add_row(state, report, scale > 0. ? residual / scale : residual);

@@ -79,6 +79,10 @@ namespace Ricochet
             const unsigned int n_halvings_so_far,
             State             &new_state);
 
+    /// Kinetic plus stored energy (J).
+    double
+    mechanical_energy(const State &state) const;
+
     void
     add_row(const State      &state,
             const StepReport &report,
@@ -87,19 +91,14 @@ namespace Ricochet
     void
     log_row(const unsigned int step, const unsigned int n_steps) const;
 
-    struct Column
-    {
-      std::string                          name, unit;
-      std::function<double(const State &)> value;
-    };
-
     const Parameters                                        parameters;
     RunFolder                                              &folder;
     SemiDiscreteSystem                                     &system;
     TimeScheme                                             &scheme;
     const std::map<dealii::types::boundary_id, std::string> contact_names;
-    std::vector<Column>                                     own_columns;
-    EnergyLedger                                            ledger;
+    // Values of the benchmark's own columns, in the order of the ledger.
+    std::vector<std::function<double(const State &)>> own_columns;
+    EnergyLedger                                      ledger;
 
     // Sums over the run, part of a checkpoint.
     double       external_work         = 0.;
