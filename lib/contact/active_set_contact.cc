@@ -4,20 +4,23 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace Ricochet
 {
+  using dealii::Tensor;
   using dealii::VectorOperation;
 
-  double
-  ActiveSetContact::normal_component(const unsigned int p,
-                                     const Vector      &vector) const
+  Tensor<1, 3>
+  ActiveSetContact::at_node(const unsigned int p, const Vector &vector) const
   {
     const ContactPoints &coefficients = evaluator.coefficients();
-    const ContactPoint  &point        = coefficients.points[p];
-    double               sum          = 0.;
-    for (unsigned int k = point.begin; k < point.end; ++k)
-      sum += coefficients.gap_coefficient[k] * vector(coefficients.index[k]);
-    return sum;
+    Tensor<1, 3>         value;
+    for (unsigned int k = coefficients.points[p].begin;
+         k < coefficients.points[p].end;
+         ++k)
+      value[coefficients.component[k]] = vector(coefficients.index[k]);
+    return value;
   }
 
 
@@ -31,15 +34,85 @@ namespace Ricochet
 
 
 
+  ActiveSetContact::Closing
+  ActiveSetContact::closing_kind() const
+  {
+    if (condition == Condition::signorini)
+      return Closing::gap;
+    return condition == Condition::two_step && pass == 0
+      ? Closing::mean_gap
+      : Closing::change_of_gap;
+  }
+
+
+
+  double
+  ActiveSetContact::closing(const unsigned int p) const
+  {
+    switch (closing_kind())
+      {
+        case Closing::gap:
+          return state[p].gap;
+        case Closing::mean_gap:
+          return .5 * (old_state[p].gap + state[p].gap);
+        default:
+          // From displacements, so that nothing cancels far from the origin.
+          return evaluator.contact_points()[p].obstacle_normal *
+            (displacement[p] - old_displacement[p]);
+      }
+  }
+
+
+
   void
-  ActiveSetContact::begin_stage(const Vector & /*old_solution*/,
-                                const Vector &old_contact_force,
-                                const double  weight_)
+  ActiveSetContact::begin_stage(const ContactStart &start, const double weight_)
   {
     weight         = weight_;
     first_in_stage = true;
-    for (unsigned int p = 0; p < reaction.size(); ++p)
-      reaction[p] = -normal_component(p, old_contact_force);
+    pass           = 0;
+    evaluator.evaluate(start.solution, old_state);
+    evaluator.evaluate_displacement(start.solution, old_displacement);
+    if (condition == Condition::persistent)
+      evaluator.evaluate_displacement(start.mean_velocity, mean_velocity);
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      {
+        Node &node            = nodes[p];
+        node.initial_reaction = -1. * at_node(p, start.contact_force);
+        node.candidate        = true;
+        if (condition == Condition::persistent)
+          node.candidate = old_state[p].gap +
+              .5 * start.time_step *
+                (evaluator.contact_points()[p].obstacle_normal *
+                 mean_velocity[p]) <=
+            0.;
+      }
+  }
+
+
+
+  void
+  ActiveSetContact::accept_iterate()
+  {
+    for (Node &node : nodes)
+      node.accepted_status = node.status;
+    first_in_stage = false;
+  }
+
+
+
+  bool
+  ActiveSetContact::next_pass()
+  {
+    if (condition != Condition::two_step || pass == 1)
+      return false;
+    pass           = 1;
+    first_in_stage = true;
+    for (Node &node : nodes)
+      {
+        node.candidate        = node.status != Status::open;
+        node.initial_reaction = node.reaction;
+      }
+    return true;
   }
 
 
@@ -48,37 +121,81 @@ namespace Ricochet
   ActiveSetContact::complete_residual(const Vector &solution, Vector &residual)
   {
     evaluator.evaluate(solution, state);
+    evaluator.evaluate_displacement(solution, displacement);
     const ContactPoints &coefficients = evaluator.coefficients();
 
-    // The multiplier of the last iterate: what the equation of motion leaves
-    // over in the nodes that were active. In the first iteration it is the
-    // reaction of the last step.
-    std::vector<double> excess(reaction.size());
-    for (unsigned int p = 0; p < reaction.size(); ++p)
+    force         = 0.;
+    friction_part = 0.;
+    for (unsigned int p = 0; p < nodes.size(); ++p)
       {
-        excess[p] = normal_component(p, residual);
-        if (!first_in_stage)
-          reaction[p] = active[p] ? excess[p] / weight : 0.;
-      }
-    first_in_stage = false;
+        Node               &node   = nodes[p];
+        const ContactPoint &point  = coefficients.points[p];
+        const Tensor<1, 3> &normal = point.obstacle_normal;
+        const double        scale  = constraint_scale(p);
 
-    force = 0.;
-    for (unsigned int p = 0; p < reaction.size(); ++p)
-      {
-        const ContactPoint &point = coefficients.points[p];
-        active[p] = reaction[p] - constraint_scale(p) * state[p].gap > 0.;
-        if (!active[p])
+        // The reaction of the last iterate: what the equation of motion leaves
+        // over in the nodes that were active. In the first iteration it is the
+        // reaction of the last step.
+        const Tensor<1, 3> excess = at_node(p, residual);
+        if (first_in_stage)
+          node.reaction = node.initial_reaction;
+        else if (node.accepted_status == Status::open)
+          node.reaction = 0.;
+        else
+          node.reaction = excess / weight;
+        const double normal_reaction = normal * node.reaction;
+        if (friction_coefficient == 0.)
+          node.reaction = normal_reaction * normal;
+
+        const double trial = normal_reaction - scale * closing(p);
+        node.status        = Status::open;
+        if (!node.candidate || !(trial > 0.))
           continue;
+
+        node.status             = Status::slip;
+        node.friction_direction = 0.;
+        node.friction_ratio     = 0.;
+        const Tensor<1, 3> tangential_reaction =
+          node.reaction - normal_reaction * normal;
+        Tensor<1, 3> slip = displacement[p] - old_displacement[p];
+        slip -= (normal * slip) * normal;
+        if (friction_coefficient > 0.)
+          {
+            const Tensor<1, 3> friction_trial =
+              tangential_reaction - scale * slip;
+            const double size = friction_trial.norm();
+            if (size < friction_coefficient * normal_reaction)
+              node.status = Status::stick;
+            else if (size > 0. && normal_reaction >= 0.)
+              {
+                // A node that just became active has no reaction yet, and
+                // already the direction of its friction.
+                node.friction_direction = friction_trial / size;
+                node.friction_ratio =
+                  friction_coefficient * normal_reaction / size;
+              }
+          }
+
+        // Replace the normal component, and the tangential ones as well.
+        const double normal_excess = normal * excess;
+        Tensor<1, 3> new_residual  = scale * closing(p) * normal;
+        if (node.status == Status::stick)
+          new_residual += scale * slip;
+        else
+          new_residual += excess - normal_excess * normal -
+            friction_coefficient * normal_excess * node.friction_direction;
         for (unsigned int k = point.begin; k < point.end; ++k)
           {
-            const double normal = coefficients.gap_coefficient[k];
-            residual(coefficients.index[k]) +=
-              normal * (constraint_scale(p) * state[p].gap - excess[p]);
-            force(coefficients.index[k]) = -normal * reaction[p];
+            const unsigned int c = coefficients.component[k];
+            residual(coefficients.index[k]) += new_residual[c] - excess[c];
+            force(coefficients.index[k]) = -node.reaction[c];
+            if (friction_coefficient > 0.)
+              friction_part(coefficients.index[k]) = -tangential_reaction[c];
           }
       }
     residual.compress(VectorOperation::add);
     force.compress(VectorOperation::insert);
+    friction_part.compress(VectorOperation::insert);
   }
 
 
@@ -86,50 +203,103 @@ namespace Ricochet
   void
   ActiveSetContact::complete_tangent(Matrix &tangent) const
   {
-    // In place, on the rows of the active nodes: T <- (I - n n^T) T + scale n
-    // n^T. The rows of one node have the same columns in the same order,
-    // because cells couple all components.
+    // In place, on the rows of the active nodes. With the normal n and the rows
+    // T of a node, its normal row n.T is taken out and replaced by that of the
+    // constraint; the tangential rows stay (no friction), are replaced too
+    // (stick), or become
+    //   (I - ratio (I - d d^T)) T_t + ratio scale (I - d d^T) - mu d n.T
+    // (slip, d being the direction of friction). The rows of one node have the
+    // same columns in the same order, because cells couple all components.
     const ContactPoints &coefficients = evaluator.coefficients();
     const auto          &epetra       = tangent.trilinos_matrix();
-    std::vector<double>  normal_row;
-    for (unsigned int p = 0; p < active.size(); ++p)
+    const double         closing_derivative =
+      closing_kind() == Closing::mean_gap ? .5 : 1.;
+    for (unsigned int p = 0; p < nodes.size(); ++p)
       {
-        if (!active[p])
+        const Node &node = nodes[p];
+        if (node.status == Status::open)
           continue;
-        const ContactPoint   &point = coefficients.points[p];
-        std::vector<double *> rows;
-        int                   n_entries = 0;
-        int                  *columns   = nullptr;
-        for (unsigned int k = point.begin; k < point.end; ++k)
+        const ContactPoint     &point  = coefficients.points[p];
+        const Tensor<1, 3>     &normal = point.obstacle_normal;
+        const unsigned int      n_rows = point.end - point.begin;
+        const double            scale  = constraint_scale(p);
+        std::array<double *, 3> rows{};
+        std::array<int, 3>      own_columns{};
+        int                     n_entries = 0;
+        int                    *columns   = nullptr;
+        for (unsigned int a = 0; a < n_rows; ++a)
           {
-            double   *row_values = nullptr;
-            const int local_row  = epetra.LRID(
+            const auto unknown =
               static_cast<dealii::TrilinosWrappers::types::int_type>(
-                coefficients.index[k]));
-            const int error = epetra.ExtractMyRowView(local_row,
+                coefficients.index[point.begin + a]);
+            const int error = epetra.ExtractMyRowView(epetra.LRID(unknown),
                                                       n_entries,
-                                                      row_values,
+                                                      rows[a],
                                                       columns);
             AssertThrow(error == 0, dealii::ExcTrilinosError(error));
-            rows.push_back(row_values);
+            own_columns[a] = epetra.LCID(unknown);
           }
-        const double *normal = &coefficients.gap_coefficient[point.begin];
-        normal_row.assign(n_entries, 0.);
-        for (unsigned int a = 0; a < rows.size(); ++a)
-          for (int j = 0; j < n_entries; ++j)
-            normal_row[j] += normal[a] * rows[a][j];
-        for (int j = 0; j < n_entries; ++j)
+
+        // What multiplies T in the new rows, and what stands in the columns of
+        // the node itself.
+        Tensor<2, 3> from_rows, own;
+        Tensor<2, 3> plane(dealii::unit_symmetric_tensor<3>());
+        plane -= outer_product(normal, normal);
+        own = closing_derivative * scale * outer_product(normal, normal);
+        if (node.status == Status::stick)
+          own += scale * plane;
+        else
           {
-            const auto column = epetra.GCID(columns[j]);
-            for (unsigned int b = 0; b < rows.size(); ++b)
-              if (column ==
-                  static_cast<dealii::TrilinosWrappers::types::int_type>(
-                    coefficients.index[point.begin + b]))
-                normal_row[j] -= constraint_scale(p) * normal[b];
-            for (unsigned int a = 0; a < rows.size(); ++a)
-              rows[a][j] -= normal[a] * normal_row[j];
+            const Tensor<1, 3> &d = node.friction_direction;
+            const Tensor<2, 3>  across =
+              node.friction_ratio * (plane - outer_product(d, d));
+            from_rows =
+              plane - across - friction_coefficient * outer_product(d, normal);
+            own += scale * weight * across;
           }
+        new_rows.assign(n_rows * n_entries, 0.);
+        for (unsigned int a = 0; a < n_rows; ++a)
+          for (unsigned int b = 0; b < n_rows; ++b)
+            for (int j = 0; j < n_entries; ++j)
+              new_rows[a * n_entries + j] += from_rows[a][b] * rows[b][j];
+        for (int j = 0; j < n_entries; ++j)
+          for (unsigned int b = 0; b < n_rows; ++b)
+            if (columns[j] == own_columns[b])
+              for (unsigned int a = 0; a < n_rows; ++a)
+                new_rows[a * n_entries + j] += own[a][b];
+        for (unsigned int a = 0; a < n_rows; ++a)
+          std::copy(&new_rows[a * n_entries],
+                    &new_rows[a * n_entries] + n_entries,
+                    rows[a]);
       }
+  }
+
+
+
+  double
+  ActiveSetContact::round_off() const
+  {
+    double square = 0.;
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      if (nodes[p].status != Status::open)
+        {
+          const double force = constraint_scale(p) *
+            gap_round_off(evaluator.contact_points()[p], state[p].gap);
+          square += force * force;
+        }
+    return std::sqrt(
+      dealii::Utilities::MPI::sum(square, evaluator.communicator));
+  }
+
+
+
+  std::vector<int>
+  ActiveSetContact::statuses() const
+  {
+    std::vector<int> values(nodes.size());
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      values[p] = static_cast<int>(nodes[p].status);
+    return values;
   }
 
 
@@ -137,7 +307,20 @@ namespace Ricochet
   std::optional<std::uint64_t>
   ActiveSetContact::tangent_signature() const
   {
-    return global_hash(active, evaluator.communicator);
+    // The direction of slip is part of the tangent.
+    std::vector<int> values = statuses();
+    if (friction_coefficient > 0.)
+      {
+        const bool slips =
+          std::any_of(nodes.begin(), nodes.end(), [](const Node &node) {
+            return node.status == Status::slip;
+          });
+        if (dealii::Utilities::MPI::max(slips ? 1 : 0,
+                                        evaluator.communicator) == 1)
+          return {};
+      }
+    values.push_back(static_cast<int>(closing_kind()));
+    return global_hash(values, evaluator.communicator);
   }
 
 
@@ -145,7 +328,7 @@ namespace Ricochet
   std::string
   ActiveSetContact::active_set_description() const
   {
-    return count_active(active, evaluator.communicator);
+    return count_active(statuses(), evaluator.communicator);
   }
 
 
@@ -165,9 +348,10 @@ namespace Ricochet
     std::map<dealii::types::boundary_id, ContactSummary> sums;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
-        const ContactPoint &point         = evaluator.contact_points()[p];
-        ContactSummary     &sum           = sums[point.boundary_id];
-        const double        node_reaction = -normal_component(p, contact_force);
+        const ContactPoint &point = evaluator.contact_points()[p];
+        ContactSummary     &sum   = sums[point.boundary_id];
+        const double        node_reaction =
+          -evaluator.normal_component(p, contact_force);
         sum.area += point.weight;
         sum.mean_gap += point.weight * state[p].gap;
         sum.max_penetration = std::max(sum.max_penetration, -state[p].gap);

@@ -7,48 +7,79 @@
 namespace Ricochet
 {
   /**
-   * Signorini's condition in the nodes by a primal-dual active set, without
+   * Contact conditions in the nodes by a primal-dual active set, without
    * multiplier unknowns (papers A and B, section 5; Hüeber, Stadler and
    * Wohlmuth 2008).
    *
-   * A node is active when reaction/mass - r gap > 0. In the rows of an active
-   * node, the component of the equation of motion along the obstacle's normal
-   * is replaced by gap = 0, and the reaction is what that component leaves
-   * over. Inactive nodes have no reaction.
+   * A node is active when reaction - r closing > 0, where closing is what the
+   * condition keeps at zero (the gap, or its change over the step). In the rows
+   * of an active node, the component of the equation of motion along the
+   * obstacle's normal is replaced by closing = 0, and the reaction is what that
+   * component leaves over. Inactive nodes have no reaction.
+   *
+   * With Coulomb's friction an active node sticks or slips: if it sticks, the
+   * tangential components are replaced by slip = 0; if it slips, the tangential
+   * reaction is mu times the normal one, against the slip. Stick or slip is
+   * found from tangential reaction - r slip in the same way (B (5.7), in the
+   * form of Hüeber, Stadler and Wohlmuth).
    */
   class ActiveSetContact : public ContactOperator
   {
   public:
+    /// What is imposed on active nodes.
+    enum class Condition
+    {
+      /// Signorini's condition at the end of the step: gap = 0.
+      signorini,
+      /// Persistent contact (B (3.7)): where the predictor of the mean gap,
+      /// gap_old + dt/2 (rate of the step before), is not positive, the gap does
+      /// not change. The work of the reaction is exactly zero.
+      persistent,
+      /// Ayyad and Barboteu's two steps: first Signorini's condition on the mean
+      /// gap of the step; then, in the nodes that this found in contact, the gap
+      /// does not change, and the others are free.
+      two_step
+    };
+
     /**
      * @param nodes from make_nodal_contact_points().
      * @param stress_points quadrature points at which the summary evaluates the
      * body's own stress.
      * @param augmentation r_0 (Pa); r = r_0 / h_T. It steers the choice of the
      * sets, not the solution.
+     * @param friction_coefficient mu; 0 for none.
      */
     template <int dim>
     ActiveSetContact(const Body<dim> &body,
                      ContactPoints    nodes,
                      ContactPoints    stress_points,
-                     const double     augmentation)
+                     const Condition  condition,
+                     const double     augmentation,
+                     const double     friction_coefficient)
       : evaluator(body, std::move(nodes))
       , stress_evaluator(body, std::move(stress_points))
+      , condition(condition)
       , augmentation(augmentation)
+      , friction_coefficient(friction_coefficient)
       , force(body.make_vector())
+      , friction_part(body.make_vector())
       , scaling(body.make_vector())
-      , reaction(evaluator.contact_points().size(), 0.)
-      , active(evaluator.contact_points().size(), 0)
+      , nodes(evaluator.contact_points().size())
     {
       scaling = 1.;
     }
 
     void
-    begin_stage(const Vector &old_solution,
-                const Vector &old_contact_force,
-                const double  weight) override;
+    begin_stage(const ContactStart &start, const double weight) override;
 
     void
     complete_residual(const Vector &solution, Vector &residual) override;
+
+    void
+    accept_iterate() override;
+
+    bool
+    next_pass() override;
 
     void
     complete_tangent(Matrix &tangent) const override;
@@ -63,6 +94,15 @@ namespace Ricochet
     contact_force() const override
     {
       return force;
+    }
+
+    double
+    round_off() const override;
+
+    const Vector *
+    friction_force() const override
+    {
+      return friction_coefficient > 0. ? &friction_part : nullptr;
     }
 
     /// No force: outside of a stage the constraint has no reaction. Initial
@@ -82,28 +122,86 @@ namespace Ricochet
       return scaling;
     }
 
+    bool
+    knows_stress_pressure() const override
+    {
+      return stress_evaluator.has_points();
+    }
+
     std::map<dealii::types::boundary_id, ContactSummary>
     summary(const Vector &solution, const Vector &contact_force) override;
 
   private:
-    /// Component of @p vector at node @p p along the obstacle's normal.
-    double
-    normal_component(const unsigned int p, const Vector &vector) const;
+    enum class Status
+    {
+      open,
+      /// Active, without friction or slipping.
+      slip,
+      stick
+    };
 
-    /// Stiffness (N/m) with which the gap of node @p p enters the residual.
+    /// What is known of a node in the current iteration.
+    struct Node
+    {
+      Status status = Status::open;
+      /// The node may become active at all in this pass.
+      bool candidate = true;
+      /// Reaction (N) on the body with which the sets were chosen.
+      dealii::Tensor<1, 3> reaction;
+      /// Unit vector of tangential reaction - r slip; zero without friction.
+      dealii::Tensor<1, 3> friction_direction;
+      /// mu times the normal reaction over |tangential reaction - r slip|, at
+      /// most 1.
+      double friction_ratio = 0.;
+
+      // At the last accepted iterate, or the beginning of the stage.
+      Status               accepted_status = Status::open;
+      dealii::Tensor<1, 3> initial_reaction;
+    };
+
+    /// The vector's entries at node @p p.
+    dealii::Tensor<1, 3>
+    at_node(const unsigned int p, const Vector &vector) const;
+
+    /// Stiffness (N/m) with which closing and slip of node @p p enter the
+    /// residual.
     double
     constraint_scale(const unsigned int p) const;
 
-    ContactPointEvaluator            evaluator;
-    ContactPointEvaluator            stress_evaluator;
-    const double                     augmentation;
-    double                           weight         = 1.;
-    bool                             first_in_stage = true;
-    std::vector<ContactPointState<>> state, stress_state;
-    Vector                           force, scaling;
-    // Reaction (N) and activity of each node in the current iteration.
-    std::vector<double> reaction;
-    std::vector<int>    active;
+    /// The condition imposed in the current pass.
+    enum class Closing
+    {
+      gap,
+      mean_gap,
+      change_of_gap
+    };
+    Closing
+    closing_kind() const;
+
+    /// @return what the condition keeps at zero (m).
+    double
+    closing(const unsigned int p) const;
+
+    /// Status of all nodes as numbers, for keys of tangents.
+    std::vector<int>
+    statuses() const;
+
+    ContactPointEvaluator evaluator;
+    ContactPointEvaluator stress_evaluator;
+    const Condition       condition;
+    const double          augmentation;
+    const double          friction_coefficient;
+    double                weight         = 1.;
+    bool                  first_in_stage = true;
+    unsigned int          pass           = 0;
+
+    std::vector<ContactPointState<>>  state, old_state, stress_state;
+    std::vector<dealii::Tensor<1, 3>> displacement, old_displacement;
+    std::vector<dealii::Tensor<1, 3>> mean_velocity;
+    Vector                            force, friction_part, scaling;
+    std::vector<Node>                 nodes;
+    // Work space of complete_tangent(): the rows of a node.
+    mutable std::vector<double> normal_row, new_rows;
   };
 } // namespace Ricochet
 

@@ -7,7 +7,7 @@
 namespace Ricochet
 {
   /**
-   * All that a frictionless contact law may look at in one point of the contact
+   * All that a law of normal contact may look at in one point of the contact
    * boundary. Signs: gap > 0 is separated, pressures are positive in
    * compression.
    */
@@ -59,9 +59,14 @@ namespace Ricochet
     bool nodal = false;
     /// The law brings a multiplier field.
     bool needs_multiplier = false;
+    /// The law reads the stress pressure.
+    bool uses_stress = false;
     /// The law reads the old state too, as a discrete derivative does; only
     /// the midpoint scheme can use it.
     bool is_two_point = false;
+    /// Coulomb's friction with a tangential compliance can be put beside it:
+    /// minus the force on the gap is a contact pressure.
+    bool takes_friction = false;
     /// The tangent depends on nothing but branch(): factorisations can be kept
     /// while the branches stay the same.
     bool piecewise_linear = true;

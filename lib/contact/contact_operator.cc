@@ -46,6 +46,26 @@ namespace Ricochet
 
 
   void
+  ContactPointEvaluator::evaluate_displacement(
+    const Vector                      &solution,
+    std::vector<dealii::Tensor<1, 3>> &displacements)
+  {
+    ghosted             = solution;
+    const double *value = ghosted.trilinos_vector()[0];
+    displacements.resize(points.points.size());
+    for (unsigned int p = 0; p < displacements.size(); ++p)
+      {
+        displacements[p] = 0.;
+        for (unsigned int k = points.points[p].begin; k < points.points[p].end;
+             ++k)
+          displacements[p][points.component[k]] +=
+            points.shape_value[k] * value[local_index[k]];
+      }
+  }
+
+
+
+  void
   ContactPointEvaluator::add(const unsigned int         p,
                              const ContactPointForce<> &force,
                              Vector                    &vector)
@@ -91,5 +111,64 @@ namespace Ricochet
                    local_matrix.data(),
                    true);
       }
+  }
+
+
+
+  void
+  ContactPointEvaluator::add(const unsigned int          p,
+                             const dealii::Tensor<1, 3> &traction,
+                             Vector                     &vector)
+  {
+    const ContactPoint &point = points.points[p];
+    for (unsigned int k = point.begin; k < point.end; ++k)
+      values[k - point.begin] =
+        point.weight * traction[points.component[k]] * points.shape_value[k];
+    vector.add(point.end - point.begin,
+               points.index.data() + point.begin,
+               values.data());
+  }
+
+
+
+  void
+  ContactPointEvaluator::add(
+    const unsigned int                         p,
+    const double                               factor,
+    const dealii::Tensor<2, 3>                &with_displacement,
+    const std::array<dealii::Tensor<1, 3>, 3> &with_state,
+    Matrix                                    &matrix) const
+  {
+    const ContactPoint &point = points.points[p];
+    for (unsigned int i = point.begin; i < point.end; ++i)
+      {
+        const unsigned int row  = points.component[i];
+        const double       test = factor * point.weight * points.shape_value[i];
+        for (unsigned int j = point.begin; j < point.end; ++j)
+          local_matrix[j - point.begin] = test *
+            (with_displacement[row][points.component[j]] *
+               points.shape_value[j] +
+             with_state[0][row] * points.gap_coefficient[j] +
+             with_state[1][row] * points.stress_pressure_coefficient[j] +
+             with_state[2][row] * points.multiplier_coefficient[j]);
+        matrix.add(points.index[i],
+                   point.end - point.begin,
+                   points.index.data() + point.begin,
+                   local_matrix.data(),
+                   true);
+      }
+  }
+
+
+
+  double
+  ContactPointEvaluator::normal_component(const unsigned int p,
+                                          const Vector      &vector) const
+  {
+    double sum = 0.;
+    for (unsigned int k = points.points[p].begin; k < points.points[p].end; ++k)
+      if (points.shape_value[k] != 0.)
+        sum += points.gap_coefficient[k] * vector(points.index[k]);
+    return sum;
   }
 } // namespace Ricochet

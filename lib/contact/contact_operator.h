@@ -6,6 +6,7 @@
 #include <contact/contact_law.h>
 #include <contact/contact_points.h>
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -33,6 +34,19 @@ namespace Ricochet
     unsigned int active_points = 0;
   };
 
+  /// The beginning of a step or stage, as far as contact looks back.
+  struct ContactStart
+  {
+    /// Unknowns at the beginning of the step.
+    const Vector &solution;
+    /// Contact force there (N), from which active sets start.
+    const Vector &contact_force;
+    /// Mean velocity of the step before (m/s), for predictors of the gap.
+    const Vector &mean_velocity;
+    /// Length of the step (s), over which slip is counted.
+    double time_step = 0.;
+  };
+
   /**
    * A contact treatment as time schemes and Newton's method see it. It adds its
    * forces to (or, for active sets, takes rows out of) a residual that already
@@ -46,22 +60,32 @@ namespace Ricochet
   public:
     virtual ~ContactOperator() = default;
 
-    /**
-     * Begin the solution of one stage.
-     *
-     * @param old_solution unknowns at the beginning of the step.
-     * @param old_contact_force contact force there, from which active sets
-     * start.
-     * @param weight factor of the new contact force in the residual.
-     */
+    /// Begin the solution of one stage; @p weight is the factor of the new
+    /// contact force in the residual.
     virtual void
-    begin_stage(const Vector &old_solution,
-                const Vector &old_contact_force,
-                const double  weight) = 0;
+    begin_stage(const ContactStart &start, const double weight) = 0;
 
-    /// Complete @p residual at @p solution.
+    /// Complete @p residual at @p solution. Nothing is remembered for the next
+    /// iterate until accept_iterate() is called, so that a line search can look
+    /// at several points.
     virtual void
     complete_residual(const Vector &solution, Vector &residual) = 0;
+
+    /// The point of the last complete_residual() is the next iterate.
+    virtual void
+    accept_iterate()
+    {}
+
+    /**
+     * Called after a stage was solved: treatments in several passes set up the
+     * next one (from the same beginning of the step) and return true; it is
+     * then solved too, and its solution counts.
+     */
+    virtual bool
+    next_pass()
+    {
+      return false;
+    }
 
     /// Complete @p tangent at the solution of the last complete_residual().
     virtual void
@@ -85,6 +109,18 @@ namespace Ricochet
     virtual const Vector &
     contact_force() const = 0;
 
+    /// Force (N) that round-off in the gaps can cause at the last
+    /// complete_residual(): a stiff law makes much of little.
+    virtual double
+    round_off() const = 0;
+
+    /// The part of contact_force() that friction makes; null without friction.
+    virtual const Vector *
+    friction_force() const
+    {
+      return nullptr;
+    }
+
     /// The contact force at @p solution outside of any stage: for the initial
     /// acceleration and for integrators of their own.
     virtual void
@@ -99,6 +135,10 @@ namespace Ricochet
     /// displacements, a stiffness for multipliers.
     virtual const Vector &
     row_scaling() const = 0;
+
+    /// Whether the summary has the pressure of the body's own stress.
+    virtual bool
+    knows_stress_pressure() const = 0;
 
     /// By boundary id, at a solved state.
     virtual std::map<dealii::types::boundary_id, ContactSummary>
@@ -119,16 +159,29 @@ namespace Ricochet
       , communicator(body.communicator)
     {
       find_local_indices();
+      some_points = dealii::Utilities::MPI::sum(this->points.points.size(),
+                                                body.communicator) > 0;
     }
 
     /// Evaluate all points at @p solution into @p states.
     void
     evaluate(const Vector &solution, std::vector<ContactPointState<>> &states);
 
+    /// The displacement of all points at @p solution (m).
+    void
+    evaluate_displacement(const Vector                      &solution,
+                          std::vector<dealii::Tensor<1, 3>> &displacements);
+
     /// Add @p force of point @p p, weighted, to @p vector (to be compressed by
     /// the caller).
     void
     add(const unsigned int p, const ContactPointForce<> &force, Vector &vector);
+
+    /// The same for a @p traction on the displacement.
+    void
+    add(const unsigned int          p,
+        const dealii::Tensor<1, 3> &traction,
+        Vector                     &vector);
 
     /// Add @p tangent of point @p p, times @p factor, to @p matrix.
     void
@@ -137,10 +190,31 @@ namespace Ricochet
         const ContactPointTangent &tangent,
         Matrix                    &matrix) const;
 
+    /// The same for a traction with the derivatives @p with_displacement, and
+    /// @p with_state with respect to gap, stress pressure and multiplier.
+    void
+    add(const unsigned int                         p,
+        const double                               factor,
+        const dealii::Tensor<2, 3>                &with_displacement,
+        const std::array<dealii::Tensor<1, 3>, 3> &with_state,
+        Matrix                                    &matrix) const;
+
+    /// Component along the obstacle's normal of a force @p vector at @p p, which
+    /// must be a node of this rank.
+    double
+    normal_component(const unsigned int p, const Vector &vector) const;
+
     const std::vector<ContactPoint> &
     contact_points() const
     {
       return points.points;
+    }
+
+    /// Whether there are points on any rank.
+    bool
+    has_points() const
+    {
+      return some_points;
     }
 
     const ContactPoints &
@@ -156,6 +230,7 @@ namespace Ricochet
     const ContactPoints points;
     Vector              ghosted;
     std::vector<int>    local_index;
+    bool                some_points = false;
     // Work space of add().
     std::vector<double>         values;
     mutable std::vector<double> local_matrix;

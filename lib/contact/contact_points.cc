@@ -21,15 +21,27 @@ namespace Ricochet
                              " has no obstacle."));
       return *entry->second;
     }
+
+    /// The obstacle's unit normal at @p x.
+    template <int dim>
+    Tensor<1, 3>
+    normal_of(const Function<dim> &distance, const Point<dim> &x)
+    {
+      const Tensor<1, dim> gradient = distance.gradient(x);
+      Tensor<1, 3>         normal;
+      for (unsigned int c = 0; c < dim; ++c)
+        normal[c] = gradient[c] / gradient.norm();
+      return normal;
+    }
   } // namespace
 
 
 
   template <int dim>
   ContactPoints
-  make_quadrature_contact_points(const Body<dim>      &body,
-                                 const LinearElastic  &material,
-                                 const Obstacles<dim> &obstacles)
+  make_quadrature_contact_points(const Body<dim>                    &body,
+                                 const std::optional<LinearElastic> &material,
+                                 const Obstacles<dim>               &obstacles)
   {
     const FEValuesExtractors::Vector displacement(0);
     const FiniteElement<dim>        &element = body.dof_handler().get_fe();
@@ -78,27 +90,35 @@ namespace Ricochet
 
             for (const unsigned int q : face_values.quadrature_point_indices())
               {
-                const Point<dim> &x = face_values.quadrature_point(q);
-                Tensor<1, dim>    obstacle_normal = distance.gradient(x);
-                obstacle_normal /= obstacle_normal.norm();
+                const Point<dim>  &x = face_values.quadrature_point(q);
+                const Tensor<1, 3> obstacle_normal = normal_of(distance, x);
 
                 ContactPoint point;
-                point.weight        = face_values.JxW(q);
-                point.initial_gap   = distance.value(x);
-                point.cell_diameter = cell->diameter();
-                point.boundary_id   = face->boundary_id();
-                point.begin         = points.index.size();
+                point.weight          = face_values.JxW(q);
+                point.initial_gap     = distance.value(x);
+                point.cell_diameter   = cell->diameter();
+                point.boundary_id     = face->boundary_id();
+                point.obstacle_normal = obstacle_normal;
+                point.begin           = points.index.size();
                 for (const unsigned int i : face_values.dof_indices())
                   {
-                    const SymmetricTensor<2, dim> stress = material.stress(
-                      face_values[displacement].symmetric_gradient(i, q));
-                    points.index.push_back(body.system_index(indices[i]));
-                    points.gap_coefficient.push_back(
-                      obstacle_normal * face_values[displacement].value(i, q));
-                    points.stress_pressure_coefficient.push_back(
-                      obstacle_normal *
-                      (stress * face_values.normal_vector(q)));
-                    points.multiplier_coefficient.push_back(0.);
+                    double stress_pressure = 0.;
+                    if (material)
+                      {
+                        const Tensor<1, dim> traction =
+                          material->stress(
+                            face_values[displacement].symmetric_gradient(i,
+                                                                         q)) *
+                          face_values.normal_vector(q);
+                        for (unsigned int c = 0; c < dim; ++c)
+                          stress_pressure += obstacle_normal[c] * traction[c];
+                      }
+                    points.add_displacement(
+                      body.system_index(indices[i]),
+                      obstacle_normal,
+                      element.system_to_component_index(i).first,
+                      face_values.shape_value(i, q),
+                      stress_pressure);
                   }
                 for (unsigned int i = 0; i < multiplier_indices.size(); ++i)
                   {
@@ -109,10 +129,7 @@ namespace Ricochet
                     // the shape functions of the others sum up to 1 on it.
                     if (index == numbers::invalid_dof_index || value == 0.)
                       continue;
-                    points.index.push_back(index);
-                    points.gap_coefficient.push_back(0.);
-                    points.stress_pressure_coefficient.push_back(0.);
-                    points.multiplier_coefficient.push_back(value);
+                    points.add_multiplier(index, value);
                   }
                 point.end = points.index.size();
                 points.points.push_back(point);
@@ -145,7 +162,6 @@ namespace Ricochet
     {
       ContactPoint                                 point;
       std::array<types::global_dof_index, dim + 1> index;
-      Tensor<1, dim>                               obstacle_normal;
     };
     std::map<types::global_dof_index, Node> nodes;
 
@@ -224,9 +240,8 @@ namespace Ricochet
                   element.unit_support_point(i));
                 const Function<dim> &distance =
                   obstacle_of(obstacles, face->boundary_id());
-                info.point.initial_gap = distance.value(x);
-                info.obstacle_normal   = distance.gradient(x);
-                info.obstacle_normal /= info.obstacle_normal.norm();
+                info.point.initial_gap     = distance.value(x);
+                info.point.obstacle_normal = normal_of(distance, x);
               }
           }
       }
@@ -243,19 +258,13 @@ namespace Ricochet
           clamped = clamped || body.clamped_indices().is_element(node.index[c]);
         node.point.begin = points.index.size();
         for (unsigned int c = 0; c < dim; ++c)
-          {
-            points.index.push_back(node.index[c]);
-            points.gap_coefficient.push_back(node.obstacle_normal[c]);
-            points.stress_pressure_coefficient.push_back(0.);
-            points.multiplier_coefficient.push_back(0.);
-          }
+          points.add_displacement(node.index[c],
+                                  node.point.obstacle_normal,
+                                  c,
+                                  1.,
+                                  0.);
         if (body.has_multipliers())
-          {
-            points.index.push_back(node.index[dim]);
-            points.gap_coefficient.push_back(0.);
-            points.stress_pressure_coefficient.push_back(0.);
-            points.multiplier_coefficient.push_back(1.);
-          }
+          points.add_multiplier(node.index[dim], 1.);
         node.point.end = points.index.size();
         points.points.push_back(node.point);
       }
@@ -278,15 +287,15 @@ namespace Ricochet
 
   template ContactPoints
   make_quadrature_contact_points(const Body<1> &,
-                                 const LinearElastic &,
+                                 const std::optional<LinearElastic> &,
                                  const Obstacles<1> &);
   template ContactPoints
   make_quadrature_contact_points(const Body<2> &,
-                                 const LinearElastic &,
+                                 const std::optional<LinearElastic> &,
                                  const Obstacles<2> &);
   template ContactPoints
   make_quadrature_contact_points(const Body<3> &,
-                                 const LinearElastic &,
+                                 const std::optional<LinearElastic> &,
                                  const Obstacles<3> &);
   template ContactPoints
   make_nodal_contact_points(const Body<1> &, const Obstacles<1> &);

@@ -6,8 +6,11 @@
 #include <discretization/body.h>
 #include <materials/linear_elastic.h>
 
+#include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace Ricochet
@@ -36,10 +39,21 @@ namespace Ricochet
     /// h_T (m).
     double                     cell_diameter = 0.;
     dealii::types::boundary_id boundary_id   = 0;
+    /// Unit normal of the obstacle, towards the body; zeros beyond dim.
+    dealii::Tensor<1, 3> obstacle_normal;
 
     /// Coefficients [begin, end) in ContactPoints::index, gap_coefficient, ...
     unsigned int begin = 0, end = 0;
   };
+
+  /// Round-off (m) of a gap that is the difference of an initial gap and a
+  /// displacement.
+  inline double
+  gap_round_off(const ContactPoint &point, const double gap)
+  {
+    return 2. * std::numeric_limits<double>::epsilon() *
+      (std::abs(point.initial_gap) + std::abs(gap - point.initial_gap));
+  }
 
   /**
    * All contact points of this rank, with their coefficients in three flat
@@ -54,6 +68,40 @@ namespace Ricochet
     std::vector<double>                          gap_coefficient;
     std::vector<double>                          stress_pressure_coefficient;
     std::vector<double>                          multiplier_coefficient;
+    /// Which component of the displacement of the point the unknown belongs to
+    /// and with which factor (0 for multipliers).
+    std::vector<unsigned int> component;
+    std::vector<double>       shape_value;
+
+    /// Append an unknown of the displacement to the last point.
+    void
+    add_displacement(const dealii::types::global_dof_index unknown,
+                     const dealii::Tensor<1, 3>           &obstacle_normal,
+                     const unsigned int displacement_component,
+                     const double       value,
+                     const double       stress_pressure)
+    {
+      index.push_back(unknown);
+      gap_coefficient.push_back(obstacle_normal[displacement_component] *
+                                value);
+      stress_pressure_coefficient.push_back(stress_pressure);
+      multiplier_coefficient.push_back(0.);
+      component.push_back(displacement_component);
+      shape_value.push_back(value);
+    }
+
+    /// Append a multiplier.
+    void
+    add_multiplier(const dealii::types::global_dof_index unknown,
+                   const double                          value)
+    {
+      index.push_back(unknown);
+      gap_coefficient.push_back(0.);
+      stress_pressure_coefficient.push_back(0.);
+      multiplier_coefficient.push_back(value);
+      component.push_back(0);
+      shape_value.push_back(0.);
+    }
   };
 
   /**
@@ -61,13 +109,13 @@ namespace Ricochet
    *
    * The stress pressure is that of @p material on the face, along the normal
    * of the obstacle: p = normal . sigma(u) n, with n the outward normal of the
-   * body.
+   * body. Without a linear material it is zero.
    */
   template <int dim>
   ContactPoints
-  make_quadrature_contact_points(const Body<dim>      &body,
-                                 const LinearElastic  &material,
-                                 const Obstacles<dim> &obstacles);
+  make_quadrature_contact_points(const Body<dim>                    &body,
+                                 const std::optional<LinearElastic> &material,
+                                 const Obstacles<dim>               &obstacles);
 
   /**
    * Owned nodes of the contact boundary, each with its lumped boundary mass.

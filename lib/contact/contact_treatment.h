@@ -19,6 +19,12 @@ namespace Ricochet
     double      nitsche_theta     = 1.;
     double      penalty_epsilon_0 = .2;
     double      augmentation      = 5.;
+    /// c_nu (Pa/m^(alpha-1)) and alpha of the compliance laws.
+    double compliance_coefficient = 1e9;
+    double compliance_exponent    = 2.;
+    /// mu and c_tau (Pa s/m) of Coulomb's friction.
+    double friction_coefficient  = 0.;
+    double tangential_compliance = 1e3;
 
     void
     add_parameters(dealii::ParameterHandler &parameters);
@@ -35,27 +41,33 @@ namespace Ricochet
                   const bool               redistributed_mass);
 
   /**
-   * Refuse a combination of treatment, scheme and mass that has no meaning.
+   * Refuse a combination of treatment, scheme, mass, friction and material that
+   * has no meaning, and values out of range.
+   *
+   * @param linear_material the body is linear elastic.
    * @throws InputError that names what is allowed.
    */
   void
   check_combination(const ContactParameters &parameters,
                     const std::string       &scheme,
-                    const bool               redistributed_mass);
+                    const bool               redistributed_mass,
+                    const bool               linear_material);
 
   /// The multiplier space that the treatment of @p parameters needs.
   MultiplierSpace
   multiplier_space(const ContactParameters &parameters);
 
   /// The treatment that @p parameters name, for the time scheme @p scheme, on
-  /// @p body against @p obstacles.
+  /// @p body against @p obstacles. @p material gives the stress on the contact
+  /// boundary; none for hyperelastic bodies, with which the treatments that
+  /// use that stress are refused.
   template <int dim>
   std::unique_ptr<ContactOperator>
-  make_contact(const ContactParameters &parameters,
-               const std::string       &scheme,
-               const Body<dim>         &body,
-               const LinearElastic     &material,
-               const Obstacles<dim>    &obstacles);
+  make_contact(const ContactParameters            &parameters,
+               const std::string                  &scheme,
+               const Body<dim>                    &body,
+               const std::optional<LinearElastic> &material,
+               const Obstacles<dim>               &obstacles);
 } // namespace Ricochet
 
 #endif

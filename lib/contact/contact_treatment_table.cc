@@ -6,6 +6,7 @@
 #include <contact/laws/augmented_lagrangian.h>
 #include <contact/laws/nitsche.h>
 #include <contact/laws/nitsche_two_point.h>
+#include <contact/laws/normal_compliance.h>
 #include <contact/laws/penalty.h>
 #include <contact/laws/signorini_multiplier.h>
 #include <contact/pointwise_contact.h>
@@ -25,12 +26,15 @@ namespace Ricochet
     {
       std::string      name;
       ContactLawTraits traits;
-      /// Makes the pointwise law; empty for the active set, which is none.
+      /// Makes the pointwise law; empty for active sets, which have none.
       std::function<std::unique_ptr<ContactLaw>(const ContactParameters &)>
         make_law;
       /// The law within a midpoint step, if it is another one.
       std::function<std::unique_ptr<ContactLaw>(const ContactParameters &)>
         make_midpoint_law = {};
+      /// What an active set imposes.
+      ActiveSetContact::Condition condition =
+        ActiveSetContact::Condition::signorini;
     };
 
     template <typename Law>
@@ -42,12 +46,20 @@ namespace Ricochet
 
     /// Nodal, no multipliers, no potential: a constraint.
     constexpr ContactLawTraits
-    active_set_traits()
+    active_set_traits(const bool is_two_point)
     {
       ContactLawTraits traits;
-      traits.nodal         = true;
-      traits.has_potential = false;
+      traits.nodal          = true;
+      traits.has_potential  = false;
+      traits.takes_friction = true;
+      traits.is_two_point   = is_two_point;
       return traits;
+    }
+
+    CompliancePotential
+    compliance(const ContactParameters &p)
+    {
+      return {p.compliance_coefficient, p.compliance_exponent};
     }
 
     // The table of all contact treatments: a new pointwise law is one file in
@@ -89,7 +101,38 @@ namespace Ricochet
          [](const P &p) {
            return pointwise(SignoriniMultiplier{p.augmentation});
          }},
-        {"Signorini active set", active_set_traits(), {}}};
+        {"Signorini active set", active_set_traits(false), {}},
+        {"standard normal compliance",
+         StandardNormalCompliance::traits(),
+         [](const P &p) {
+           return pointwise(StandardNormalCompliance{compliance(p)});
+         }},
+        {"standard normal compliance at midpoint",
+         MidpointNormalCompliance::traits(),
+         [](const P &p) {
+           return pointwise(MidpointNormalCompliance{{compliance(p)}});
+         }},
+        {"improved normal compliance",
+         ImprovedNormalCompliance::traits(),
+         [](const P &p) {
+           return pointwise(ImprovedNormalCompliance{{compliance(p)}});
+         }},
+        {"Hauret-Le Tallec",
+         HauretLeTallec::traits(),
+         [](const P &p) {
+           return pointwise(HauretLeTallec{
+             {CompliancePotential{p.compliance_coefficient, 2.}}});
+         }},
+        {"persistent contact",
+         active_set_traits(true),
+         {},
+         {},
+         ActiveSetContact::Condition::persistent},
+        {"Ayyad-Barboteu two-step",
+         active_set_traits(true),
+         {},
+         {},
+         ActiveSetContact::Condition::two_step}};
       return treatments;
     }
 
@@ -151,11 +194,70 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    std::string
+    join(const std::vector<std::string> &words)
+    {
+      std::string text;
+      for (const std::string &word : words)
+        text += (text.empty() ? "" : ", ") + word;
+      return text;
+    }
+
+    /// The names of all treatments whose traits are good.
+    std::string
+    names_of(const std::function<bool(const ContactLawTraits &)> &good)
+    {
+      std::vector<std::string> names;
+      for (const Treatment &treatment : table())
+        if (good(treatment.traits))
+          names.push_back(treatment.name);
+      return join(names);
+    }
+  } // namespace
+
+
+
   void
   check_combination(const ContactParameters &parameters,
                     const std::string       &scheme,
-                    const bool               redistributed_mass)
+                    const bool               redistributed_mass,
+                    const bool               linear_material)
   {
+    const ContactLawTraits traits = find(parameters).traits;
+    if (parameters.compliance_exponent < 2.)
+      throw InputError(
+        "The exponent alpha of normal compliance must be at least 2 (the "
+        "regularisation of paper A, (2.7)); it is " +
+        to_text(parameters.compliance_exponent) + ".");
+    if (parameters.friction_coefficient < 0.)
+      throw InputError("The friction coefficient must not be negative; it is " +
+                       to_text(parameters.friction_coefficient) + ".");
+    if (!linear_material && traits.uses_stress)
+      throw InputError(
+        "The contact treatment '" + parameters.treatment +
+        "' uses the stress of a linear elastic body on the contact boundary "
+        "and cannot be combined with a hyperelastic one.\nAllowed with it: " +
+        names_of([](const auto &t) { return !t.uses_stress; }) + ".");
+    if (parameters.friction_coefficient > 0.)
+      {
+        if (!traits.takes_friction)
+          throw InputError(
+            "The contact treatment '" + parameters.treatment +
+            "' cannot be combined with friction.\nAllowed with it: " +
+            names_of([](const auto &t) { return t.takes_friction; }) + ".");
+        if (scheme != "midpoint")
+          throw InputError(
+            "Friction cannot be combined with the time scheme '" + scheme +
+            "'.\nAllowed with it: midpoint. There friction acts against the "
+            "mean slip rate of the step, so that its work is never negative.");
+        if (!(parameters.tangential_compliance > 0.))
+          throw InputError(
+            "The tangential compliance must be positive; it is " +
+            to_text(parameters.tangential_compliance) + ".");
+      }
+
     const std::vector<std::string> allowed =
       schemes_allowed(parameters, redistributed_mass);
     if (std::find(allowed.begin(), allowed.end(), scheme) != allowed.end())
@@ -167,17 +269,16 @@ namespace Ricochet
          : "'") +
       " and the " + (redistributed_mass ? "redistributed" : "consistent") +
       " mass cannot be combined with the time scheme '" + scheme +
-      "'.\nAllowed with them: ";
-    for (unsigned int i = 0; i < allowed.size(); ++i)
-      message += (i == 0 ? "" : ", ") + allowed[i];
-    message += ".\n";
+      "'.\nAllowed with them: " + join(allowed) + ".\n";
     if (scheme == "ARKODE")
       message +=
         "ARKODE integrates ordinary differential equations with a "
-        "potential: Nitsche with theta = 1 or penalty, with the "
-        "consistent mass.";
+        "potential: Nitsche with theta = 1, penalty or standard normal "
+        "compliance, with the consistent mass.";
     else
-      message += "A discrete derivative needs the two ends of a midpoint step.";
+      message +=
+        "A condition over the whole step needs the two ends of a "
+        "midpoint step.";
     throw InputError(message);
   }
 
@@ -185,30 +286,39 @@ namespace Ricochet
 
   template <int dim>
   std::unique_ptr<ContactOperator>
-  make_contact(const ContactParameters &parameters,
-               const std::string       &scheme,
-               const Body<dim>         &body,
-               const LinearElastic     &material,
-               const Obstacles<dim>    &obstacles)
+  make_contact(const ContactParameters            &parameters,
+               const std::string                  &scheme,
+               const Body<dim>                    &body,
+               const std::optional<LinearElastic> &material,
+               const Obstacles<dim>               &obstacles)
   {
     const Treatment &treatment = find(parameters);
-    ContactPoints    stress_points =
-      make_quadrature_contact_points(body, material, obstacles);
+    ContactPoints    stress_points;
+    if (material || !treatment.traits.nodal)
+      stress_points = make_quadrature_contact_points(body, material, obstacles);
     ContactPoints points = treatment.traits.nodal
       ? make_nodal_contact_points(body, obstacles)
       : stress_points;
+    if (!material)
+      stress_points = ContactPoints();
     if (!treatment.make_law)
-      return std::make_unique<ActiveSetContact>(body,
-                                                std::move(points),
-                                                std::move(stress_points),
-                                                parameters.augmentation);
+      return std::make_unique<ActiveSetContact>(
+        body,
+        std::move(points),
+        std::move(stress_points),
+        treatment.condition,
+        parameters.augmentation,
+        parameters.friction_coefficient);
     const auto &make_law = scheme == "midpoint" && treatment.make_midpoint_law
       ? treatment.make_midpoint_law
       : treatment.make_law;
-    return std::make_unique<PointwiseContact>(body,
-                                              make_law(parameters),
-                                              std::move(points),
-                                              std::move(stress_points));
+    return std::make_unique<PointwiseContact>(
+      body,
+      make_law(parameters),
+      std::move(points),
+      std::move(stress_points),
+      CoulombFriction{parameters.friction_coefficient,
+                      parameters.tangential_compliance});
   }
 
 
@@ -246,6 +356,33 @@ namespace Ricochet
       "(18)). For the Signorini treatments it steers the choice of the active "
       "set and leaves the solution alone.",
       Patterns::Double(1e-30));
+    parameters.add_parameter(
+      "Compliance coefficient",
+      compliance_coefficient,
+      "Parameter c_nu (Pa/m^(alpha-1)) of normal compliance: pressure c_nu "
+      "alpha/2 penetration^(alpha-1) (paper A, (2.10)). Used by standard and "
+      "improved normal compliance and, with alpha = 2, Hauret-Le Tallec.",
+      Patterns::Double(1e-30));
+    parameters.add_parameter(
+      "Compliance exponent",
+      compliance_exponent,
+      "Exponent alpha of normal compliance, at least 2. Used by standard and "
+      "improved normal compliance.",
+      Patterns::Double());
+    parameters.add_parameter(
+      "Friction coefficient",
+      friction_coefficient,
+      "Coulomb's coefficient mu of friction; 0 for none. Stick and slip are "
+      "exact with Signorini active set, persistent contact and "
+      "Ayyad-Barboteu two-step, regularised with the others.",
+      Patterns::Double());
+    parameters.add_parameter(
+      "Tangential compliance",
+      tangential_compliance,
+      "Parameter c_tau (Pa s/m) of regularised friction: while a point "
+      "sticks, its traction is c_tau times the slip rate (paper A, (2.11)). "
+      "Used with friction by the treatments that regularise it.",
+      Patterns::Double());
     parameters.leave_subsection();
   }
 
@@ -254,18 +391,18 @@ namespace Ricochet
   make_contact(const ContactParameters &,
                const std::string &,
                const Body<1> &,
-               const LinearElastic &,
+               const std::optional<LinearElastic> &,
                const Obstacles<1> &);
   template std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &,
                const std::string &,
                const Body<2> &,
-               const LinearElastic &,
+               const std::optional<LinearElastic> &,
                const Obstacles<2> &);
   template std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &,
                const std::string &,
                const Body<3> &,
-               const LinearElastic &,
+               const std::optional<LinearElastic> &,
                const Obstacles<3> &);
 } // namespace Ricochet

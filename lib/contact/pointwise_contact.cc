@@ -3,19 +3,54 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <limits>
+#include <algorithm>
 
 namespace Ricochet
 {
   using dealii::VectorOperation;
 
-  void
-  PointwiseContact::begin_stage(const Vector &old_solution,
-                                const Vector & /*old_contact_force*/,
-                                const double weight_)
+  namespace
   {
-    weight = weight_;
-    evaluator.evaluate(old_solution, old_state);
+    /// The projection on the plane with the unit normal @p normal.
+    dealii::Tensor<2, 3>
+    tangent_plane(const dealii::Tensor<1, 3> &normal)
+    {
+      return dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) -
+        outer_product(normal, normal);
+    }
+  } // namespace
+
+
+
+  void
+  PointwiseContact::begin_stage(const ContactStart &start, const double weight_)
+  {
+    weight    = weight_;
+    time_step = start.time_step;
+    evaluator.evaluate(start.solution, old_state);
+    if (friction.coefficient > 0.)
+      evaluator.evaluate_displacement(start.solution, old_displacement);
+  }
+
+
+
+  double
+  PointwiseContact::friction_pressure(const unsigned int p) const
+  {
+    return positive_part(-law
+                            ->force(state[p],
+                                    old_state[p],
+                                    evaluator.contact_points()[p].cell_diameter)
+                            .gap);
+  }
+
+
+
+  dealii::Tensor<1, 3>
+  PointwiseContact::slip_rate(const unsigned int p) const
+  {
+    return tangent_plane(evaluator.contact_points()[p].obstacle_normal) *
+      (displacement[p] - old_displacement[p]) / time_step;
   }
 
 
@@ -43,6 +78,21 @@ namespace Ricochet
   {
     evaluator.evaluate(solution, state);
     evaluate_force(state, old_state, force);
+    if (friction.coefficient > 0.)
+      {
+        evaluator.evaluate_displacement(solution, displacement);
+        friction_part = 0.;
+        for (unsigned int p = 0; p < state.size(); ++p)
+          {
+            const double pressure = friction_pressure(p);
+            if (pressure > 0.)
+              evaluator.add(p,
+                            friction.traction(pressure, slip_rate(p)),
+                            friction_part);
+          }
+        friction_part.compress(VectorOperation::add);
+        force += friction_part;
+      }
     residual.add(weight, force);
 
     // What is kept is a force on displacements; the equations of the
@@ -59,13 +109,52 @@ namespace Ricochet
   PointwiseContact::complete_tangent(Matrix &tangent) const
   {
     for (unsigned int p = 0; p < state.size(); ++p)
-      evaluator.add(p,
-                    weight,
-                    law->tangent(state[p],
-                                 old_state[p],
-                                 evaluator.contact_points()[p].cell_diameter),
-                    tangent);
+      {
+        const ContactPoint       &point = evaluator.contact_points()[p];
+        const ContactPointTangent law_tangent =
+          law->tangent(state[p], old_state[p], point.cell_diameter);
+        evaluator.add(p, weight, law_tangent, tangent);
+
+        const double pressure =
+          friction.coefficient > 0. ? friction_pressure(p) : 0.;
+        if (pressure > 0.)
+          {
+            dealii::Tensor<2, 3> with_slip_rate;
+            dealii::Tensor<1, 3> with_pressure;
+            friction.derivatives(pressure,
+                                 slip_rate(p),
+                                 tangent_plane(point.obstacle_normal),
+                                 with_slip_rate,
+                                 with_pressure);
+            evaluator.add(p,
+                          weight,
+                          with_slip_rate / time_step,
+                          {{-law_tangent[0][0] * with_pressure,
+                            -law_tangent[0][1] * with_pressure,
+                            -law_tangent[0][2] * with_pressure}},
+                          tangent);
+          }
+      }
     tangent.compress(VectorOperation::add);
+  }
+
+
+
+  double
+  PointwiseContact::round_off() const
+  {
+    double square = 0.;
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const ContactPoint       &point = evaluator.contact_points()[p];
+        const ContactPointTangent tangent =
+          law->tangent(state[p], old_state[p], point.cell_diameter);
+        const double force =
+          point.weight * tangent[0][0] * gap_round_off(point, state[p].gap);
+        square += force * force;
+      }
+    return std::sqrt(
+      dealii::Utilities::MPI::sum(square, evaluator.communicator));
   }
 
 
@@ -86,9 +175,19 @@ namespace Ricochet
   std::optional<std::uint64_t>
   PointwiseContact::tangent_signature() const
   {
-    if (!law->traits().piecewise_linear)
-      return {};
-    return global_hash(branches(), evaluator.communicator);
+    // Without contact every law is linear.
+    const std::vector<int> values = branches();
+    if (!law->traits().piecewise_linear || friction.coefficient > 0.)
+      {
+        const bool active =
+          std::any_of(values.begin(), values.end(), [](const int value) {
+            return value != 0;
+          });
+        if (dealii::Utilities::MPI::max(active ? 1 : 0,
+                                        evaluator.communicator) == 1)
+          return {};
+      }
+    return global_hash(values, evaluator.communicator);
   }
 
 
@@ -154,22 +253,27 @@ namespace Ricochet
 
 
   std::map<dealii::types::boundary_id, ContactSummary>
-  PointwiseContact::summary(const Vector &solution,
-                            const Vector & /*contact_force*/)
+  PointwiseContact::summary(const Vector &solution, const Vector &contact_force)
   {
+    // The forces in the nodes are those of the last step, whatever two-point law
+    // they come from. In quadrature points, the law is asked at this instant.
+    const bool nodal = law->traits().nodal;
     evaluator.evaluate(solution, state);
     std::map<dealii::types::boundary_id, ContactSummary> sums;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
-        const ContactPoint &point = evaluator.contact_points()[p];
-        ContactSummary     &sum   = sums[point.boundary_id];
-        const double pressure = law->pressure(state[p], point.cell_diameter);
+        const ContactPoint &point       = evaluator.contact_points()[p];
+        ContactSummary     &sum         = sums[point.boundary_id];
+        const double        point_force = nodal
+                 ? -evaluator.normal_component(p, contact_force)
+                 : point.weight * law->pressure(state[p], point.cell_diameter);
         sum.area += point.weight;
         sum.mean_gap += point.weight * state[p].gap;
         sum.max_penetration = std::max(sum.max_penetration, -state[p].gap);
-        sum.force += point.weight * pressure;
-        sum.active_points +=
-          law->branch(state[p], state[p], point.cell_diameter) != 0;
+        sum.force += point_force;
+        sum.active_points += nodal
+          ? point_force > 0.
+          : law->branch(state[p], state[p], point.cell_diameter) != 0;
       }
     add_stress_pressure(solution, stress_evaluator, stress_state, sums);
     return reduce_summaries(sums, evaluator.communicator);

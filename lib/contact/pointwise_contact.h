@@ -3,13 +3,15 @@
 #define ricochet_contact_pointwise_contact_h
 
 #include <contact/contact_operator.h>
+#include <contact/coulomb_friction.h>
 
 namespace Ricochet
 {
   /**
    * The contact operator of all pointwise laws: Nitsche and its hybrid,
-   * penalty, augmented Lagrangian, multipliers. It runs through the contact
-   * points and asks the law.
+   * penalty, augmented Lagrangian, multipliers, normal compliance. It runs
+   * through the contact points and asks the law; Coulomb's friction with a
+   * tangential compliance comes beside it, with the mean slip rate of the step.
    */
   class PointwiseContact : public ContactOperator
   {
@@ -18,16 +20,20 @@ namespace Ricochet
      * @param points where the law is enforced.
      * @param stress_points quadrature points at which the summary evaluates the
      * body's own stress; nodes know none.
+     * @param friction none if its coefficient is 0.
      */
     template <int dim>
     PointwiseContact(const Body<dim>            &body,
                      std::unique_ptr<ContactLaw> law,
                      ContactPoints               points,
-                     ContactPoints               stress_points)
+                     ContactPoints               stress_points,
+                     const CoulombFriction      &friction = {})
       : law(std::move(law))
+      , friction(friction)
       , evaluator(body, std::move(points))
       , stress_evaluator(body, std::move(stress_points))
       , force(body.make_vector())
+      , friction_part(body.make_vector())
       , scaling(body.make_vector())
       , n_displacements_owned(body.owned_indices().n_elements() -
                               body.multiplier_indices().n_elements())
@@ -36,9 +42,7 @@ namespace Ricochet
     }
 
     void
-    begin_stage(const Vector &old_solution,
-                const Vector &old_contact_force,
-                const double  weight) override;
+    begin_stage(const ContactStart &start, const double weight) override;
 
     void
     complete_residual(const Vector &solution, Vector &residual) override;
@@ -58,6 +62,15 @@ namespace Ricochet
       return force;
     }
 
+    double
+    round_off() const override;
+
+    const Vector *
+    friction_force() const override
+    {
+      return friction.coefficient > 0. ? &friction_part : nullptr;
+    }
+
     void
     force_at(const Vector &solution, Vector &force) override;
 
@@ -68,6 +81,12 @@ namespace Ricochet
     row_scaling() const override
     {
       return scaling;
+    }
+
+    bool
+    knows_stress_pressure() const override
+    {
+      return stress_evaluator.has_points();
     }
 
     std::map<dealii::types::boundary_id, ContactSummary>
@@ -81,17 +100,29 @@ namespace Ricochet
     void
     compute_row_scaling();
 
+    /// The pressure that friction sees (Pa).
+    double
+    friction_pressure(const unsigned int p) const;
+
+    /// Slip rate of point @p p (m/s) at the last complete_residual().
+    dealii::Tensor<1, 3>
+    slip_rate(const unsigned int p) const;
+
     void
     evaluate_force(const std::vector<ContactPointState<>> &new_state,
                    const std::vector<ContactPointState<>> &old_state,
                    Vector                                 &result);
 
     const std::unique_ptr<ContactLaw> law;
+    const CoulombFriction             friction;
     ContactPointEvaluator             evaluator;
     ContactPointEvaluator             stress_evaluator;
-    double                            weight = 1.;
+    double                            weight    = 1.;
+    double                            time_step = 0.;
     std::vector<ContactPointState<>>  state, old_state, stress_state;
-    Vector                            force, scaling;
+    // Displacements of the points, for slip; empty without friction.
+    std::vector<dealii::Tensor<1, 3>> displacement, old_displacement;
+    Vector                            force, friction_part, scaling;
     const unsigned int                n_displacements_owned;
   };
 

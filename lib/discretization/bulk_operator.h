@@ -4,16 +4,21 @@
 
 #include <base/types.h>
 
+#include <string>
+
 namespace Ricochet
 {
   /**
    * The internal forces of a body as a time scheme sees them: a two-point
    * operator of the old and the new displacement, that knows nothing of
    * contact nor of the scheme. A scheme asks either for the force at one point
-   * (collocation) or for the discrete derivative of the stored energy between
-   * two points, whose work is exactly the difference of stored energy.
+   * (collocation) or for that of a step: the discrete derivative of the stored
+   * energy between two points, whose work is exactly the difference of stored
+   * energy, plus the viscous force at the rate of the step.
    *
-   * All vectors are system vectors without ghost values.
+   * All vectors are system vectors without ghost values; all functions are
+   * collective. A force at a state that the body cannot take (an element is
+   * turned inside out) is not a number; failure() then says why.
    */
   class BulkOperator
   {
@@ -24,26 +29,54 @@ namespace Ricochet
     virtual void
     force(const Vector &solution, Vector &force) const = 0;
 
-    /// @p force with force . (new - old) = energy(new) - energy(old).
-    virtual void
-    discrete_derivative(const Vector &old_solution,
-                        const Vector &new_solution,
-                        Vector       &force) const = 0;
-
     /// @p tangent += @p factor times the derivative of force().
     virtual void
     add_tangent(const double  factor,
                 const Vector &solution,
                 Matrix       &tangent) const = 0;
 
+    /// @p force (N) with force . (new - old) = energy(new) - energy(old) +
+    /// viscous_dissipation(old, new, time_step).
+    virtual void
+    step_force(const Vector &old_solution,
+               const Vector &new_solution,
+               const double  time_step,
+               Vector       &force) const = 0;
+
+    /// @p tangent += the derivative of step_force() with respect to the new
+    /// solution.
+    virtual void
+    add_step_tangent(const Vector &old_solution,
+                     const Vector &new_solution,
+                     const double  time_step,
+                     Matrix       &tangent) const = 0;
+
     /// Stored energy (J).
     virtual double
     energy(const Vector &solution) const = 0;
 
-    /// Whether the tangent is the same for all states, so that factorisations
-    /// can be kept.
+    /// Energy (J) that viscosity takes in a step; never negative.
+    virtual double
+    viscous_dissipation(const Vector &old_solution,
+                        const Vector &new_solution,
+                        const double  time_step) const = 0;
+
+    /// The largest sum of absolute values in a row of the tangent at rest (N/m):
+    /// times a rounding error of the displacement it is one of the force.
+    virtual double
+    stiffness_scale() const = 0;
+
+    /// Whether the tangents are the same for all states, so that
+    /// factorisations can be kept.
     virtual bool
     is_linear() const = 0;
+
+    /// Why the last force was not a number; empty if it was one.
+    virtual std::string
+    failure() const
+    {
+      return {};
+    }
   };
 } // namespace Ricochet
 

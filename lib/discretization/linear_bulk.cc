@@ -51,30 +51,58 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    /// The matrix of stress(strain(u)) : strain(v).
+    template <int dim>
+    Matrix
+    assemble_strain_matrix(const Body<dim> &body, const LinearElastic &law)
+    {
+      const FEValuesExtractors::Vector     displacement(0);
+      std::vector<SymmetricTensor<2, dim>> strains(
+        body.dof_handler().get_fe().n_dofs_per_cell());
+      return assemble<dim>(
+        body,
+        update_gradients,
+        [&](const FEValues<dim> &fe_values,
+            const unsigned int   q,
+            FullMatrix<double>  &cell_matrix) {
+          for (const unsigned int i : fe_values.dof_indices())
+            strains[i] = fe_values[displacement].symmetric_gradient(i, q);
+          for (const unsigned int j : fe_values.dof_indices())
+            {
+              const SymmetricTensor<2, dim> stress = law.stress(strains[j]);
+              for (const unsigned int i : fe_values.dof_indices())
+                cell_matrix(i, j) += stress * strains[i] * fe_values.JxW(q);
+            }
+        });
+    }
+  } // namespace
+
+
+
   template <int dim>
   LinearBulk<dim>::LinearBulk(const Body<dim>     &body,
-                              const LinearElastic &material)
-    : midpoint(body.make_vector())
+                              const LinearElastic &material,
+                              const Viscosity     &viscosity)
+    : has_viscosity(viscosity.is_active())
+    , work(body.make_vector())
+    , viscous_force(body.make_vector())
   {
-    const FEValuesExtractors::Vector     displacement(0);
-    std::vector<SymmetricTensor<2, dim>> strains(
-      body.dof_handler().get_fe().n_dofs_per_cell());
+    AssertThrow(viscosity.law == Viscosity::Law::none ||
+                  viscosity.law == Viscosity::Law::linear,
+                ExcMessage("A linear body has linear viscosity."));
     stiffness.reinit(body.sparsity_pattern());
-    stiffness.copy_from(assemble<dim>(
-      body,
-      update_gradients,
-      [&](const FEValues<dim> &fe_values,
-          const unsigned int   q,
-          FullMatrix<double>  &cell_matrix) {
-        for (const unsigned int i : fe_values.dof_indices())
-          strains[i] = fe_values[displacement].symmetric_gradient(i, q);
-        for (const unsigned int j : fe_values.dof_indices())
-          {
-            const SymmetricTensor<2, dim> stress = material.stress(strains[j]);
-            for (const unsigned int i : fe_values.dof_indices())
-              cell_matrix(i, j) += stress * strains[i] * fe_values.JxW(q);
-          }
-      }));
+    stiffness.copy_from(assemble_strain_matrix(body, material));
+    scale = stiffness.linfty_norm();
+    if (has_viscosity)
+      {
+        // W_v = eta/2 tr(strain_rate^2): the viscous stress is eta times the
+        // strain rate.
+        viscosity_matrix.reinit(body.sparsity_pattern());
+        viscosity_matrix.copy_from(
+          assemble_strain_matrix(body, LinearElastic{0., .5 * viscosity.eta}));
+      }
   }
 
 
@@ -84,19 +112,6 @@ namespace Ricochet
   LinearBulk<dim>::force(const Vector &solution, Vector &force) const
   {
     stiffness.vmult(force, solution);
-  }
-
-
-
-  template <int dim>
-  void
-  LinearBulk<dim>::discrete_derivative(const Vector &old_solution,
-                                       const Vector &new_solution,
-                                       Vector       &force) const
-  {
-    midpoint = old_solution;
-    midpoint.sadd(.5, .5, new_solution);
-    stiffness.vmult(force, midpoint);
   }
 
 
@@ -113,11 +128,62 @@ namespace Ricochet
 
 
   template <int dim>
+  void
+  LinearBulk<dim>::step_force(const Vector &old_solution,
+                              const Vector &new_solution,
+                              const double  time_step,
+                              Vector       &force) const
+  {
+    work = old_solution;
+    work.sadd(.5, .5, new_solution);
+    stiffness.vmult(force, work);
+    if (has_viscosity)
+      {
+        work = new_solution;
+        work -= old_solution;
+        viscosity_matrix.vmult(viscous_force, work);
+        force.add(1. / time_step, viscous_force);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  LinearBulk<dim>::add_step_tangent(const Vector & /*old_solution*/,
+                                    const Vector & /*new_solution*/,
+                                    const double time_step,
+                                    Matrix      &tangent) const
+  {
+    tangent.add(.5, stiffness);
+    if (has_viscosity)
+      tangent.add(1. / time_step, viscosity_matrix);
+  }
+
+
+
+  template <int dim>
   double
   LinearBulk<dim>::energy(const Vector &solution) const
   {
-    stiffness.vmult(midpoint, solution);
-    return .5 * (midpoint * solution);
+    stiffness.vmult(work, solution);
+    return .5 * (work * solution);
+  }
+
+
+
+  template <int dim>
+  double
+  LinearBulk<dim>::viscous_dissipation(const Vector &old_solution,
+                                       const Vector &new_solution,
+                                       const double  time_step) const
+  {
+    if (!has_viscosity)
+      return 0.;
+    work = new_solution;
+    work -= old_solution;
+    viscosity_matrix.vmult(viscous_force, work);
+    return (viscous_force * work) / time_step;
   }
 
 

@@ -5,35 +5,57 @@
 #include <discretization/body.h>
 #include <discretization/bulk_operator.h>
 #include <materials/linear_elastic.h>
+#include <materials/viscosity.h>
 
 namespace Ricochet
 {
   /**
-   * Linear elasticity: the stiffness matrix is assembled once.
-   * Its stored energy is quadratic, so the discrete derivative is the force at
-   * the midpoint.
+   * Linear elasticity with linear viscosity: stiffness and viscosity matrix are
+   * assembled once. The stored energy is quadratic, so its discrete derivative
+   * is the force at the midpoint.
    */
   template <int dim>
   class LinearBulk : public BulkOperator
   {
   public:
-    LinearBulk(const Body<dim> &body, const LinearElastic &material);
+    /// @param viscosity none or linear.
+    LinearBulk(const Body<dim>     &body,
+               const LinearElastic &material,
+               const Viscosity     &viscosity = {});
 
     void
     force(const Vector &solution, Vector &force) const override;
-
-    void
-    discrete_derivative(const Vector &old_solution,
-                        const Vector &new_solution,
-                        Vector       &force) const override;
 
     void
     add_tangent(const double  factor,
                 const Vector &solution,
                 Matrix       &tangent) const override;
 
+    void
+    step_force(const Vector &old_solution,
+               const Vector &new_solution,
+               const double  time_step,
+               Vector       &force) const override;
+
+    void
+    add_step_tangent(const Vector &old_solution,
+                     const Vector &new_solution,
+                     const double  time_step,
+                     Matrix       &tangent) const override;
+
     double
     energy(const Vector &solution) const override;
+
+    double
+    viscous_dissipation(const Vector &old_solution,
+                        const Vector &new_solution,
+                        const double  time_step) const override;
+
+    double
+    stiffness_scale() const override
+    {
+      return scale;
+    }
 
     bool
     is_linear() const override
@@ -42,9 +64,12 @@ namespace Ricochet
     }
 
   private:
-    Matrix stiffness;
+    const bool has_viscosity;
+    Matrix     stiffness;
+    Matrix     viscosity_matrix;
+    double     scale = 0.;
     // Work space, so that nothing is allocated in a time step.
-    mutable Vector midpoint;
+    mutable Vector work, viscous_force;
   };
 
   /// Consistent mass matrix (kg) of @p body with the constant @p density

@@ -2,6 +2,8 @@
 #ifndef ricochet_materials_linear_elastic_h
 #define ricochet_materials_linear_elastic_h
 
+#include <materials/plane_state.h>
+
 #include <deal.II/base/symmetric_tensor.h>
 
 namespace Ricochet
@@ -19,6 +21,26 @@ namespace Ricochet
     double lambda = 0.;
     /// Shear modulus (Pa).
     double mu = 0.;
+
+    /// From Young's modulus (Pa) and Poisson's ratio (paper A, 6.1, with the
+    /// factors of its Lamé parameters corrected).
+    static LinearElastic
+    from_young(const double young_modulus, const double poisson_ratio)
+    {
+      return {young_modulus * poisson_ratio /
+                ((1. + poisson_ratio) * (1. - 2. * poisson_ratio)),
+              young_modulus / (2. * (1. + poisson_ratio))};
+    }
+
+    /// The law of a flat body in the same form: in plane stress the first Lamé
+    /// parameter becomes 2 lambda mu/(lambda + 2 mu) (paper A, 6.1).
+    LinearElastic
+    in_plane(const PlaneState plane_state) const
+    {
+      return plane_state == PlaneState::plane_strain
+        ? *this
+        : LinearElastic{2. * lambda * mu / (lambda + 2. * mu), mu};
+    }
 
     /// Cauchy stress (Pa) for the small @p strain.
     template <int dim, typename Number>

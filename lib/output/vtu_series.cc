@@ -17,7 +17,7 @@ namespace Ricochet
     class StressPostprocessor : public DataPostprocessorTensor<dim>
     {
     public:
-      explicit StressPostprocessor(const LinearElastic &material)
+      explicit StressPostprocessor(const Material<dim> &material)
         : DataPostprocessorTensor<dim>("stress", update_gradients)
         , material(material)
       {}
@@ -33,7 +33,7 @@ namespace Ricochet
             for (unsigned int i = 0; i < dim; ++i)
               gradient[i] = inputs.solution_gradients[p][i];
             const SymmetricTensor<2, dim> stress =
-              material.stress(symmetrize(gradient));
+              material.cauchy_stress(gradient);
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
                 stresses[p][Tensor<2, dim>::component_to_unrolled_index(
@@ -49,14 +49,14 @@ namespace Ricochet
       {
         for (unsigned int p = 0; p < stresses.size(); ++p)
           {
-            SymmetricTensor<2, dim> strain;
-            strain[0][0]   = inputs.solution_gradients[p][0];
-            stresses[p][0] = material.stress(strain)[0][0];
+            Tensor<2, dim> gradient;
+            gradient[0]    = inputs.solution_gradients[p];
+            stresses[p][0] = material.cauchy_stress(gradient)[0][0];
           }
       }
 
     private:
-      const LinearElastic material;
+      const Material<dim> material;
     };
 
     /// In 1D a field of one component is a scalar to VTU files.
@@ -75,7 +75,7 @@ namespace Ricochet
 
   template <int dim>
   VtuSeries<dim>::VtuSeries(const Body<dim>     &body,
-                            const LinearElastic &material,
+                            const Material<dim> &material,
                             RunFolder           &folder)
     : body(body)
     , material(material)
@@ -106,6 +106,9 @@ namespace Ricochet
     const Vector displacement = body.displacement_part(state.solution);
     const Vector velocity     = body.displacement_part(state.velocity);
     const Vector acceleration = body.displacement_part(state.acceleration);
+    Vector       contact_force(state.contact_force);
+    contact_force *= -1.;
+    const Vector force_on_body = body.displacement_part(contact_force);
 
     const StressPostprocessor<dim> stress(material);
     DataOut<dim>                   data_out;
@@ -119,6 +122,7 @@ namespace Ricochet
     add(displacement, "displacement");
     add(velocity, "velocity");
     add(acceleration, "acceleration");
+    add(force_on_body, "contact_force");
     data_out.add_data_vector(body.dof_handler(), displacement, stress);
     data_out.build_patches(body.mapping(), body.dof_handler().get_fe().degree);
 

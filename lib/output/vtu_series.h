@@ -4,22 +4,23 @@
 
 #include <base/program.h>
 #include <discretization/body.h>
-#include <materials/linear_elastic.h>
+#include <materials/material.h>
 #include <time_integration/semi_discrete_system.h>
 
 namespace Ricochet
 {
   /**
-   * The fields of a linear elastic body for ParaView: displacement, velocity,
-   * acceleration and Cauchy stress, as `solution/step-NNNNNN.vtu`, and
-   * `solution.pvd` that ties them to their times.
+   * The fields of a body for ParaView: displacement, velocity, acceleration,
+   * elastic Cauchy stress, and the contact force of each node (N, on the body),
+   * as `solution/step-NNNNNN.vtu`, and `solution.pvd` that ties them to their
+   * times.
    */
   template <int dim>
   class VtuSeries
   {
   public:
     VtuSeries(const Body<dim>     &body,
-              const LinearElastic &material,
+              const Material<dim> &material,
               RunFolder           &folder);
 
     /// Write @p state as step number @p step. A step that is written again,
@@ -29,7 +30,7 @@ namespace Ricochet
 
   private:
     const Body<dim>    &body;
-    const LinearElastic material;
+    const Material<dim> material;
     RunFolder          &folder;
     // Time and file name of each step written, by step.
     std::map<unsigned int, std::pair<double, std::string>> written;

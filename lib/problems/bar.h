@@ -3,7 +3,7 @@
 #define ricochet_problems_bar_h
 
 #include <exact_solutions/bar_characteristics.h>
-#include <problems/linear_impact.h>
+#include <problems/impact.h>
 
 #include <deal.II/distributed/shared_tria.h>
 

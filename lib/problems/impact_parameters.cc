@@ -29,9 +29,12 @@ namespace Ricochet
 
 
   void
-  ImpactParameters::validate() const
+  ImpactParameters::validate(const bool linear_material) const
   {
-    check_combination(contact, scheme.name, redistributed_mass());
+    check_combination(contact,
+                      scheme.name,
+                      redistributed_mass(),
+                      linear_material);
     if (time.final_time > 1e8 * time.time_step)
       throw InputError("The final time " + to_text(time.final_time) +
                        " s is more than 1e8 time steps of " +

@@ -24,9 +24,10 @@ namespace Ricochet
     void
     add_parameters(dealii::ParameterHandler &parameters);
 
-    /// Refuse combinations without meaning. @throws InputError
+    /// Refuse combinations without meaning. @param linear_material the body is
+    /// linear elastic. @throws InputError
     void
-    validate() const;
+    validate(const bool linear_material = true) const;
 
     bool
     redistributed_mass() const

@@ -84,6 +84,8 @@ namespace Ricochet
     ledger.add_column("modified_energy", "J");
     ledger.add_column("external_work", "J");
     ledger.add_column("contact_work", "J");
+    ledger.add_column("friction_work", "J");
+    ledger.add_column("viscous_dissipation", "J");
     ledger.add_column("numerical_dissipation", "J");
     ledger.add_column("balance_residual", "1");
     ledger.add_column("newton_iterations", "1");
@@ -95,7 +97,8 @@ namespace Ricochet
         ledger.add_column("penetration_" + name, "m");
         ledger.add_column("contact_force_" + name, "N");
         ledger.add_column("contact_pressure_" + name, "Pa");
-        ledger.add_column("stress_pressure_" + name, "Pa");
+        if (system.contact.knows_stress_pressure())
+          ledger.add_column("stress_pressure_" + name, "Pa");
         ledger.add_column("active_points_" + name, "1");
       }
   }
@@ -169,6 +172,8 @@ namespace Ricochet
                                  system.contact.potential(state.solution),
                                external_work,
                                contact_work,
+                               friction_work,
+                               viscous_dissipation,
                                numerical_dissipation,
                                balance_residual,
                                static_cast<double>(report.newton_iterations),
@@ -183,9 +188,10 @@ namespace Ricochet
                    {contact.mean_gap,
                     contact.max_penetration,
                     contact.force,
-                    contact.contact_pressure,
-                    contact.stress_pressure,
-                    static_cast<double>(contact.active_points)});
+                    contact.contact_pressure});
+        if (system.contact.knows_stress_pressure())
+          row.push_back(contact.stress_pressure);
+        row.push_back(static_cast<double>(contact.active_points));
       }
     for (const auto &value : own_columns)
       row.push_back(value(state));
@@ -203,11 +209,14 @@ namespace Ricochet
   TimeLoop::log_row(const unsigned int step, const unsigned int n_steps) const
   {
     const std::vector<double> &row   = ledger.rows().back();
-    double                     force = 0., active = 0.;
+    const auto                 value = [&](const std::string &name) {
+      return row[ledger.column_number(name)];
+    };
+    double force = 0., active = 0.;
     for (const auto &entry : contact_names)
       {
-        force += row[ledger.column_number("contact_force_" + entry.second)];
-        active += row[ledger.column_number("active_points_" + entry.second)];
+        force += value("contact_force_" + entry.second);
+        active += value("active_points_" + entry.second);
       }
     char line[160];
     std::snprintf(line,
@@ -215,13 +224,13 @@ namespace Ricochet
                   "%8u/%-8u %12.6g %14.7e %14.7e %10.2e %12.4e %7.0f %7.0f",
                   step,
                   n_steps,
-                  row[0],
-                  row[3],
-                  row[4],
-                  row[8],
+                  value("time"),
+                  value("energy"),
+                  value("modified_energy"),
+                  value("balance_residual"),
                   force,
                   active,
-                  row[9]);
+                  value("newton_iterations"));
     folder.log(line);
   }
 
@@ -245,10 +254,12 @@ namespace Ricochet
         step                  = checkpoint.step;
         external_work         = checkpoint.sums.at(0);
         contact_work          = checkpoint.sums.at(1);
-        numerical_dissipation = checkpoint.sums.at(2);
-        initial_energy        = checkpoint.sums.at(3);
-        largest_energy        = checkpoint.sums.at(4);
-        n_halvings = static_cast<unsigned int>(checkpoint.sums.at(5));
+        friction_work         = checkpoint.sums.at(2);
+        viscous_dissipation   = checkpoint.sums.at(3);
+        numerical_dissipation = checkpoint.sums.at(4);
+        initial_energy        = checkpoint.sums.at(5);
+        largest_energy        = checkpoint.sums.at(6);
+        n_halvings = static_cast<unsigned int>(checkpoint.sums.at(7));
         if (step > n_steps)
           throw InputError(
             "The run cannot be resumed: its checkpoint is at t "
@@ -298,6 +309,8 @@ namespace Ricochet
       Checkpoint{step,
                  {external_work,
                   contact_work,
+                  friction_work,
+                  viscous_dissipation,
                   numerical_dissipation,
                   initial_energy,
                   largest_energy,
@@ -324,11 +337,14 @@ namespace Ricochet
             timer.enter_subsection("energy ledger");
             external_work += report.external_work;
             contact_work += report.contact_work;
+            friction_work += report.friction_work;
+            viscous_dissipation += report.viscous_dissipation;
             numerical_dissipation += report.numerical_dissipation;
             const double old_energy = energy;
             energy                  = mechanical_energy(state);
             const double residual = energy - old_energy - report.external_work +
-              report.contact_work + report.numerical_dissipation;
+              report.contact_work + report.friction_work +
+              report.viscous_dissipation + report.numerical_dissipation;
             // Relative to the initial energy; a body that starts at rest is
             // measured by the largest energy so far.
             if (initial_energy == 0.)
@@ -372,6 +388,18 @@ namespace Ricochet
       {
         timer.print_summary();
         folder.log(timing_table.str());
+        const SemiDiscreteSystem::Shares shares = system.shares();
+        char                             line[160];
+        std::snprintf(line,
+                      sizeof(line),
+                      "of the steps: residuals %.3g s, tangents %.3g s, %u "
+                      "factorisations %.3g s, back-substitutions %.3g s",
+                      shares.residual,
+                      shares.tangent,
+                      system.n_factorisations(),
+                      shares.factorisation,
+                      shares.back_substitution);
+        folder.log(line);
       }
     return state;
   }

@@ -103,6 +103,8 @@ namespace Ricochet
     // Sums over the run, part of a checkpoint.
     double       external_work         = 0.;
     double       contact_work          = 0.;
+    double       friction_work         = 0.;
+    double       viscous_dissipation   = 0.;
     double       numerical_dissipation = 0.;
     double       initial_energy        = 0.;
     double       largest_energy        = 0.;

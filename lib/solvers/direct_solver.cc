@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/stopwatch.h>
 #include <solvers/direct_solver.h>
+
+#include <Amesos.h>
+#include <Epetra_LinearProblem.h>
 
 namespace Ricochet
 {
   using namespace dealii;
+
+  DirectSolver::Factorisation::Factorisation()  = default;
+  DirectSolver::Factorisation::~Factorisation() = default;
+
+  DirectSolver::DirectSolver(const Parameters &parameters)
+    : parameters(parameters)
+  {}
+
+  DirectSolver::~DirectSolver() = default;
+
+
 
   void
   DirectSolver::Parameters::add_parameters(ParameterHandler &parameters)
@@ -39,51 +54,79 @@ namespace Ricochet
 
 
   void
+  DirectSolver::factorise(Factorisation &entry)
+  {
+    const Stopwatch stopwatch(factorising);
+    ++factorisation_count;
+    int error = 0;
+    if (!entry.solver)
+      {
+        entry.problem = std::make_unique<Epetra_LinearProblem>();
+        entry.problem->SetOperator(
+          const_cast<Epetra_CrsMatrix *>(&entry.matrix.trilinos_matrix()));
+        const std::string name = chosen_type(entry.matrix.m()) == "KLU"
+          ? "Amesos_Klu"
+          : "Amesos_Mumps";
+        entry.solver.reset(Amesos().Create(name, *entry.problem));
+        AssertThrow(entry.solver,
+                    ExcMessage("Trilinos was built without " + name));
+        // KLU then keeps its pivots while they are good.
+        Teuchos::ParameterList list;
+        list.set("Refactorize", true);
+        entry.solver->SetParameters(list);
+        error = entry.solver->SymbolicFactorization();
+      }
+    if (error == 0)
+      error = entry.solver->NumericFactorization();
+    if (error != 0)
+      {
+        entry.solver.reset();
+        throw NewtonFailure(
+          "The tangent matrix cannot be factored: it is singular. Is the body "
+          "held, or does it have inertia?");
+      }
+  }
+
+
+
+  void
   DirectSolver::solve(const std::optional<Key>            &key,
                       const std::function<void(Matrix &)> &assemble,
                       const Vector                        &right_hand_side,
                       Vector                              &solution)
   {
-    auto entry = kept.begin();
+    Factorisation *entry = &changing;
     if (key)
-      while (entry != kept.end() && !(entry->key == key))
-        ++entry;
-    else
-      entry = kept.end();
-
-    if (entry == kept.end())
       {
-        while (kept.size() >= parameters.n_kept)
-          kept.pop_back();
-        kept.emplace_front();
-        entry      = kept.begin();
-        entry->key = key;
-        assemble(entry->matrix);
-        entry->solver = std::make_unique<TrilinosWrappers::SolverDirect>(
-          entry->control,
-          TrilinosWrappers::SolverDirect::AdditionalData(
-            false,
-            chosen_type(entry->matrix.m()) == "KLU" ? "Amesos_Klu"
-                                                    : "Amesos_Mumps"));
-        ++factorisation_count;
-        try
+        auto known = kept.begin();
+        while (known != kept.end() && !(known->key == key))
+          ++known;
+        if (known == kept.end())
           {
-            entry->solver->initialize(entry->matrix);
+            while (kept.size() >= parameters.n_kept)
+              kept.pop_back();
+            kept.emplace_front();
+            assemble(kept.front().matrix);
+            factorise(kept.front());
+            // Only now: a matrix that cannot be factored is never found again.
+            kept.front().key = key;
           }
-        catch (const ExceptionBase &)
-          {
-            kept.pop_front();
-            throw NewtonFailure(
-              "The tangent matrix cannot be factored: it is "
-              "singular. Is the body held, or does it have "
-              "inertia?");
-          }
+        else
+          kept.splice(kept.begin(), kept, known);
+        entry = &kept.front();
       }
     else
-      kept.splice(kept.begin(), kept, entry);
+      {
+        assemble(changing.matrix);
+        factorise(changing);
+      }
 
-    entry->solver->solve(solution, right_hand_side);
-    if (!key)
-      kept.erase(entry);
+    const Stopwatch stopwatch(substituting);
+    entry->problem->SetLHS(&solution.trilinos_vector());
+    entry->problem->SetRHS(
+      const_cast<Epetra_MultiVector *>(static_cast<const Epetra_MultiVector *>(
+        &right_hand_side.trilinos_vector())));
+    if (entry->solver->Solve() != 0)
+      throw NewtonFailure("The linear system cannot be solved.");
   }
 } // namespace Ricochet

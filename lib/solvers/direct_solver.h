@@ -5,13 +5,15 @@
 #include <base/types.h>
 
 #include <deal.II/base/parameter_handler.h>
-#include <deal.II/lac/trilinos_solver.h>
-
 #include <cstdint>
 #include <functional>
 #include <list>
+#include <memory>
 #include <optional>
 #include <string>
+
+class Amesos_BaseSolver;
+class Epetra_LinearProblem;
 
 namespace Ricochet
 {
@@ -54,9 +56,9 @@ namespace Ricochet
       }
     };
 
-    explicit DirectSolver(const Parameters &parameters)
-      : parameters(parameters)
-    {}
+    explicit DirectSolver(const Parameters &parameters);
+
+    ~DirectSolver();
 
     /**
      * Solve matrix * solution = right_hand_side.
@@ -79,6 +81,20 @@ namespace Ricochet
       return factorisation_count;
     }
 
+    /// Time spent in factorising (s).
+    double
+    factorisation_seconds() const
+    {
+      return factorising;
+    }
+
+    /// Time spent in solving with factorisations (s).
+    double
+    back_substitution_seconds() const
+    {
+      return substituting;
+    }
+
     /// The solver that is used for @p n_unknowns, "KLU" or "MUMPS".
     std::string
     chosen_type(const std::size_t n_unknowns) const;
@@ -87,15 +103,24 @@ namespace Ricochet
     // The entry owns its matrix because the solver refers to it.
     struct Factorisation
     {
-      std::optional<Key>                                      key;
-      Matrix                                                  matrix;
-      dealii::SolverControl                                   control;
-      std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> solver;
+      std::optional<Key>                    key;
+      Matrix                                matrix;
+      std::unique_ptr<Epetra_LinearProblem> problem;
+      std::unique_ptr<Amesos_BaseSolver>    solver;
+
+      Factorisation();
+      ~Factorisation();
     };
+
+    /// Factor the matrix of @p entry.
+    void
+    factorise(Factorisation &entry);
 
     const Parameters         parameters;
     std::list<Factorisation> kept;
+    Factorisation            changing;
     unsigned int             factorisation_count = 0;
+    double                   factorising = 0., substituting = 0.;
   };
 } // namespace Ricochet
 

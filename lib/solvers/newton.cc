@@ -65,19 +65,27 @@ namespace Ricochet
       }
     history.clear();
 
+    double     scale    = 0.;
     const auto evaluate = [&](const Vector &point) {
       problem.residual(point, residual);
       const double norm = problem.norm(residual);
-      return problem.force_scale > 0. ? norm / problem.force_scale : norm;
+      const double size = problem.force_scale();
+      scale             = size > 0. ? size : 1.;
+      return norm / scale;
     };
 
-    double     norm      = evaluate(solution);
+    double norm = evaluate(solution);
+    if (!std::isfinite(norm) && problem.safe_guess)
+      {
+        solution = *problem.safe_guess;
+        norm     = evaluate(solution);
+      }
     const auto converged = [&]() {
-      const double scale = problem.force_scale > 0. ? problem.force_scale : 1.;
       return history.size() > 1
-        ? norm <= parameters.tolerance + problem.round_off / scale
+        ? norm <= parameters.tolerance + problem.round_off() / scale
         : norm == 0.;
     };
+    problem.accept();
     history.push_back({norm, 0., problem.active_set()});
     while (!converged())
       {
@@ -90,21 +98,26 @@ namespace Ricochet
         problem.solve(residual, update);
         trial = solution;
         trial.add(-1., update);
-        double new_norm    = evaluate(trial);
-        double step_length = 1.;
+        double     new_norm    = evaluate(trial);
+        double     step_length = 1.;
+        const auto shorten     = [&]() {
+          step_length *= .5;
+          trial = solution;
+          trial.add(-step_length, update);
+          new_norm = evaluate(trial);
+        };
+        while (!std::isfinite(new_norm) && step_length > 1. / 1024.)
+          shorten();
         if (history.size() > parameters.line_search_after)
-          while (!(new_norm < norm) && step_length > 1. / 64.)
-            {
-              step_length *= .5;
-              trial = solution;
-              trial.add(-step_length, update);
-              new_norm = evaluate(trial);
-            }
-        if (history.size() > parameters.line_search_after &&
-            !(new_norm < norm) && std::isfinite(new_norm))
-          fail("no step length makes the residual smaller.");
+          {
+            while (!(new_norm < norm) && step_length > 1. / 64.)
+              shorten();
+            if (!(new_norm < norm) && std::isfinite(new_norm))
+              fail("no step length makes the residual smaller.");
+          }
         solution.swap(trial);
         norm = new_norm;
+        problem.accept();
         history.push_back({norm, step_length, problem.active_set()});
       }
     return history;

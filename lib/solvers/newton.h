@@ -45,14 +45,22 @@ namespace Ricochet
       /// Norm of the residual with all its rows as forces (N).
       std::function<double(const Vector &residual)> norm;
 
+      /// Called when the point of the last residual() becomes the next iterate;
+      /// points that a line search only looks at are not.
+      std::function<void()> accept;
+
       /// Number of active contact points at the last residual(), for the table.
       std::function<std::string()> active_set;
 
-      /// Magnitude of the forces that make up the residual (N).
-      double force_scale = 0.;
+      /// Magnitude of the forces that make up the last residual() (N).
+      std::function<double()> force_scale;
 
-      /// Residual (N) that round-off alone can cause.
-      double round_off = 0.;
+      /// Residual (N) that round-off alone can cause, at the last residual().
+      std::function<double()> round_off;
+
+      /// Where to begin if the residual at the guess is not finite; null for
+      /// nowhere.
+      const Vector *safe_guess = nullptr;
     };
 
     /// What an iteration did.
@@ -69,7 +77,9 @@ namespace Ricochet
     {}
 
     /**
-     * Solve @p problem, from @p solution to @p solution. The guess is never
+     * Solve @p problem, from @p solution to @p solution. A step to a point whose
+     * residual is not finite (an element is turned inside out) is shortened
+     * until it is. The guess is never
      * accepted as it is, unless its residual is exactly zero: there is at least
      * one linear solve.
      *

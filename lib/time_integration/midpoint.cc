@@ -17,9 +17,10 @@ namespace Ricochet
     stage.inertia        = 2. / (dt * dt);
     stage.inertia_origin = old_state.solution;
     stage.inertia_origin.add(dt, old_state.velocity);
-    stage.bulk_discrete_derivative = true;
-    stage.contact_weight_new       = 1.;
-    stage.contact_weight_old       = 0.;
+    stage.time_step          = dt;
+    stage.bulk_step_force    = true;
+    stage.contact_weight_new = 1.;
+    stage.contact_weight_old = 0.;
 
     work.reinit(old_state.solution, true);
     stage.load.reinit(old_state.solution, true);
@@ -27,10 +28,8 @@ namespace Ricochet
     system.external_load(new_state.time, stage.load);
     stage.load.sadd(.5, .5, work);
 
-    new_state.solution.add(dt,
-                           old_state.velocity,
-                           .5 * dt * dt,
-                           old_state.acceleration);
+    // The guess is free flight: in this scheme accelerations alternate.
+    new_state.solution.add(dt, old_state.velocity);
     StepReport report;
     report.newton_iterations = system.solve_stage(stage,
                                                   old_state,
@@ -48,9 +47,18 @@ namespace Ricochet
                                -2. / dt,
                                old_state.velocity);
 
+    new_state.mean_velocity = work;
+    new_state.mean_velocity *= 1. / dt;
+
     // The scheme dissipates nothing: M (v_new - v_old)/dt times u_new - u_old
     // is the difference of kinetic energies.
-    report.contact_work  = new_state.contact_force * work;
+    if (const Vector *friction_force = system.contact.friction_force())
+      report.friction_work = *friction_force * work;
+    report.contact_work = new_state.contact_force * work - report.friction_work;
+    report.viscous_dissipation =
+      system.bulk.viscous_dissipation(old_state.solution,
+                                      new_state.solution,
+                                      dt);
     report.external_work = stage.load * work;
 
     system.reconstruct_massless(old_state, dt, new_state);

@@ -12,7 +12,8 @@ namespace Ricochet
    *     M (v_new - v_old)/dt + f(u_old, u_new) = (L_old + L_new)/2,
    *     (u_new - u_old)/dt = (v_old + v_new)/2,
    *
-   * where the bulk force is the discrete derivative of the stored energy.
+   * where the bulk force is the discrete derivative of the stored energy
+   * (Gonzalez' stress for hyperelastic bodies) plus the viscous force.
    * Two-point contact laws bring their own discrete derivative; with
    * Nitsche-hybrid this is the hybrid scheme of paper C. All other treatments
    * are enforced at the end of the step, where they can only dissipate.

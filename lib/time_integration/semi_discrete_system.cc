@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/stopwatch.h>
 #include <time_integration/semi_discrete_system.h>
 
 #include <cmath>
@@ -112,6 +113,7 @@ namespace Ricochet
     state.contact_force.reinit(displacement);
     state.acceleration.reinit(displacement);
     state.scheme_force.reinit(displacement);
+    state.mean_velocity = state.velocity;
 
     contact.force_at(state.solution, state.contact_force);
     total_force(state.solution, state.contact_force, time, force);
@@ -133,7 +135,7 @@ namespace Ricochet
   {
     // What does not change during the iteration: old forces and load.
     constant_part = 0.;
-    if (!stage.bulk_discrete_derivative && stage.bulk_weight_old != 0.)
+    if (!stage.bulk_step_force && stage.bulk_weight_old != 0.)
       {
         bulk.force(old_state.solution, force);
         constant_part.add(stage.bulk_weight_old, force);
@@ -141,47 +143,52 @@ namespace Ricochet
     if (stage.contact_weight_old != 0.)
       constant_part.add(stage.contact_weight_old, old_state.contact_force);
     constant_part.add(-1., stage.load);
+    const double constant_scale = constant_part.l2_norm();
 
     // The forces that nearly cancel in a residual are what "small" is measured
-    // against: inertia, bulk and what is constant. The inertia term is a small
-    // difference of large numbers when the step is short; their round-off
-    // remains, whatever Newton's method does.
-    work = solution;
-    work -= stage.inertia_origin;
-    mass.vmult(force, work);
-    double force_scale = stage.inertia * force.l2_norm();
-    bulk.force(solution, work);
-    force_scale += work.l2_norm() + constant_part.l2_norm();
+    // against: inertia, bulk, contact and what is constant. Inertia and bulk
+    // forces are small differences of large numbers when the step is short or
+    // the body far from where it started, and so is a small gap; their
+    // round-off remains, whatever Newton's method does.
+    double force_scale = 0.;
     mass.vmult(work, stage.inertia_origin);
-    const double round_off = 4. * std::numeric_limits<double>::epsilon() *
-      stage.inertia * work.l2_norm();
+    const double bulk_round_off = 4. * std::numeric_limits<double>::epsilon() *
+      (stage.inertia * work.l2_norm() +
+       bulk.stiffness_scale() * stage.inertia_origin.l2_norm());
 
     const auto residual = [&](const Vector &point, Vector &result) {
+      const Stopwatch stopwatch(residual_seconds);
       work = point;
       work -= stage.inertia_origin;
       mass.vmult(result, work);
       result *= stage.inertia;
-      if (stage.bulk_discrete_derivative)
+      force_scale = constant_scale + result.l2_norm();
+      if (stage.bulk_step_force)
         {
-          bulk.discrete_derivative(old_state.solution, point, force);
+          bulk.step_force(old_state.solution, point, stage.time_step, force);
+          force_scale += force.l2_norm();
           result += force;
         }
       else
         {
           bulk.force(point, force);
+          force_scale += force.l2_norm();
           result.add(stage.bulk_weight_new, force);
         }
       result += constant_part;
       contact.complete_residual(point, result);
+      force_scale +=
+        stage.contact_weight_new * contact.contact_force().l2_norm();
       set_clamped_to_zero(result);
     };
 
     const double bulk_weight =
-      stage.bulk_discrete_derivative ? .5 : stage.bulk_weight_new;
+      stage.bulk_step_force ? .5 : stage.bulk_weight_new;
     const auto solve = [&](const Vector &right_hand_side, Vector &update) {
       std::optional<DirectSolver::Key> key;
-      const auto                       signature = contact.tangent_signature();
-      if (bulk.is_linear() && signature)
+      const auto signature = bulk.is_linear() ? contact.tangent_signature()
+                                              : std::optional<std::uint64_t>();
+      if (signature)
         key = DirectSolver::Key{stage.inertia,
                                 bulk_weight,
                                 stage.contact_weight_new,
@@ -189,9 +196,16 @@ namespace Ricochet
       linear_solver.solve(
         key,
         [&](Matrix &tangent) {
+          const Stopwatch stopwatch(tangent_seconds);
           tangent.copy_from(mass);
           tangent *= stage.inertia;
-          bulk.add_tangent(bulk_weight, solution, tangent);
+          if (stage.bulk_step_force)
+            bulk.add_step_tangent(old_state.solution,
+                                  solution,
+                                  stage.time_step,
+                                  tangent);
+          else
+            bulk.add_tangent(bulk_weight, solution, tangent);
           contact.complete_tangent(tangent);
           tangent.clear_rows(clamped_list, 1.);
         },
@@ -205,18 +219,52 @@ namespace Ricochet
       return work.l2_norm();
     };
 
-    const auto active_set = [&]() { return contact.active_set_description(); };
-
-    contact.begin_stage(old_state.solution,
-                        old_state.contact_force,
-                        stage.contact_weight_new);
-    const std::vector<NewtonSolver::Iteration> &history =
-      newton.solve({residual, solve, norm, active_set, force_scale, round_off},
-                   solution);
+    const NewtonSolver::Problem problem{
+      residual,
+      solve,
+      norm,
+      [&]() { contact.accept_iterate(); },
+      [&]() { return contact.active_set_description(); },
+      [&]() { return force_scale; },
+      [&]() {
+        return bulk_round_off + stage.contact_weight_new * contact.round_off();
+      },
+      &old_state.solution};
+    const ContactStart start{old_state.solution,
+                             old_state.contact_force,
+                             old_state.mean_velocity,
+                             stage.time_step};
+    unsigned int       n_iterations = 0;
+    contact.begin_stage(start, stage.contact_weight_new);
+    do
+      try
+        {
+          const auto &history = newton.solve(problem, solution);
+          if (newton_observer)
+            newton_observer(history);
+          n_iterations += history.size() - 1;
+        }
+      catch (const NewtonFailure &newton_failure)
+        {
+          const std::string reason = bulk.failure();
+          if (reason.empty())
+            throw;
+          throw NewtonFailure(newton_failure.what() + reason + "\n");
+        }
+    while (contact.next_pass());
     contact_force = contact.contact_force();
-    if (newton_observer)
-      newton_observer(history);
-    return history.size() - 1;
+    return n_iterations;
+  }
+
+
+
+  SemiDiscreteSystem::Shares
+  SemiDiscreteSystem::shares() const
+  {
+    return {residual_seconds,
+            tangent_seconds,
+            linear_solver.factorisation_seconds(),
+            linear_solver.back_substitution_seconds()};
   }
 
 

@@ -25,8 +25,12 @@ namespace Ricochet
     Vector velocity;
     /// m/s^2
     Vector acceleration;
-    /// Contact force at this instant, on the side of the internal forces (N).
+    /// Contact force at this instant (two-point treatments: over the last
+    /// step), on the side of the internal forces (N).
     Vector contact_force;
+    /// Mean velocity over the last step, (u_new - u_old)/dt (m/s), which
+    /// predictors of the gap need; kept by the midpoint scheme.
+    Vector mean_velocity;
     /// -M a as the scheme's own equation of motion gives it (N); only the
     /// energy balance reads it.
     Vector scheme_force;
@@ -38,7 +42,7 @@ namespace Ricochet
    *     inertia M (x - inertia_origin) + bulk force + contact force = load,
    *
    * where the forces are either weighted sums of their values at the old and
-   * the new point, or discrete derivatives between both.
+   * the new point, or those of a whole step between both.
    */
   struct Stage
   {
@@ -47,10 +51,13 @@ namespace Ricochet
     /// m
     Vector inertia_origin;
 
-    /// The bulk force is a discrete derivative; its weights are not used.
-    bool   bulk_discrete_derivative = false;
-    double bulk_weight_new          = 1.;
-    double bulk_weight_old          = 0.;
+    /// Length of the step or stage (s).
+    double time_step = 0.;
+
+    /// The bulk force is that of a step; its weights are not used.
+    bool   bulk_step_force = false;
+    double bulk_weight_new = 1.;
+    double bulk_weight_old = 0.;
 
     /// With a two-point contact law, contact_weight_new is 1.
     double contact_weight_new = 1.;
@@ -159,6 +166,18 @@ namespace Ricochet
       return linear_solver.n_factorisations();
     }
 
+    /// Where the time of all stages went (s).
+    struct Shares
+    {
+      double residual          = 0.;
+      double tangent           = 0.;
+      double factorisation     = 0.;
+      double back_substitution = 0.;
+    };
+
+    Shares
+    shares() const;
+
     /// Called after each stage with Newton's table: residuals, step lengths,
     /// active sets.
     std::function<void(const std::vector<NewtonSolver::Iteration> &)>
@@ -177,6 +196,7 @@ namespace Ricochet
     const Load                                                     load;
     NewtonSolver                                                   newton;
     DirectSolver linear_solver;
+    double       residual_seconds = 0., tangent_seconds = 0.;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, constant_part, force;
   };

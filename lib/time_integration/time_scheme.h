@@ -14,7 +14,8 @@ namespace Ricochet
   /**
    * What a step did, and the terms of its energy balance,
    *
-   *     E_new - E_old = external_work - contact_work - numerical_dissipation .
+   *     E_new - E_old = external_work - contact_work - friction_work
+   *                     - viscous_dissipation - numerical_dissipation .
    *
    * The dissipation comes from the scheme's own closed formula, in which M a
    * stands for the forces that the scheme balances it with. So the balance
@@ -24,8 +25,12 @@ namespace Ricochet
   {
     /// J
     double external_work = 0.;
-    /// Work that the body does against the contact force (J).
+    /// Work that the body does against the normal contact force (J).
     double contact_work = 0.;
+    /// Work against friction (J); never negative.
+    double friction_work = 0.;
+    /// What viscosity takes (J); never negative.
+    double viscous_dissipation = 0.;
     /// Energy that the scheme takes away (J); negative if it adds some.
     double       numerical_dissipation = 0.;
     unsigned int newton_iterations     = 0;

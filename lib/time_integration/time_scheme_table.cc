@@ -44,6 +44,8 @@ namespace Ricochet
   {
     external_work += other.external_work;
     contact_work += other.contact_work;
+    friction_work += other.friction_work;
+    viscous_dissipation += other.viscous_dissipation;
     numerical_dissipation += other.numerical_dissipation;
     newton_iterations += other.newton_iterations;
     linear_solves += other.linear_solves;

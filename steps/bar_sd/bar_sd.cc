@@ -76,15 +76,15 @@ BarSD::run(RunFolder &folder)
                                                              {1.}))}};
 
   // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
-  LinearImpact<1> bar(impact,
-                      triangulation,
-                      parameters.degree,
-                      material,
-                      density,
-                      /* clamped */ {BarEnds::right},
-                      obstacles,
-                      /* load */ {},
-                      folder.communicator);
+  Impact<1> bar(impact,
+                triangulation,
+                parameters.degree,
+                material,
+                density,
+                /* clamped */ {BarEnds::right},
+                obstacles,
+                /* load */ {},
+                folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
              " elements, " + std::to_string(bar.body.owned_indices().size()) +
              " unknowns, " + impact.contact.treatment + ", " +

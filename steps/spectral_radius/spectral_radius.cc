@@ -61,16 +61,16 @@ private:
   std::vector<Entry>
   schemes() const;
 
-  std::unique_ptr<LinearImpact<1>>
+  std::unique_ptr<Impact<1>>
   make_oscillator(const Triangulation<1>       &triangulation,
                   const TimeScheme::Parameters &scheme,
                   const MPI_Comm                communicator) const;
 
   double
-  spectral_radius(LinearImpact<1> &oscillator, const double time_step) const;
+  spectral_radius(Impact<1> &oscillator, const double time_step) const;
 
   double
-  error(LinearImpact<1>   &oscillator,
+  error(Impact<1>         &oscillator,
         const double       final_time,
         const unsigned int n_steps) const;
 
@@ -135,7 +135,7 @@ SpectralRadius::schemes() const
 
 
 
-std::unique_ptr<LinearImpact<1>>
+std::unique_ptr<Impact<1>>
 SpectralRadius::make_oscillator(const Triangulation<1>       &triangulation,
                                 const TimeScheme::Parameters &scheme,
                                 const MPI_Comm communicator) const
@@ -151,16 +151,16 @@ SpectralRadius::make_oscillator(const Triangulation<1>       &triangulation,
         std::make_shared<Functions::SignedDistance::Plane<1>>(Point<1>(-1e6),
                                                            Tensor<1, 1>(
                                                              {1.}))}};
-  return std::make_unique<LinearImpact<1>>(parameters,
-                                           triangulation,
-                                           /* degree */ 1,
-                                           LinearElastic{0., .5},
-                                           /* density */ 1.,
-                                           /* clamped */
-                                           Body<1>::BoundaryIds{BarEnds::right},
-                                           obstacles,
-                                           SemiDiscreteSystem::Load(),
-                                           communicator);
+  return std::make_unique<Impact<1>>(parameters,
+                                     triangulation,
+                                     /* degree */ 1,
+                                     LinearElastic{0., .5},
+                                     /* density */ 1.,
+                                     /* clamped */
+                                     Body<1>::BoundaryIds{BarEnds::right},
+                                     obstacles,
+                                     SemiDiscreteSystem::Load(),
+                                     communicator);
 }
 
 
@@ -168,8 +168,8 @@ SpectralRadius::make_oscillator(const Triangulation<1>       &triangulation,
 // One step from each of the three unit states gives the three columns of the
 // amplification matrix.
 double
-SpectralRadius::spectral_radius(LinearImpact<1> &oscillator,
-                                const double     time_step) const
+SpectralRadius::spectral_radius(Impact<1>   &oscillator,
+                                const double time_step) const
 {
   const double           scale[3] = {1., time_step, time_step * time_step};
   Eigen::Matrix3d        amplification;
@@ -195,7 +195,7 @@ SpectralRadius::spectral_radius(LinearImpact<1> &oscillator,
 
 // Free vibration from u = 1 at rest: u = cos(omega t).
 double
-SpectralRadius::error(LinearImpact<1>   &oscillator,
+SpectralRadius::error(Impact<1>         &oscillator,
                       const double       final_time,
                       const unsigned int n_steps) const
 {
@@ -227,8 +227,8 @@ SpectralRadius::run(RunFolder &folder)
   Triangulation<1> triangulation;
   GridGenerator::hyper_cube(triangulation, 0., 1., /* colorize */ true);
 
-  const std::vector<Entry>                      entries = schemes();
-  std::vector<std::unique_ptr<LinearImpact<1>>> oscillators;
+  const std::vector<Entry>                entries = schemes();
+  std::vector<std::unique_ptr<Impact<1>>> oscillators;
   for (const Entry &entry : entries)
     oscillators.push_back(
       make_oscillator(triangulation, entry.scheme, MPI_COMM_SELF));

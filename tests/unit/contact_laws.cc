@@ -3,9 +3,11 @@
 // Pointwise contact laws against automatic differentiation (Sacado), in open,
 // closed and grazing states, and against their own potentials.
 
+#include <contact/coulomb_friction.h>
 #include <contact/laws/augmented_lagrangian.h>
 #include <contact/laws/nitsche.h>
 #include <contact/laws/nitsche_two_point.h>
+#include <contact/laws/normal_compliance.h>
 #include <contact/laws/penalty.h>
 #include <contact/laws/signorini_multiplier.h>
 
@@ -127,6 +129,14 @@ BOOST_AUTO_TEST_CASE(tangents_are_derivatives)
   compare_tangent(Penalty{.2});
   compare_tangent(ProximalAugmentedLagrangian{5.});
   compare_tangent(SignoriniMultiplier{5.});
+  for (const double alpha : {2., 2.5, 3., 4.})
+    {
+      const CompliancePotential compliance{7., alpha};
+      compare_tangent(StandardNormalCompliance{compliance});
+      compare_tangent(MidpointNormalCompliance{{compliance}});
+      compare_tangent(ImprovedNormalCompliance{{compliance}});
+      compare_tangent(HauretLeTallec{{compliance}});
+    }
 }
 
 BOOST_AUTO_TEST_CASE(forces_derive_from_potentials)
@@ -134,11 +144,121 @@ BOOST_AUTO_TEST_CASE(forces_derive_from_potentials)
   compare_potential(Nitsche{5., 1.});
   compare_potential(Penalty{.2});
   compare_potential(ProximalAugmentedLagrangian{5.});
+  compare_potential(StandardNormalCompliance{{7., 2.5}});
   // With both ends of the step the same, a two-point law is the derivative.
   compare_potential(
     NitscheTwoPoint{5., 1., NitscheTwoPoint::Evaluation::hybrid});
   compare_potential(
     NitscheTwoPoint{5., 1., NitscheTwoPoint::Evaluation::end_of_step});
+  compare_potential(ImprovedNormalCompliance{{{7., 3.}}});
+}
+
+// The work of the improved normal compliance over a step is the difference of
+// its potential, whether the step presses, releases, enters or leaves: a point
+// counts when either end penetrates (Algorithm 2 of paper A looks at the end
+// only, which loses the release).
+BOOST_AUTO_TEST_CASE(improved_compliance_is_a_discrete_derivative)
+{
+  for (const double alpha : {2., 2.5, 3., 5.})
+    {
+      const CompliancePotential compliance{7., alpha};
+      for (const double old_value : {-.3, -1e-9, 0., 1e-9, .02, .4})
+        for (const double new_value :
+             {-.3, -1e-9, 0., 1e-9, .02, .02 * (1. + 1e-5), .4, .41})
+          {
+            const double pressure =
+              compliance.discrete_derivative(old_value, new_value);
+            BOOST_CHECK_GE(pressure, 0.);
+            BOOST_CHECK_EQUAL(pressure > 0., old_value > 0. || new_value > 0.);
+            const double potential_difference =
+              compliance.value(new_value) - compliance.value(old_value);
+            BOOST_CHECK_SMALL(pressure * (new_value - old_value) -
+                                potential_difference,
+                              1e-15 * (1. + compliance.value(.4)));
+          }
+    }
+}
+
+// Where both ends come together, value and derivative pass from the quotient to
+// its series without a jump, and reach the limits.
+BOOST_AUTO_TEST_CASE(improved_compliance_is_continuous)
+{
+  for (const double alpha : {2., 2.5, 3., 5.})
+    for (const double old_value : {1e-6, .02, 3.})
+      {
+        const CompliancePotential compliance{7., alpha};
+        const double stiffness = compliance.second_derivative(old_value);
+        for (const double sign : {-1., 1.})
+          {
+            const double outside = old_value * (1. + sign * 1.0000001e-3);
+            const double inside  = old_value * (1. + sign * .9999999e-3);
+            BOOST_CHECK_SMALL(
+              compliance.discrete_derivative(old_value, outside) -
+                compliance.discrete_derivative(old_value, inside),
+              stiffness * old_value * 2e-10);
+            BOOST_CHECK_SMALL(
+              compliance.discrete_derivative_tangent(old_value, outside) -
+                compliance.discrete_derivative_tangent(old_value, inside),
+              stiffness * 1e-9);
+          }
+        BOOST_CHECK_CLOSE(compliance.discrete_derivative(old_value, old_value),
+                          compliance.derivative(old_value),
+                          1e-12);
+        BOOST_CHECK_CLOSE(compliance.discrete_derivative_tangent(old_value,
+                                                                 old_value),
+                          .5 * stiffness,
+                          1e-12);
+      }
+}
+
+// Regularised friction against automatic differentiation in stick, slip and at
+// rest; its power is never negative and its traction never above mu p.
+BOOST_AUTO_TEST_CASE(friction_tangents_are_derivatives)
+{
+  const CoulombFriction      friction{.3, 2.};
+  const dealii::Tensor<1, 3> normal({0., .6, .8});
+  const dealii::Tensor<2, 3> plane =
+    dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) -
+    outer_product(normal, normal);
+  for (const double pressure : {1e-6, .5, 4.})
+    for (const double size : {0., 1e-9, .1, 3.})
+      {
+        const dealii::Tensor<1, 3> velocity({size, -.4 * size, .7 * size});
+        const dealii::Tensor<1, 3> slip = plane * velocity;
+        dealii::Tensor<2, 3>       with_slip_rate;
+        dealii::Tensor<1, 3>       with_pressure;
+        friction.derivatives(pressure,
+                             slip,
+                             plane,
+                             with_slip_rate,
+                             with_pressure);
+
+        dealii::Tensor<1, 3, AD> ad_velocity, ad_slip;
+        for (unsigned int c = 0; c < 3; ++c)
+          ad_velocity[c] = AD(4, c, velocity[c]);
+        for (unsigned int c = 0; c < 3; ++c)
+          for (unsigned int d = 0; d < 3; ++d)
+            ad_slip[c] += plane[c][d] * ad_velocity[d];
+        const auto traction =
+          friction.traction<AD>(AD(4, 3, pressure), ad_slip);
+        double power = 0., square = 0.;
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            power += traction[c].val() * slip[c];
+            square += traction[c].val() * traction[c].val();
+            // At rest the traction is zero by definition; its derivative is
+            // that of sticking.
+            if (size == 0.)
+              continue;
+            for (unsigned int d = 0; d < 3; ++d)
+              BOOST_CHECK_SMALL(traction[c].dx(d) - with_slip_rate[c][d],
+                                1e-10 * (1. + with_slip_rate.norm()));
+            BOOST_CHECK_SMALL(traction[c].dx(3) - with_pressure[c], 1e-12);
+          }
+        BOOST_CHECK_GE(power, 0.);
+        BOOST_CHECK_LE(std::sqrt(square),
+                       friction.coefficient * pressure * (1. + 1e-12));
+      }
 }
 
 // In the kink itself (grazing contact, q = 0) the tangent must be one of the

@@ -41,7 +41,9 @@ namespace
     };
     problem.norm        = [](const Vector &v) { return v.linfty_norm(); };
     problem.active_set  = []() { return std::string("none"); };
-    problem.force_scale = 1.;
+    problem.accept      = []() {};
+    problem.force_scale = []() { return 1.; };
+    problem.round_off   = []() { return 0.; };
 
     NewtonSolver newton(parameters);
     const auto   history = newton.solve(problem, x);

@@ -28,7 +28,9 @@ namespace Ricochet
     static constexpr ContactLawTraits
     traits()
     {
-      return {};
+      ContactLawTraits traits;
+      traits.uses_stress = true;
+      return traits;
     }
 
     double

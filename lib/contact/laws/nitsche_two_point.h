@@ -46,6 +46,7 @@ namespace Ricochet
     {
       ContactLawTraits traits;
       traits.is_two_point = true;
+      traits.uses_stress  = true;
       return traits;
     }
 

@@ -18,7 +18,9 @@ namespace Ricochet
     static constexpr ContactLawTraits
     traits()
     {
-      return {};
+      ContactLawTraits traits;
+      traits.takes_friction = true;
+      return traits;
     }
 
     template <typename Number>

@@ -25,6 +25,7 @@ namespace Ricochet
       ContactLawTraits traits;
       traits.nodal            = true;
       traits.needs_multiplier = true;
+      traits.takes_friction   = true;
       return traits;
     }
 

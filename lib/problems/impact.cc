@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <problems/linear_impact.h>
+#include <discretization/hyperelastic_bulk.h>
+#include <discretization/linear_bulk.h>
+#include <problems/impact.h>
 #include <time_integration/mass_redistribution.h>
 
 namespace Ricochet
@@ -19,6 +21,18 @@ namespace Ricochet
     }
 
     template <int dim>
+    std::unique_ptr<BulkOperator>
+    make_bulk(const Body<dim> &body, const Material<dim> &material)
+    {
+      if constexpr (dim > 1)
+        if (!material.linear)
+          return std::make_unique<HyperelasticBulk<dim>>(body, material);
+      return std::make_unique<LinearBulk<dim>>(body,
+                                               *material.linear,
+                                               material.viscosity);
+    }
+
+    template <int dim>
     Matrix
     inertia(const bool       redistributed,
             const Body<dim> &body,
@@ -35,33 +49,32 @@ namespace Ricochet
 
 
   template <int dim>
-  LinearImpact<dim>::LinearImpact(
-    const ImpactParameters                &parameters,
-    const Triangulation<dim>              &triangulation,
-    const unsigned int                     degree,
-    const LinearElastic                   &material,
-    const double                           density,
-    const typename Body<dim>::BoundaryIds &clamped,
-    const Obstacles<dim>                  &obstacles,
-    const SemiDiscreteSystem::Load        &load,
-    const MPI_Comm                         communicator)
+  Impact<dim>::Impact(const ImpactParameters                &parameters,
+                      const Triangulation<dim>              &triangulation,
+                      const unsigned int                     degree,
+                      const Material<dim>                   &material,
+                      const double                           density,
+                      const typename Body<dim>::BoundaryIds &clamped,
+                      const Obstacles<dim>                  &obstacles,
+                      const SemiDiscreteSystem::Load        &load,
+                      const MPI_Comm                         communicator)
     : body(triangulation,
            degree,
            clamped,
            boundary_ids(obstacles),
            multiplier_space(parameters.contact),
            communicator)
-    , bulk(body, material)
+    , bulk(make_bulk(body, material))
     , consistent_mass(assemble_mass_matrix(body, density))
     , mass(inertia(parameters.redistributed_mass(), body, consistent_mass))
     , contact(make_contact(parameters.contact,
                            parameters.scheme.name,
                            body,
-                           material,
+                           material.linear,
                            obstacles))
     , system(mass,
              consistent_mass,
-             bulk,
+             *bulk,
              *contact,
              parameters.redistributed_mass()
                ? body.contact_indices()
@@ -75,7 +88,7 @@ namespace Ricochet
   {}
 
 
-  template struct LinearImpact<1>;
-  template struct LinearImpact<2>;
-  template struct LinearImpact<3>;
+  template struct Impact<1>;
+  template struct Impact<2>;
+  template struct Impact<3>;
 } // namespace Ricochet

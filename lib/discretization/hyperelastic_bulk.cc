@@ -1,0 +1,569 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <base/parameter_file.h>
+#include <discretization/hyperelastic_bulk.h>
+#include <materials/gonzalez.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <limits>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Number of components of a symmetric tensor, and the pair of indices of
+    /// each: those of deal.II's unrolled symmetric tensors.
+    template <int dim>
+    constexpr unsigned int n_components = dim *(dim + 1) / 2;
+
+    template <int dim>
+    constexpr std::array<std::array<unsigned int, 2>, n_components<dim>>
+    component_indices()
+    {
+      if constexpr (dim == 2)
+        return {{{{0, 0}}, {{1, 1}}, {{0, 1}}}};
+      else
+        return {{{{0, 0}}, {{1, 1}}, {{2, 2}}, {{0, 1}}, {{0, 2}}, {{1, 2}}}};
+    }
+
+    /// The derivatives of (F^T dF) : S with respect to the displacements of a
+    /// node with the shape gradient @p gradient, per component of S: for each
+    /// direction i and component (k, l), F_ik gradient_l (+ F_il gradient_k).
+    template <int dim>
+    void
+    node_strains(const Tensor<2, dim> &f,
+                 const Tensor<1, dim> &gradient,
+                 double               *strains)
+    {
+      constexpr auto indices = component_indices<dim>();
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int c = 0; c < n_components<dim>; ++c)
+          {
+            const unsigned int k = indices[c][0], l = indices[c][1];
+            strains[i * n_components<dim> + c] = k == l
+              ? f[i][k] * gradient[k]
+              : f[i][k] * gradient[l] + f[i][l] * gradient[k];
+          }
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  HyperelasticBulk<dim>::HyperelasticBulk(const Body<dim>     &body,
+                                          const Material<dim> &material)
+    : material(material)
+    , communicator(body.communicator)
+    , ghosted_old(body.make_ghosted_vector())
+    , ghosted_new(body.make_ghosted_vector())
+  {
+    AssertThrow(material.hyperelastic,
+                ExcMessage("The material is not hyperelastic."));
+    const FiniteElement<dim> &element = body.dof_handler().get_fe();
+
+    // The gradients of linear simplices are constant: one point is enough.
+    const bool one_point = element.degree == 1 &&
+      body.dof_handler().get_triangulation().all_reference_cells_are_simplex();
+    const Quadrature<dim> quadrature = one_point
+      ? Quadrature<dim>(QGaussSimplex<dim>(1))
+      : body.cell_quadrature();
+    FEValues<dim>         fe_values(body.mapping(),
+                            element,
+                            quadrature,
+                            update_gradients | update_JxW_values);
+    n_points = quadrature.size();
+    n_nodes  = element.n_dofs_per_cell() / dim;
+
+    const auto &map = ghosted_new.trilinos_vector().Map();
+    std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
+    for (const auto &cell : body.dof_handler().active_cell_iterators())
+      {
+        if (cell->is_artificial())
+          continue;
+        cell->get_dof_indices(indices);
+        bool touches_owned_rows = false;
+        for (auto &index : indices)
+          {
+            index = body.system_index(index);
+            touches_owned_rows =
+              touches_owned_rows || body.owned_indices().is_element(index);
+          }
+        if (!touches_owned_rows)
+          continue;
+
+        ++n_cells;
+        cell_is_owned.push_back(cell->is_locally_owned());
+        cell_centers.push_back(cell->center());
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const auto index =
+                indices[element.component_to_system_index(c, a)];
+              ghosted_index.push_back(
+                map.LID(static_cast<TrilinosWrappers::types::int_type>(index)));
+              owned_index.push_back(
+                body.owned_indices().is_element(index)
+                  ? static_cast<int>(
+                      body.owned_indices().index_within_set(index))
+                  : -1);
+            }
+        fe_values.reinit(cell);
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            jxw.push_back(fe_values.JxW(q));
+            for (unsigned int a = 0; a < n_nodes; ++a)
+              shape_gradients.push_back(
+                fe_values.shape_grad(element.component_to_system_index(0, a),
+                                     q));
+          }
+      }
+
+    const unsigned int n = dim * n_nodes;
+    cell_vector.resize(n);
+    cell_matrix.resize(n * n);
+    test_strains.resize(n * n_components<dim>);
+    trial_strains.resize(n * n_components<dim>);
+    stress_columns.resize(n * n_components<dim>);
+
+    Matrix matrix;
+    matrix.reinit(body.sparsity_pattern());
+    find_matrix_entries(matrix);
+
+    const Vector rest = body.make_vector();
+    add_tangent(1., rest, matrix);
+    scale = matrix.linfty_norm();
+  }
+
+
+
+  template <int dim>
+  void
+  HyperelasticBulk<dim>::find_matrix_entries(const Matrix &matrix)
+  {
+    const auto &epetra    = matrix.trilinos_matrix();
+    int        *row_begin = nullptr;
+    int        *columns   = nullptr;
+    double     *values    = nullptr;
+    const int error = epetra.ExtractCrsDataPointers(row_begin, columns, values);
+    AssertThrow(error == 0, ExcTrilinosError(error));
+
+    const unsigned int n   = dim * n_nodes;
+    const auto        &map = ghosted_new.trilinos_vector().Map();
+    std::vector<int>   local_column(n);
+    matrix_entry.reserve(n_cells * n * n);
+    for (unsigned int cell = 0; cell < n_cells; ++cell)
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          local_column[i] = epetra.LCID(map.GID(ghosted_index[cell * n + i]));
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            {
+              const int row = owned_index[cell * n + i];
+              if (row < 0)
+                {
+                  matrix_entry.push_back(-1);
+                  continue;
+                }
+              const int *entry = std::find(columns + row_begin[row],
+                                           columns + row_begin[row + 1],
+                                           local_column[j]);
+              AssertThrow(entry != columns + row_begin[row + 1],
+                          ExcMessage("The sparsity pattern has no such "
+                                     "entry."));
+              matrix_entry.push_back(entry - columns);
+            }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  HyperelasticBulk<dim>::deformation(const unsigned int cell,
+                                     const unsigned int q,
+                                     Tensor<2, dim>    &old_f,
+                                     Tensor<2, dim>    &difference) const
+  {
+    const double         *old_values = ghosted_old.trilinos_vector()[0];
+    const double         *new_values = ghosted_new.trilinos_vector()[0];
+    const Tensor<1, dim> *gradients =
+      &shape_gradients[(cell * n_points + q) * n_nodes];
+    const int *index = &ghosted_index[cell * n_nodes * dim];
+
+    old_f      = unit_symmetric_tensor<dim>();
+    difference = 0.;
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          const double old_value = old_values[index[a * dim + i]];
+          const double change    = new_values[index[a * dim + i]] - old_value;
+          old_f[i] += old_value * gradients[a];
+          difference[i] += change * gradients[a];
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  HyperelasticBulk<dim>::assemble_force(const double          new_weight,
+                                        const StressFunction &stress_function,
+                                        const Vector         &old_solution,
+                                        const Vector         &new_solution,
+                                        Vector               &force) const
+  {
+    ghosted_old    = old_solution;
+    ghosted_new    = new_solution;
+    force          = 0.;
+    double *values = force.trilinos_vector()[0];
+
+    const unsigned int n = dim * n_nodes;
+    Tensor<2, dim>     old_f, difference_f;
+    Symmetric2         stress;
+    smallest_determinant = std::numeric_limits<double>::max();
+    for (unsigned int cell = 0; cell < n_cells; ++cell)
+      {
+        std::fill(cell_vector.begin(), cell_vector.end(), 0.);
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            deformation(cell, q, old_f, difference_f);
+            const double det = determinant(old_f + difference_f);
+            if (!(det >= smallest_determinant))
+              {
+                smallest_determinant = det;
+                worst_cell           = cell;
+              }
+            if (!(det > 0.))
+              continue;
+
+            // C_new - C_old = 2 sym(F_mean^T (F_new - F_old)), without
+            // cancellation.
+            const Tensor<2, dim> mean_f = old_f + .5 * difference_f;
+            stress_function(symmetrize(transpose(old_f) * old_f),
+                            2. * symmetrize(transpose(mean_f) * difference_f),
+                            stress,
+                            nullptr);
+            const Tensor<2, dim> test_f = old_f + new_weight * difference_f;
+            const double         weight = jxw[cell * n_points + q];
+            const Tensor<2, dim> first_piola_kirchhoff =
+              weight * (test_f * Tensor<2, dim>(stress));
+            for (unsigned int a = 0; a < n_nodes; ++a)
+              {
+                const Tensor<1, dim> node_force = first_piola_kirchhoff *
+                  shape_gradients[(cell * n_points + q) * n_nodes + a];
+                for (unsigned int i = 0; i < dim; ++i)
+                  cell_vector[a * dim + i] += node_force[i];
+              }
+          }
+        for (unsigned int i = 0; i < n; ++i)
+          if (owned_index[cell * n + i] >= 0)
+            values[owned_index[cell * n + i]] += cell_vector[i];
+      }
+
+    if (!(smallest_determinant > 0.) && force.locally_owned_size() > 0)
+      values[0] = std::numeric_limits<double>::quiet_NaN();
+  }
+
+
+
+  template <int dim>
+  void
+  HyperelasticBulk<dim>::add_matrix(const double          factor,
+                                    const double          new_weight,
+                                    const StressFunction &stress_function,
+                                    const Vector         &old_solution,
+                                    const Vector         &new_solution,
+                                    Matrix               &tangent) const
+  {
+    ghosted_old         = old_solution;
+    ghosted_new         = new_solution;
+    int      *row_begin = nullptr, *columns = nullptr;
+    double   *values = nullptr;
+    const int error =
+      tangent.trilinos_matrix().ExtractCrsDataPointers(row_begin,
+                                                       columns,
+                                                       values);
+    AssertThrow(error == 0, ExcTrilinosError(error));
+
+    constexpr auto         indices = component_indices<dim>();
+    constexpr unsigned int n_c     = n_components<dim>;
+    const unsigned int     n       = dim * n_nodes;
+    Tensor<2, dim>         old_f, difference_f;
+    Symmetric2             stress;
+    Symmetric4             stress_derivative;
+    double                 moduli[n_c][n_c];
+    for (unsigned int cell = 0; cell < n_cells; ++cell)
+      {
+        std::fill(cell_matrix.begin(), cell_matrix.end(), 0.);
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            deformation(cell, q, old_f, difference_f);
+            const Tensor<2, dim> mean_f = old_f + .5 * difference_f;
+            stress_function(symmetrize(transpose(old_f) * old_f),
+                            2. * symmetrize(transpose(mean_f) * difference_f),
+                            stress,
+                            &stress_derivative);
+            const double weight = factor * jxw[cell * n_points + q];
+            for (unsigned int c = 0; c < n_c; ++c)
+              for (unsigned int d = 0; d < n_c; ++d)
+                moduli[c][d] = 2. * weight *
+                  stress_derivative[indices[c][0]][indices[c][1]][indices[d][0]]
+                                   [indices[d][1]];
+
+            // dC = F_new^T dF + dF^T F_new.
+            const Tensor<2, dim>  new_f  = old_f + difference_f;
+            const Tensor<2, dim>  test_f = old_f + new_weight * difference_f;
+            const Tensor<1, dim> *gradients =
+              &shape_gradients[(cell * n_points + q) * n_nodes];
+            for (unsigned int a = 0; a < n_nodes; ++a)
+              {
+                node_strains(test_f,
+                             gradients[a],
+                             &test_strains[a * dim * n_c]);
+                node_strains(new_f,
+                             gradients[a],
+                             &trial_strains[a * dim * n_c]);
+              }
+            for (unsigned int j = 0; j < n; ++j)
+              for (unsigned int c = 0; c < n_c; ++c)
+                {
+                  double sum = 0.;
+                  for (unsigned int d = 0; d < n_c; ++d)
+                    sum += moduli[c][d] * trial_strains[j * n_c + d];
+                  stress_columns[j * n_c + c] = sum;
+                }
+            for (unsigned int i = 0; i < n; ++i)
+              for (unsigned int j = 0; j < n; ++j)
+                {
+                  double sum = 0.;
+                  for (unsigned int c = 0; c < n_c; ++c)
+                    sum +=
+                      test_strains[i * n_c + c] * stress_columns[j * n_c + c];
+                  cell_matrix[i * n + j] += sum;
+                }
+
+            // The test gradient changes too: the geometric part.
+            for (unsigned int a = 0; a < n_nodes; ++a)
+              {
+                const Tensor<1, dim> stressed_gradient =
+                  new_weight * weight * (stress * gradients[a]);
+                for (unsigned int b = 0; b < n_nodes; ++b)
+                  {
+                    const double geometric = stressed_gradient * gradients[b];
+                    for (unsigned int i = 0; i < dim; ++i)
+                      cell_matrix[(a * dim + i) * n + b * dim + i] += geometric;
+                  }
+              }
+          }
+        const int *entry = &matrix_entry[cell * n * n];
+        for (unsigned int k = 0; k < n * n; ++k)
+          if (entry[k] >= 0)
+            values[entry[k]] += cell_matrix[k];
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  HyperelasticBulk<dim>::integrate(
+    const std::function<double(const Symmetric2 &, const Symmetric2 &)>
+                 &density,
+    const Vector &old_solution,
+    const Vector &new_solution) const
+  {
+    ghosted_old        = old_solution;
+    ghosted_new        = new_solution;
+    double         sum = 0.;
+    Tensor<2, dim> old_f, difference_f;
+    for (unsigned int cell = 0; cell < n_cells; ++cell)
+      if (cell_is_owned[cell])
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            deformation(cell, q, old_f, difference_f);
+            const Tensor<2, dim> mean_f = old_f + .5 * difference_f;
+            sum += jxw[cell * n_points + q] *
+              density(symmetrize(transpose(old_f) * old_f),
+                      2. * symmetrize(transpose(mean_f) * difference_f));
+          }
+    return Utilities::MPI::sum(sum, communicator);
+  }
+
+
+
+  template <int dim>
+  typename HyperelasticBulk<dim>::StressFunction
+  HyperelasticBulk<dim>::collocation_stress() const
+  {
+    return [this](const Symmetric2 &old_c,
+                  const Symmetric2 &difference,
+                  Symmetric2       &stress,
+                  Symmetric4       *tangent) {
+      if (tangent)
+        {
+          material.hyperelastic->derivatives(old_c + difference,
+                                             stress,
+                                             *tangent);
+          *tangent *= 2.;
+        }
+      else
+        stress = material.hyperelastic->derivative(old_c + difference);
+      stress *= 2.;
+    };
+  }
+
+
+
+  template <int dim>
+  typename HyperelasticBulk<dim>::StressFunction
+  HyperelasticBulk<dim>::step_stress(const double time_step) const
+  {
+    return [this, time_step](const Symmetric2 &old_c,
+                             const Symmetric2 &difference,
+                             Symmetric2       &stress,
+                             Symmetric4       *tangent) {
+      if (tangent)
+        GonzalezStress<dim>::stress_and_tangent(*material.hyperelastic,
+                                                old_c,
+                                                difference,
+                                                stress,
+                                                *tangent);
+      else
+        stress = GonzalezStress<dim>::stress(*material.hyperelastic,
+                                             old_c,
+                                             difference);
+      if (material.viscosity.is_active())
+        stress += viscous_stress(*material.hyperelastic,
+                                 material.viscosity,
+                                 old_c,
+                                 difference,
+                                 time_step,
+                                 tangent);
+    };
+  }
+
+
+
+  template <int dim>
+  void
+  HyperelasticBulk<dim>::force(const Vector &solution, Vector &result) const
+  {
+    assemble_force(1., collocation_stress(), solution, solution, result);
+  }
+
+
+
+  template <int dim>
+  void
+  HyperelasticBulk<dim>::add_tangent(const double  factor,
+                                     const Vector &solution,
+                                     Matrix       &tangent) const
+  {
+    add_matrix(factor, 1., collocation_stress(), solution, solution, tangent);
+  }
+
+
+
+  template <int dim>
+  void
+  HyperelasticBulk<dim>::step_force(const Vector &old_solution,
+                                    const Vector &new_solution,
+                                    const double  time_step,
+                                    Vector       &result) const
+  {
+    assemble_force(.5,
+                   step_stress(time_step),
+                   old_solution,
+                   new_solution,
+                   result);
+  }
+
+
+
+  template <int dim>
+  void
+  HyperelasticBulk<dim>::add_step_tangent(const Vector &old_solution,
+                                          const Vector &new_solution,
+                                          const double  time_step,
+                                          Matrix       &tangent) const
+  {
+    add_matrix(1.,
+               .5,
+               step_stress(time_step),
+               old_solution,
+               new_solution,
+               tangent);
+  }
+
+
+
+  template <int dim>
+  double
+  HyperelasticBulk<dim>::energy(const Vector &solution) const
+  {
+    return integrate(
+      [this](const Symmetric2 &c, const Symmetric2 &) {
+        return material.hyperelastic->energy(c);
+      },
+      solution,
+      solution);
+  }
+
+
+
+  template <int dim>
+  double
+  HyperelasticBulk<dim>::viscous_dissipation(const Vector &old_solution,
+                                             const Vector &new_solution,
+                                             const double  time_step) const
+  {
+    if (!material.viscosity.is_active())
+      return 0.;
+    return integrate(
+      [this, time_step](const Symmetric2 &old_c, const Symmetric2 &difference) {
+        return .5 *
+          (viscous_stress(*material.hyperelastic,
+                          material.viscosity,
+                          old_c,
+                          difference,
+                          time_step) *
+           difference);
+      },
+      old_solution,
+      new_solution);
+  }
+
+
+
+  template <int dim>
+  std::string
+  HyperelasticBulk<dim>::failure() const
+  {
+    // The worst element of all ranks; all of them get the same text.
+    std::vector<double> mine = {
+      n_cells > 0 ? smallest_determinant : std::numeric_limits<double>::max()};
+    for (unsigned int d = 0; d < dim; ++d)
+      mine.push_back(n_cells > 0 ? cell_centers[worst_cell][d] : 0.);
+    std::vector<double> worst = mine;
+    for (const auto &other : Utilities::MPI::all_gather(communicator, mine))
+      if (!(other[0] >= worst[0]))
+        worst = other;
+    if (worst[0] > 0.)
+      return {};
+    std::string text =
+      "An element is turned inside out: det F = " + to_text(worst[0]) +
+      " in the cell around (";
+    for (unsigned int d = 0; d < dim; ++d)
+      text += (d == 0 ? "" : ", ") + to_text(worst[d + 1]);
+    return text + ") m of the undeformed body.";
+  }
+
+
+  template class HyperelasticBulk<2>;
+  template class HyperelasticBulk<3>;
+} // namespace Ricochet

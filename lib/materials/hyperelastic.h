@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_materials_hyperelastic_h
+#define ricochet_materials_hyperelastic_h
+
+#include <materials/hyperelastic_law.h>
+#include <materials/plane_state.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <memory>
+
+namespace Ricochet
+{
+  /**
+   * A hyperelastic law in @p dim dimensions, as a function of the right
+   * Cauchy-Green tensor C (dim x dim).
+   *
+   * In 2D the energy is a function of the trace and the determinant of C in the
+   * plane. C_33 is 1 in plane strain; in plane stress it minimises W, so that
+   * the reduced energy is hyperelastic again: its first derivative is that of W
+   * at fixed C_33, its second one is condensed.
+   *
+   * In all functions det C must be positive.
+   */
+  template <int dim>
+  class Hyperelastic
+  {
+  public:
+    using Symmetric2 = dealii::SymmetricTensor<2, dim>;
+    using Symmetric4 = dealii::SymmetricTensor<4, dim>;
+
+    /// @param plane_state not used in 3D.
+    Hyperelastic(std::shared_ptr<const HyperelasticLaw> law,
+                 const PlaneState                       plane_state)
+      : law(std::move(law))
+      , plane_state(plane_state)
+    {}
+
+    /// W (J/m^dim).
+    double
+    energy(const Symmetric2 &right_cauchy_green) const;
+
+    /// W(@p old_c + @p difference) - W(@p old_c), free of cancellation.
+    double
+    energy_difference(const Symmetric2 &old_c,
+                      const Symmetric2 &difference) const;
+
+    /// dW/dC (Pa), half of the second Piola-Kirchhoff stress.
+    Symmetric2
+    derivative(const Symmetric2 &right_cauchy_green) const;
+
+    /// dW/dC and d2W/dC2 (Pa).
+    void
+    derivatives(const Symmetric2 &right_cauchy_green,
+                Symmetric2       &first,
+                Symmetric4       &second) const;
+
+    /// The trace of C in three dimensions and its derivative with respect to C,
+    /// for Pioletti's viscosity.
+    double
+    trace(const Symmetric2 &right_cauchy_green, Symmetric2 &derivative) const;
+
+    /// Cauchy stress (Pa).
+    Symmetric2
+    cauchy_stress(const dealii::Tensor<2, dim> &deformation_gradient) const;
+
+  private:
+    /// C_33 in 2D.
+    double
+    c33(const double trace, const double determinant) const;
+
+    /// The derivatives of the (reduced) energy with respect to its dim
+    /// invariants, and of C_33.
+    struct Reduced
+    {
+      std::array<double, dim>                  gradient{};
+      std::array<std::array<double, dim>, dim> hessian{};
+      std::array<double, dim>                  c33_gradient{};
+    };
+
+    Reduced
+    reduce(const std::array<double, dim> &invariants,
+           const bool                     with_hessian) const;
+
+    const std::shared_ptr<const HyperelasticLaw> law;
+    const PlaneState                             plane_state;
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_materials_hyperelastic_law_h
+#define ricochet_materials_hyperelastic_law_h
+
+#include <array>
+
+namespace Ricochet
+{
+  /// Principal invariants of the right Cauchy-Green tensor C in three
+  /// dimensions: tr C, (tr(C)^2 - tr(C^2))/2, det C.
+  template <typename Number = double>
+  struct Invariants
+  {
+    Number first{};
+    Number second{};
+    Number third{};
+  };
+
+  /**
+   * An isotropic hyperelastic law: the energy density W as a function of the
+   * three invariants of C, with its derivatives. Whether the body is flat or
+   * not is no matter of the law: see Hyperelastic.
+   *
+   * Concrete laws derive from HyperelasticLawImplementation and are listed in
+   * material_parameters.cc.
+   */
+  class HyperelasticLaw
+  {
+  public:
+    virtual ~HyperelasticLaw() = default;
+
+    /// W (J/m^3); zero for C = I.
+    virtual double
+    energy(const Invariants<> &invariants) const = 0;
+
+    /**
+     * W(@p invariants + @p difference) - W(@p invariants) (J/m^3), without the
+     * cancellation of a plain difference: Gonzalez' stress divides it by the
+     * square of the difference.
+     */
+    virtual double
+    energy_difference(const Invariants<> &invariants,
+                      const Invariants<> &difference) const = 0;
+
+    /// The three first derivatives of W (Pa).
+    virtual std::array<double, 3>
+    gradient(const Invariants<> &invariants) const = 0;
+
+    /// The second derivatives of W (Pa).
+    virtual std::array<std::array<double, 3>, 3>
+    hessian(const Invariants<> &invariants) const = 0;
+
+    /**
+     * The C_33 for which a sheet has no stress across it, dW/dC_33 = 0.
+     *
+     * @param trace, determinant of the part of C in the plane; the determinant
+     * is positive.
+     */
+    virtual double
+    plane_stress_c33(const double trace, const double determinant) const = 0;
+  };
+
+  /**
+   * Turns a struct with a templated energy into a HyperelasticLaw. The template
+   * lets the tests differentiate the very energy that the programs use.
+   */
+  template <typename Law>
+  class HyperelasticLawImplementation : public HyperelasticLaw
+  {
+  public:
+    explicit HyperelasticLawImplementation(const Law &law)
+      : law(law)
+    {}
+
+    double
+    energy(const Invariants<> &invariants) const override
+    {
+      return law.template energy<double>(invariants);
+    }
+
+    double
+    energy_difference(const Invariants<> &invariants,
+                      const Invariants<> &difference) const override
+    {
+      return law.energy_difference(invariants, difference);
+    }
+
+    std::array<double, 3>
+    gradient(const Invariants<> &invariants) const override
+    {
+      return law.gradient(invariants);
+    }
+
+    std::array<std::array<double, 3>, 3>
+    hessian(const Invariants<> &invariants) const override
+    {
+      return law.hessian(invariants);
+    }
+
+    double
+    plane_stress_c33(const double trace,
+                     const double determinant) const override
+    {
+      return law.plane_stress_c33(trace, determinant);
+    }
+
+  private:
+    const Law law;
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_materials_laws_ciarlet_geymonat_h
+#define ricochet_materials_laws_ciarlet_geymonat_h
+
+#include <materials/hyperelastic_law.h>
+
+#include <cmath>
+
+namespace Ricochet
+{
+  /**
+   * The law of Ciarlet and Geymonat, which papers A (6.2) and B (6.2) call
+   * Ogden's:
+   *
+   *     W = c1 (I1 - 3) + c2 (I2 - 3) + d (I3 - 1) - (c1 + 2 c2 + d) ln I3.
+   *
+   * For small strains its shear modulus is 2 (c1 + c2) and its first Lamé
+   * parameter 4 (c2 + d).
+   */
+  struct CiarletGeymonat
+  {
+    /// Pa
+    double c1 = 0.;
+    /// Pa
+    double c2 = 0.;
+    /// Pa
+    double d = 0.;
+
+    template <typename Number>
+    Number
+    energy(const Invariants<Number> &i) const
+    {
+      using std::log;
+      return c1 * (i.first - 3.) + c2 * (i.second - 3.) + d * (i.third - 1.) -
+        (c1 + 2. * c2 + d) * log(i.third);
+    }
+
+    double
+    energy_difference(const Invariants<> &i, const Invariants<> &diff) const
+    {
+      return c1 * diff.first + c2 * diff.second + d * diff.third -
+        (c1 + 2. * c2 + d) * std::log1p(diff.third / i.third);
+    }
+
+    std::array<double, 3>
+    gradient(const Invariants<> &i) const
+    {
+      return {{c1, c2, d - (c1 + 2. * c2 + d) / i.third}};
+    }
+
+    std::array<std::array<double, 3>, 3>
+    hessian(const Invariants<> &i) const
+    {
+      std::array<std::array<double, 3>, 3> result{};
+      result[2][2] = (c1 + 2. * c2 + d) / (i.third * i.third);
+      return result;
+    }
+
+    double
+    plane_stress_c33(const double trace, const double determinant) const
+    {
+      return (c1 + 2. * c2 + d) / (c1 + c2 * trace + d * determinant);
+    }
+  };
+} // namespace Ricochet
+
+#endif

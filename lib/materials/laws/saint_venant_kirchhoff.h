@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_materials_laws_saint_venant_kirchhoff_h
+#define ricochet_materials_laws_saint_venant_kirchhoff_h
+
+#include <materials/hyperelastic_law.h>
+
+namespace Ricochet
+{
+  /**
+   * Saint Venant and Kirchhoff's law, linear between Green-Lagrange strain
+   * E = (C - I)/2 and second Piola-Kirchhoff stress:
+   *
+   *     W = lambda/2 tr(E)^2 + mu tr(E^2).
+   *
+   * For large rotations and small strains; it softens under compression, and an
+   * element can be pressed flat with finite energy.
+   */
+  struct SaintVenantKirchhoff
+  {
+    /// Pa
+    double lambda = 0.;
+    /// Pa
+    double mu = 0.;
+
+    template <typename Number>
+    Number
+    energy(const Invariants<Number> &i) const
+    {
+      return Number(lambda / 8. * (i.first - 3.) * (i.first - 3.) +
+                    mu / 4. *
+                      (i.first * i.first - 2. * i.second - 2. * i.first + 3.));
+    }
+
+    double
+    energy_difference(const Invariants<> &i, const Invariants<> &diff) const
+    {
+      return diff.first *
+        (lambda / 8. * (2. * (i.first - 3.) + diff.first) +
+         mu / 4. * (2. * (i.first - 1.) + diff.first)) -
+        mu / 2. * diff.second;
+    }
+
+    std::array<double, 3>
+    gradient(const Invariants<> &i) const
+    {
+      return {{lambda / 4. * (i.first - 3.) + mu / 2. * (i.first - 1.),
+               -mu / 2.,
+               0.}};
+    }
+
+    std::array<std::array<double, 3>, 3>
+    hessian(const Invariants<> &) const
+    {
+      std::array<std::array<double, 3>, 3> result{};
+      result[0][0] = lambda / 4. + mu / 2.;
+      return result;
+    }
+
+    double
+    plane_stress_c33(const double trace, const double /*determinant*/) const
+    {
+      return 1. - lambda / (lambda + 2. * mu) * (trace - 2.);
+    }
+  };
+} // namespace Ricochet
+
+#endif

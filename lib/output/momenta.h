@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_output_momenta_h
+#define ricochet_output_momenta_h
+
+#include <discretization/body.h>
+
+namespace Ricochet
+{
+  /**
+   * Linear and angular momentum of a body. A force along the normal of a plane
+   * leaves the linear momentum along the plane alone; without contact both are
+   * constant, and the midpoint scheme keeps them.
+   */
+  template <int dim>
+  class Momenta
+  {
+  public:
+    /**
+     * @param mass mass matrix of the equation of motion (kg).
+     * @param small_strains take the lever arms in the reference position, as
+     * linear elasticity balances them; otherwise in the current one.
+     */
+    Momenta(const Body<dim> &body,
+            const Matrix    &mass,
+            const bool       small_strains);
+
+    /// kg m/s
+    dealii::Tensor<1, dim>
+    linear(const Vector &velocity) const;
+
+    /// About the origin (kg m^2/s); in 2D the third component is the only one.
+    dealii::Tensor<1, 3>
+    angular(const Vector &solution, const Vector &velocity) const;
+
+  private:
+    const MPI_Comm communicator;
+    const Matrix  &mass;
+    const bool     small_strains;
+    // System indices of the displacements of the owned nodes, node by node, and
+    // their reference positions.
+    std::vector<std::array<dealii::types::global_dof_index, dim>> node_indices;
+    std::vector<dealii::Point<dim>>                               positions;
+    mutable Vector                                                momentum;
+  };
+} // namespace Ricochet
+
+#endif

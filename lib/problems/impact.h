@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_problems_impact_h
+#define ricochet_problems_impact_h
+
+#include <discretization/body.h>
+#include <discretization/bulk_operator.h>
+#include <materials/material.h>
+#include <problems/impact_parameters.h>
+
+#include <memory>
+
+namespace Ricochet
+{
+  /**
+   * A body, its contact with an obstacle and its equation of motion, put
+   * together once the mesh is there: what every benchmark does in its setup.
+   */
+  template <int dim>
+  struct Impact
+  {
+    /**
+     * @param density kg/m^dim
+     * @param clamped boundary ids with zero displacement.
+     * @param obstacles the obstacle of each contact boundary.
+     * @param load external load, empty for none.
+     */
+    Impact(const ImpactParameters                &parameters,
+           const dealii::Triangulation<dim>      &triangulation,
+           const unsigned int                     degree,
+           const Material<dim>                   &material,
+           const double                           density,
+           const typename Body<dim>::BoundaryIds &clamped,
+           const Obstacles<dim>                  &obstacles,
+           const SemiDiscreteSystem::Load        &load,
+           const MPI_Comm                         communicator);
+
+    const Body<dim>                        body;
+    const std::unique_ptr<BulkOperator>    bulk;
+    const Matrix                           consistent_mass;
+    const Matrix                           mass;
+    const std::unique_ptr<ContactOperator> contact;
+    SemiDiscreteSystem                     system;
+    const std::unique_ptr<TimeScheme>      scheme;
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_problems_thrown_body_h
+#define ricochet_problems_thrown_body_h
+
+#include <materials/material_parameters.h>
+#include <output/momenta.h>
+#include <problems/impact.h>
+#include <problems/round_meshes.h>
+
+namespace Ricochet
+{
+  /**
+   * What the benchmarks of papers A and B have in common: a free body in two
+   * dimensions that is thrown at a rigid foundation, the half plane below the
+   * axis x_2 = 0.
+   */
+  struct ThrownBodyParameters
+  {
+    ImpactParameters   impact;
+    MaterialParameters material;
+
+    /// "triangles" or "quadrilaterals".
+    std::string cell_shape = "triangles";
+    /// Polynomial degree of the displacement.
+    unsigned int degree = 1;
+    /// Distance of the lowest point from the foundation at the start (m).
+    double initial_gap = 0.;
+    /// m/s
+    dealii::Tensor<1, 2> initial_velocity;
+
+    void
+    add_parameters(dealii::ParameterHandler &parameters);
+
+    /// @throws InputError
+    void
+    validate() const;
+
+    CellShape
+    shape() const
+    {
+      return cell_shape == "triangles" ? CellShape::triangles
+                                       : CellShape::quadrilaterals;
+    }
+  };
+
+  /// The foundation, as the obstacle of the boundary @p boundary_id.
+  Obstacles<2>
+  foundation_below(const dealii::types::boundary_id boundary_id);
+
+  /**
+   * Add to the ledger of @p loop linear momentum, angular momentum about the
+   * origin and the displacement of the mass centre. @p momenta must live as long
+   * as the loop.
+   */
+  void
+  add_momentum_columns(const Momenta<2> &momenta,
+                       const Body<2>    &body,
+                       TimeLoop         &loop);
+} // namespace Ricochet
+
+#endif

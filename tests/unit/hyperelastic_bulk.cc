@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The assembled forces of hyperelastic bodies, on quadrilaterals, triangles and
+// tetrahedra, degree 1 and 2, on any number of ranks: tangents against finite
+// differences, the work identity of a step, rigid motions, inverted elements.
+
+#include "meshes.h"
+
+#include <discretization/hyperelastic_bulk.h>
+#include <materials/laws/ciarlet_geymonat.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <random>
+
+using namespace Ricochet;
+using dealii::VectorOperation;
+
+namespace
+{
+  template <int dim>
+  Material<dim>
+  material(const PlaneState state, const Viscosity &viscosity = {})
+  {
+    return Material<dim>(
+      std::make_shared<Hyperelastic<dim>>(
+        std::make_shared<HyperelasticLawImplementation<CiarletGeymonat>>(
+          CiarletGeymonat{.5, .005, .35}),
+        state),
+      viscosity);
+  }
+
+  void
+  randomise(Vector &vector, const double size, const unsigned int seed)
+  {
+    for (const auto i : vector.locally_owned_elements())
+      {
+        std::mt19937 generator(7919 * seed + static_cast<unsigned int>(i));
+        vector(i) =
+          size * std::uniform_real_distribution<double>(-1., 1.)(generator);
+      }
+    vector.compress(VectorOperation::insert);
+  }
+
+  template <int dim>
+  void
+  check(const bool simplices, const unsigned int degree)
+  {
+    const CubeAbovePlane<dim> cube(simplices);
+    const Body<dim>           body(cube.triangulation,
+                         degree,
+                         {},
+                         {1},
+                         MultiplierSpace::none,
+                         MPI_COMM_WORLD);
+    const double              time_step = .1;
+    for (const auto &viscosity : {Viscosity{},
+                                  Viscosity{Viscosity::Law::curnier, .02},
+                                  Viscosity{Viscosity::Law::pioletti, .02}})
+      {
+        const HyperelasticBulk<dim> bulk(
+          body,
+          material<dim>(dim == 2 ? PlaneState::plane_stress
+                                 : PlaneState::plane_strain,
+                        viscosity));
+        Vector old_solution = body.make_vector(), solution(old_solution),
+               direction(old_solution), force(old_solution), plus(old_solution),
+               minus(old_solution), product(old_solution);
+        // Small enough that no element of degree 2 is turned inside out.
+        randomise(old_solution, .02, 1);
+        randomise(solution, .02, 2);
+        randomise(direction, 1., 3);
+
+        // Work over the step.
+        bulk.step_force(old_solution, solution, time_step, force);
+        Vector step(solution);
+        step -= old_solution;
+        const double dissipation =
+          bulk.viscous_dissipation(old_solution, solution, time_step);
+        BOOST_CHECK_SMALL(force * step -
+                            (bulk.energy(solution) - bulk.energy(old_solution) +
+                             dissipation),
+                          1e-14);
+        BOOST_CHECK_EQUAL(dissipation > 0., viscosity.is_active());
+
+        // Tangents.
+        const double eps = 1e-6;
+        for (const bool step_force : {true, false})
+          {
+            Matrix tangent;
+            tangent.reinit(body.sparsity_pattern());
+            if (step_force)
+              bulk.add_step_tangent(old_solution, solution, time_step, tangent);
+            else
+              bulk.add_tangent(1., solution, tangent);
+            tangent.vmult(product, direction);
+            const auto evaluate = [&](const double distance, Vector &result) {
+              Vector point(solution);
+              point.add(distance, direction);
+              if (step_force)
+                bulk.step_force(old_solution, point, time_step, result);
+              else
+                bulk.force(point, result);
+            };
+            evaluate(eps, plus);
+            evaluate(-eps, minus);
+            plus -= minus;
+            plus *= 1. / (2. * eps);
+            plus -= product;
+            BOOST_CHECK_SMALL(plus.linfty_norm(), 1e-7 * product.linfty_norm());
+          }
+
+        // A rigid turn costs nothing and makes no force.
+        class Turn : public dealii::Function<dim>
+        {
+        public:
+          Turn()
+            : dealii::Function<dim>(dim)
+          {}
+
+          double
+          value(const dealii::Point<dim> &x,
+                const unsigned int        component) const override
+          {
+            const double c = std::cos(1.1), s = std::sin(1.1);
+            if (component == 0)
+              return (c - 1.) * x[0] - s * x[1] + 3.;
+            return component == 1 ? s * x[0] + (c - 1.) * x[1] : 0.;
+          }
+        };
+        body.interpolate(Turn(), solution);
+        BOOST_CHECK_SMALL(bulk.energy(solution), 1e-14);
+        bulk.force(solution, force);
+        BOOST_CHECK_SMALL(force.linfty_norm(), 1e-14);
+        BOOST_CHECK(bulk.failure().empty());
+
+        // A mirror image is not a state of the body, although its C is that of
+        // rest.
+        class Mirror : public dealii::Function<dim>
+        {
+        public:
+          Mirror()
+            : dealii::Function<dim>(dim)
+          {}
+
+          double
+          value(const dealii::Point<dim> &x,
+                const unsigned int        component) const override
+          {
+            return component == 0 ? -2. * x[0] : 0.;
+          }
+        };
+        body.interpolate(Mirror(), solution);
+        bulk.force(solution, force);
+        BOOST_CHECK(!std::isfinite(force.l2_norm()));
+        BOOST_CHECK(bulk.failure().find("det F = -1 in the cell") !=
+                    std::string::npos);
+      }
+  }
+} // namespace
+
+
+BOOST_AUTO_TEST_SUITE(hyperelastic_bulk)
+
+BOOST_AUTO_TEST_CASE(in_2d)
+{
+  check<2>(false, 1);
+  check<2>(false, 2);
+  check<2>(true, 1);
+  check<2>(true, 2);
+}
+
+BOOST_AUTO_TEST_CASE(in_3d)
+{
+  check<3>(false, 1);
+  check<3>(true, 1);
+  check<3>(true, 2);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
