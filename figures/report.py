@@ -55,6 +55,7 @@ class Figure:
     runs: list
     draw: Callable
     checks: Callable = list
+    timed: bool = False  # shows seconds: made by its name or "timed" only, one run at a time
 
     @property
     def image(self):

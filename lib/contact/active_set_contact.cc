@@ -325,6 +325,16 @@ namespace Ricochet
 
 
 
+  std::uint64_t
+  ActiveSetContact::active_set_signature() const
+  {
+    std::vector<int> values = statuses();
+    values.push_back(static_cast<int>(closing_kind()));
+    return global_hash(values, evaluator.communicator);
+  }
+
+
+
   std::string
   ActiveSetContact::active_set_description() const
   {

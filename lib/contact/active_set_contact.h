@@ -87,6 +87,9 @@ namespace Ricochet
     std::optional<std::uint64_t>
     tangent_signature() const override;
 
+    std::uint64_t
+    active_set_signature() const override;
+
     std::string
     active_set_description() const override;
 

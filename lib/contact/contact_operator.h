@@ -98,6 +98,11 @@ namespace Ricochet
     virtual std::optional<std::uint64_t>
     tangent_signature() const = 0;
 
+    /// A number that is the same on all ranks and changes whenever a contact
+    /// point changes between open, closed, sticking and slipping.
+    virtual std::uint64_t
+    active_set_signature() const = 0;
+
     /// The number of active contact points at the last complete_residual(), and
     /// of all, for Newton's table.
     virtual std::string
@@ -108,6 +113,15 @@ namespace Ricochet
     /// complete_residual().
     virtual const Vector &
     contact_force() const = 0;
+
+    /// By how much the force in the residual differs from that of the law, at
+    /// the last complete_residual() (N): not zero where the law was linearised
+    /// elsewhere, and part of what Newton's method makes small.
+    virtual double
+    linearisation_error() const
+    {
+      return 0.;
+    }
 
     /// Force (N) that round-off in the gaps can cause at the last
     /// complete_residual(): a stiff law makes much of little.

@@ -318,7 +318,8 @@ namespace Ricochet
       std::move(points),
       std::move(stress_points),
       CoulombFriction{parameters.friction_coefficient,
-                      parameters.tangential_compliance});
+                      parameters.tangential_compliance},
+      parameters.augmentation);
   }
 
 

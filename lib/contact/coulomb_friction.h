@@ -32,6 +32,49 @@ namespace Ricochet
       return tangential_compliance * slip_speed < coefficient * pressure;
     }
 
+    /**
+     * The law again, with stick and slip told apart by @p trial instead of the
+     * slip rate: a trial = traction + r (v - traction/c_tau) of the last
+     * iterate, with a small r. At a solution both are the same, for any r > 0;
+     * on the way there a point that should stick is not thrown from one
+     * direction of slip into the other (the primal-dual active set of Hüeber,
+     * Stadler and Wohlmuth 2008, for the regularised law).
+     */
+    struct Branch
+    {
+      bool sticks = true;
+      /// Direction of slip.
+      dealii::Tensor<1, 3> direction;
+      /// The direction is that of the slip rate and changes with it.
+      bool follows_slip_rate = false;
+    };
+
+    Branch
+    choose_branch(const double                pressure,
+                  const dealii::Tensor<1, 3> &slip_rate,
+                  const dealii::Tensor<1, 3> &trial) const
+    {
+      Branch       branch;
+      const double size = trial.norm();
+      branch.sticks     = size < coefficient * pressure || size == 0.;
+      if (branch.sticks)
+        return branch;
+      branch.follows_slip_rate = slip_rate * trial > 0.;
+      branch.direction =
+        branch.follows_slip_rate ? slip_rate / slip_rate.norm() : trial / size;
+      return branch;
+    }
+
+    /// The traction (Pa) on @p branch; the same as traction() at a solution.
+    dealii::Tensor<1, 3>
+    traction_on(const Branch               &branch,
+                const double                pressure,
+                const dealii::Tensor<1, 3> &slip_rate) const
+    {
+      return branch.sticks ? tangential_compliance * slip_rate
+                           : coefficient * pressure * branch.direction;
+    }
+
     /// The traction (Pa) at a @p pressure (Pa, not negative) and a slip rate
     /// (m/s).
     template <typename Number>
@@ -55,32 +98,28 @@ namespace Ricochet
       return result;
     }
 
-    /// Its derivatives: with respect to the slip rate (within the tangent
-    /// plane, whose projection @p tangent_plane is) and to the pressure.
+    /// The derivatives of traction_on(): with respect to the slip rate (within
+    /// the tangent plane, whose projection @p tangent_plane is) and to the
+    /// pressure.
     void
-    derivatives(const double                pressure,
+    derivatives(const Branch               &branch,
+                const double                pressure,
                 const dealii::Tensor<1, 3> &slip_rate,
                 const dealii::Tensor<2, 3> &tangent_plane,
                 dealii::Tensor<2, 3>       &with_slip_rate,
                 dealii::Tensor<1, 3>       &with_pressure) const
     {
-      const double speed = slip_rate.norm();
-      if (sticks(pressure, speed))
+      with_slip_rate = 0.;
+      with_pressure  = 0.;
+      if (branch.sticks)
         {
           with_slip_rate = tangential_compliance * tangent_plane;
-          with_pressure  = 0.;
           return;
         }
-      if (!(speed > 0.))
-        {
-          with_slip_rate = 0.;
-          with_pressure  = 0.;
-          return;
-        }
-      const dealii::Tensor<1, 3> direction = slip_rate / speed;
-      with_slip_rate                       = coefficient * pressure / speed *
-        (tangent_plane - outer_product(direction, direction));
-      with_pressure = coefficient * direction;
+      with_pressure = coefficient * branch.direction;
+      if (branch.follows_slip_rate)
+        with_slip_rate = coefficient * pressure / slip_rate.norm() *
+          (tangent_plane - outer_product(branch.direction, branch.direction));
     }
   };
 } // namespace Ricochet

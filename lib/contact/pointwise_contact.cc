@@ -25,8 +25,9 @@ namespace Ricochet
   void
   PointwiseContact::begin_stage(const ContactStart &start, const double weight_)
   {
-    weight    = weight_;
-    time_step = start.time_step;
+    weight     = weight_;
+    time_step  = start.time_step;
+    n_iterates = 0;
     evaluator.evaluate(start.solution, old_state);
     if (friction.coefficient > 0.)
       evaluator.evaluate_displacement(start.solution, old_displacement);
@@ -34,14 +35,117 @@ namespace Ricochet
 
 
 
+  void
+  PointwiseContact::accept_iterate()
+  {
+    ++n_iterates;
+    if (law->traits().is_invertible)
+      accepted_linearisation = linearisation;
+    accepted_branch = friction_branch;
+  }
+
+
+
+  void
+  PointwiseContact::choose_linearisation()
+  {
+    // It helps to come near the solution; should it not, the law is linearised
+    // at the gap again.
+    linearisation = state;
+    if (!law->traits().is_invertible || n_iterates == 0 || n_iterates > 8)
+      return;
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        // The pressure that the last linearisation has at the new gap.
+        const double h = evaluator.contact_points()[p].cell_diameter;
+        const ContactPointState<> &at = accepted_linearisation[p];
+        const double pressure         = -law->force(at, old_state[p], h).gap -
+          law->tangent(at, old_state[p], h)[0][0] * (state[p].gap - at.gap);
+        // Only while the point penetrates: of one that leaves, the gap says
+        // more than the pressure.
+        if (!(pressure > 0.) || state[p].gap >= 0.)
+          continue;
+        const double gap =
+          law->gap_at_pressure(pressure, state[p], old_state[p]);
+        if (gap < 0.)
+          linearisation[p].gap = gap;
+      }
+  }
+
+
+
+  ContactPointForce<>
+  PointwiseContact::linearised_force(const unsigned int p) const
+  {
+    const double        h      = evaluator.contact_points()[p].cell_diameter;
+    ContactPointForce<> result = law->force(linearisation[p], old_state[p], h);
+    const double        distance = state[p].gap - linearisation[p].gap;
+    if (distance != 0.)
+      result.gap +=
+        law->tangent(linearisation[p], old_state[p], h)[0][0] * distance;
+    return result;
+  }
+
+
+
+  double
+  PointwiseContact::linearisation_error() const
+  {
+    if (!law->traits().is_invertible && friction.coefficient == 0.)
+      return 0.;
+    double square = 0.;
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const ContactPoint &point = evaluator.contact_points()[p];
+        const double        error = point.weight *
+          (linearised_force(p).gap -
+           law->force(state[p], old_state[p], point.cell_diameter).gap);
+        square += error * error;
+        const double pressure =
+          friction.coefficient > 0. ? friction_pressure(p) : 0.;
+        if (pressure > 0.)
+          square += point.weight * point.weight *
+            (friction.traction_on(friction_branch[p], pressure, slip_rate(p)) -
+             friction.traction(pressure, slip_rate(p)))
+              .norm_square();
+      }
+    return std::sqrt(
+      dealii::Utilities::MPI::sum(square, evaluator.communicator));
+  }
+
+
+
   double
   PointwiseContact::friction_pressure(const unsigned int p) const
   {
-    return positive_part(-law
-                            ->force(state[p],
-                                    old_state[p],
-                                    evaluator.contact_points()[p].cell_diameter)
-                            .gap);
+    return positive_part(-linearised_force(p).gap);
+  }
+
+
+
+  void
+  PointwiseContact::choose_friction_branches()
+  {
+    friction_branch.resize(state.size());
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const double               pressure = friction_pressure(p);
+        const dealii::Tensor<1, 3> rate     = slip_rate(p);
+        dealii::Tensor<1, 3> trial = friction.tangential_compliance * rate;
+        if (n_iterates > 0 && accepted_branch.size() == state.size())
+          {
+            // The traction that the last iterate predicts.
+            const dealii::Tensor<1, 3> traction =
+              friction.traction_on(accepted_branch[p], pressure, rate);
+            const double r =
+              std::min(friction.tangential_compliance,
+                       augmentation * time_step /
+                         evaluator.contact_points()[p].cell_diameter);
+            trial =
+              traction + r * (rate - traction / friction.tangential_compliance);
+          }
+        friction_branch[p] = friction.choose_branch(pressure, rate, trial);
+      }
   }
 
 
@@ -56,38 +160,27 @@ namespace Ricochet
 
 
   void
-  PointwiseContact::evaluate_force(
-    const std::vector<ContactPointState<>> &new_states,
-    const std::vector<ContactPointState<>> &old_states,
-    Vector                                 &result)
-  {
-    result = 0.;
-    for (unsigned int p = 0; p < new_states.size(); ++p)
-      evaluator.add(p,
-                    law->force(new_states[p],
-                               old_states[p],
-                               evaluator.contact_points()[p].cell_diameter),
-                    result);
-    result.compress(VectorOperation::add);
-  }
-
-
-
-  void
   PointwiseContact::complete_residual(const Vector &solution, Vector &residual)
   {
     evaluator.evaluate(solution, state);
-    evaluate_force(state, old_state, force);
+    choose_linearisation();
+    force = 0.;
+    for (unsigned int p = 0; p < state.size(); ++p)
+      evaluator.add(p, linearised_force(p), force);
+    force.compress(VectorOperation::add);
     if (friction.coefficient > 0.)
       {
         evaluator.evaluate_displacement(solution, displacement);
+        choose_friction_branches();
         friction_part = 0.;
         for (unsigned int p = 0; p < state.size(); ++p)
           {
             const double pressure = friction_pressure(p);
             if (pressure > 0.)
               evaluator.add(p,
-                            friction.traction(pressure, slip_rate(p)),
+                            friction.traction_on(friction_branch[p],
+                                                 pressure,
+                                                 slip_rate(p)),
                             friction_part);
           }
         friction_part.compress(VectorOperation::add);
@@ -112,7 +205,7 @@ namespace Ricochet
       {
         const ContactPoint       &point = evaluator.contact_points()[p];
         const ContactPointTangent law_tangent =
-          law->tangent(state[p], old_state[p], point.cell_diameter);
+          law->tangent(linearisation[p], old_state[p], point.cell_diameter);
         evaluator.add(p, weight, law_tangent, tangent);
 
         const double pressure =
@@ -121,7 +214,8 @@ namespace Ricochet
           {
             dealii::Tensor<2, 3> with_slip_rate;
             dealii::Tensor<1, 3> with_pressure;
-            friction.derivatives(pressure,
+            friction.derivatives(friction_branch[p],
+                                 pressure,
                                  slip_rate(p),
                                  tangent_plane(point.obstacle_normal),
                                  with_slip_rate,
@@ -152,6 +246,15 @@ namespace Ricochet
         const double force =
           point.weight * tangent[0][0] * gap_round_off(point, state[p].gap);
         square += force * force;
+        // Slip is a difference of displacements over a step.
+        if (friction.coefficient > 0. && friction_branch[p].sticks &&
+            friction_pressure(p) > 0.)
+          {
+            const double friction_force = point.weight *
+              friction.tangential_compliance / time_step *
+              gap_round_off(point, displacement[p].norm());
+            square += friction_force * friction_force;
+          }
       }
     return std::sqrt(
       dealii::Utilities::MPI::sum(square, evaluator.communicator));
@@ -192,6 +295,14 @@ namespace Ricochet
 
 
 
+  std::uint64_t
+  PointwiseContact::active_set_signature() const
+  {
+    return global_hash(branches(), evaluator.communicator);
+  }
+
+
+
   std::string
   PointwiseContact::active_set_description() const
   {
@@ -205,7 +316,14 @@ namespace Ricochet
   {
     // With both states the same, a discrete derivative is the derivative.
     evaluator.evaluate(solution, state);
-    evaluate_force(state, state, result);
+    result = 0.;
+    for (unsigned int p = 0; p < state.size(); ++p)
+      evaluator.add(p,
+                    law->force(state[p],
+                               state[p],
+                               evaluator.contact_points()[p].cell_diameter),
+                    result);
+    result.compress(VectorOperation::add);
     double *values = result.trilinos_vector()[0];
     for (unsigned int i = n_displacements_owned;
          i < result.locally_owned_size();

@@ -12,6 +12,13 @@ namespace Ricochet
    * penalty, augmented Lagrangian, multipliers, normal compliance. It runs
    * through the contact points and asks the law; Coulomb's friction with a
    * tangential compliance comes beside it, with the mean slip rate of the step.
+   *
+   * A stiff power law is a poor thing to linearise at a gap: from a predictor
+   * that is far too deep, Newton's method comes back by a constant factor per
+   * iteration. The pressure that the last linearisation predicts is in
+   * equilibrium with the body and nearly right; so invertible laws are
+   * linearised at the gap that belongs to that pressure (Newton's method for gap
+   * and pressure as two unknowns, the pressure eliminated).
    */
   class PointwiseContact : public ContactOperator
   {
@@ -21,15 +28,19 @@ namespace Ricochet
      * @param stress_points quadrature points at which the summary evaluates the
      * body's own stress; nodes know none.
      * @param friction none if its coefficient is 0.
+     * @param augmentation r_0 (Pa); a stiffness r_0 / h_T tells stick and slip
+     * apart on the way to the solution and leaves the solution alone.
      */
     template <int dim>
     PointwiseContact(const Body<dim>            &body,
                      std::unique_ptr<ContactLaw> law,
                      ContactPoints               points,
                      ContactPoints               stress_points,
-                     const CoulombFriction      &friction = {})
+                     const CoulombFriction      &friction     = {},
+                     const double                augmentation = 1.)
       : law(std::move(law))
       , friction(friction)
+      , augmentation(augmentation)
       , evaluator(body, std::move(points))
       , stress_evaluator(body, std::move(stress_points))
       , force(body.make_vector())
@@ -40,6 +51,9 @@ namespace Ricochet
     {
       compute_row_scaling();
     }
+
+    void
+    accept_iterate() override;
 
     void
     begin_stage(const ContactStart &start, const double weight) override;
@@ -53,6 +67,9 @@ namespace Ricochet
     std::optional<std::uint64_t>
     tangent_signature() const override;
 
+    std::uint64_t
+    active_set_signature() const override;
+
     std::string
     active_set_description() const override;
 
@@ -61,6 +78,9 @@ namespace Ricochet
     {
       return force;
     }
+
+    double
+    linearisation_error() const override;
 
     double
     round_off() const override;
@@ -100,26 +120,41 @@ namespace Ricochet
     void
     compute_row_scaling();
 
+    /// Choose the states at which the law is linearised for the residual at
+    /// #state.
+    void
+    choose_linearisation();
+
+    /// The force of the law in the residual: linearised at #linearisation.
+    ContactPointForce<>
+    linearised_force(const unsigned int p) const;
+
     /// The pressure that friction sees (Pa).
     double
     friction_pressure(const unsigned int p) const;
+
+    /// Choose stick or slip for the residual at #state.
+    void
+    choose_friction_branches();
 
     /// Slip rate of point @p p (m/s) at the last complete_residual().
     dealii::Tensor<1, 3>
     slip_rate(const unsigned int p) const;
 
-    void
-    evaluate_force(const std::vector<ContactPointState<>> &new_state,
-                   const std::vector<ContactPointState<>> &old_state,
-                   Vector                                 &result);
 
     const std::unique_ptr<ContactLaw> law;
     const CoulombFriction             friction;
+    const double                      augmentation;
     ContactPointEvaluator             evaluator;
     ContactPointEvaluator             stress_evaluator;
-    double                            weight    = 1.;
-    double                            time_step = 0.;
+    double                            weight     = 1.;
+    double                            time_step  = 0.;
+    unsigned int                      n_iterates = 0;
     std::vector<ContactPointState<>>  state, old_state, stress_state;
+    // Where the law is linearised: now, and at the last accepted iterate.
+    std::vector<ContactPointState<>> linearisation, accepted_linearisation;
+    // The same for friction.
+    std::vector<CoulombFriction::Branch> friction_branch, accepted_branch;
     // Displacements of the points, for slip; empty without friction.
     std::vector<dealii::Tensor<1, 3>> displacement, old_displacement;
     Vector                            force, friction_part, scaling;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/parameter_file.h>
 #include <discretization/body.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -16,6 +17,62 @@
 namespace Ricochet
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// The smallest determinant of the map from the reference cell, over the
+    /// vertices of @p cell: negative or zero for an inverted cell.
+    template <int dim>
+    double
+    smallest_determinant(
+      const typename Triangulation<dim>::active_cell_iterator &cell)
+    {
+      if (cell->reference_cell().is_simplex() && dim > 1)
+        {
+          Tensor<2, dim> edges;
+          for (unsigned int d = 0; d < dim; ++d)
+            edges[d] = cell->vertex(d + 1) - cell->vertex(0);
+          return determinant(edges);
+        }
+      Point<dim>     vertices[GeometryInfo<dim>::vertices_per_cell];
+      Tensor<0, dim> determinants[GeometryInfo<dim>::vertices_per_cell];
+      for (const unsigned int v : cell->vertex_indices())
+        vertices[v] = cell->vertex(v);
+      GeometryInfo<dim>::alternating_form_at_vertices(vertices, determinants);
+      double smallest = determinants[0];
+      for (const double value : determinants)
+        smallest = std::min(smallest, value);
+      return smallest;
+    }
+
+
+
+    template <int dim>
+    void
+    refuse_inverted_cells(const Triangulation<dim> &triangulation,
+                          const MPI_Comm            communicator)
+    {
+      std::vector<double> worst;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() && worst.empty() &&
+            !(smallest_determinant<dim>(cell) > 0.))
+          for (unsigned int d = 0; d < dim; ++d)
+            worst.push_back(cell->center()[d]);
+      for (const auto &center : Utilities::MPI::all_gather(communicator, worst))
+        if (!center.empty())
+          {
+            std::string text;
+            for (const double x : center)
+              text += (text.empty() ? "" : ", ") + to_text(x);
+            throw InputError(
+              "The mesh has a cell that is turned inside out or "
+              "flat, around (" +
+              text + ") m.");
+          }
+    }
+  } // namespace
+
+
 
   template <int dim>
   Body<dim>::Body(const Triangulation<dim> &triangulation,
@@ -54,6 +111,7 @@ namespace Ricochet
         "The mesh mixes cells of different kinds; Ricochet "
         "takes meshes of hypercubes only or simplices only.");
 
+    refuse_inverted_cells(triangulation, communicator);
     displacement_dofs.distribute_dofs(*displacement_element);
     number_multipliers();
 

@@ -8,6 +8,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <cmath>
 #include <limits>
 
 namespace Ricochet
@@ -30,6 +31,10 @@ namespace Ricochet
       else
         return {{{{0, 0}}, {{1, 1}}, {{2, 2}}, {{0, 1}}, {{0, 2}}, {{1, 2}}}};
     }
+
+    /// An element with a smaller det F counts as turned inside out: det C, its
+    /// square, would drown in round-off.
+    constexpr double flat = 1e-6;
 
     /// The derivatives of (F^T dF) : S with respect to the displacements of a
     /// node with the shape gradient @p gradient, per component of S: for each
@@ -233,12 +238,13 @@ namespace Ricochet
           {
             deformation(cell, q, old_f, difference_f);
             const double det = determinant(old_f + difference_f);
-            if (!(det >= smallest_determinant))
+            if (!std::isnan(smallest_determinant) &&
+                !(det >= smallest_determinant))
               {
                 smallest_determinant = det;
                 worst_cell           = cell;
               }
-            if (!(det > 0.))
+            if (!(det > flat))
               continue;
 
             // C_new - C_old = 2 sym(F_mean^T (F_new - F_old)), without
@@ -265,7 +271,7 @@ namespace Ricochet
             values[owned_index[cell * n + i]] += cell_vector[i];
       }
 
-    if (!(smallest_determinant > 0.) && force.locally_owned_size() > 0)
+    if (!(smallest_determinant > flat) && force.locally_owned_size() > 0)
       values[0] = std::numeric_limits<double>::quiet_NaN();
   }
 
@@ -553,10 +559,10 @@ namespace Ricochet
     for (const auto &other : Utilities::MPI::all_gather(communicator, mine))
       if (!(other[0] >= worst[0]))
         worst = other;
-    if (worst[0] > 0.)
+    if (worst[0] > flat)
       return {};
     std::string text =
-      "An element is turned inside out: det F = " + to_text(worst[0]) +
+      "An element is flat or turned inside out: det F = " + to_text(worst[0]) +
       " in the cell around (";
     for (unsigned int d = 0; d < dim; ++d)
       text += (d == 0 ? "" : ", ") + to_text(worst[d + 1]);

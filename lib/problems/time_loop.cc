@@ -206,7 +206,9 @@ namespace Ricochet
 
 
   void
-  TimeLoop::log_row(const unsigned int step, const unsigned int n_steps) const
+  TimeLoop::log_row(const unsigned int step,
+                    const unsigned int n_steps,
+                    const std::string &remaining) const
   {
     const std::vector<double> &row   = ledger.rows().back();
     const auto                 value = [&](const std::string &name) {
@@ -221,7 +223,7 @@ namespace Ricochet
     char line[160];
     std::snprintf(line,
                   sizeof(line),
-                  "%8u/%-8u %12.6g %14.7e %14.7e %10.2e %12.4e %7.0f %7.0f",
+                  "%8u/%-8u %12.6g %14.7e %14.7e %10.2e %12.4e %7.0f %7.0f%s",
                   step,
                   n_steps,
                   value("time"),
@@ -230,7 +232,8 @@ namespace Ricochet
                   value("balance_residual"),
                   force,
                   active,
-                  value("newton_iterations"));
+                  value("newton_iterations"),
+                  remaining.c_str());
     folder.log(line);
   }
 
@@ -318,8 +321,10 @@ namespace Ricochet
                  state}
         .write(folder);
     };
-    double       energy          = mechanical_energy(state);
-    unsigned int halvings_before = n_halvings;
+    const Timer        stopwatch;
+    const unsigned int first_step      = step;
+    double             energy          = mechanical_energy(state);
+    unsigned int       halvings_before = n_halvings;
     try
       {
         while (step < n_steps)
@@ -355,7 +360,19 @@ namespace Ricochet
             timer.leave_subsection();
 
             if (parameters.log_every > 0 && step % parameters.log_every == 0)
-              log_row(step, n_steps);
+              {
+                // Only of a run that lasts: nobody waits for a short one, and
+                // logs of those can be compared.
+                char         remaining[40] = "";
+                const double seconds       = stopwatch.wall_time();
+                if (parameters.timing && seconds > 10. && step < n_steps)
+                  std::snprintf(remaining,
+                                sizeof(remaining),
+                                "   %.0f s left",
+                                seconds * (n_steps - step) /
+                                  (step - first_step));
+                log_row(step, n_steps, remaining);
+              }
             const TimerOutput::Scope scope(timer, "fields and checkpoints");
             if (fields && step % parameters.fields_every == 0)
               write_fields(state, step);

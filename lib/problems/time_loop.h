@@ -88,8 +88,11 @@ namespace Ricochet
             const StepReport &report,
             const double      balance_residual);
 
+    /// @param remaining what to add about the time that is left.
     void
-    log_row(const unsigned int step, const unsigned int n_steps) const;
+    log_row(const unsigned int step,
+            const unsigned int n_steps,
+            const std::string &remaining) const;
 
     const Parameters                                        parameters;
     RunFolder                                              &folder;

@@ -54,7 +54,7 @@ namespace Ricochet
 
 
   void
-  DirectSolver::factorise(Factorisation &entry)
+  DirectSolver::factorise(Factorisation &entry, const bool keep_pivots)
   {
     const Stopwatch stopwatch(factorising);
     ++factorisation_count;
@@ -70,12 +70,12 @@ namespace Ricochet
         entry.solver.reset(Amesos().Create(name, *entry.problem));
         AssertThrow(entry.solver,
                     ExcMessage("Trilinos was built without " + name));
-        // KLU then keeps its pivots while they are good.
-        Teuchos::ParameterList list;
-        list.set("Refactorize", true);
-        entry.solver->SetParameters(list);
         error = entry.solver->SymbolicFactorization();
       }
+    // KLU looks at its pivots and chooses others when they are no longer good.
+    Teuchos::ParameterList list;
+    list.set("Refactorize", keep_pivots);
+    entry.solver->SetParameters(list);
     if (error == 0)
       error = entry.solver->NumericFactorization();
     if (error != 0)
@@ -93,7 +93,8 @@ namespace Ricochet
   DirectSolver::solve(const std::optional<Key>            &key,
                       const std::function<void(Matrix &)> &assemble,
                       const Vector                        &right_hand_side,
-                      Vector                              &solution)
+                      Vector                              &solution,
+                      const bool                           may_reuse)
   {
     Factorisation *entry = &changing;
     if (key)
@@ -107,7 +108,7 @@ namespace Ricochet
               kept.pop_back();
             kept.emplace_front();
             assemble(kept.front().matrix);
-            factorise(kept.front());
+            factorise(kept.front(), false);
             // Only now: a matrix that cannot be factored is never found again.
             kept.front().key = key;
           }
@@ -115,10 +116,11 @@ namespace Ricochet
           kept.splice(kept.begin(), kept, known);
         entry = &kept.front();
       }
-    else
+    else if (!may_reuse || !changing.solver)
       {
         assemble(changing.matrix);
-        factorise(changing);
+        factorise(changing, !new_pivots);
+        new_pivots = false;
       }
 
     const Stopwatch stopwatch(substituting);

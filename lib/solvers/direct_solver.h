@@ -63,7 +63,8 @@ namespace Ricochet
     /**
      * Solve matrix * solution = right_hand_side.
      *
-     * @param key names the matrix; without it the matrix is factored afresh.
+     * @param key names the matrix; without it the matrix is factored afresh,
+     * unless @p may_reuse and there is an older one without a key.
      * @param assemble called with an empty matrix when there is no kept
      * factorisation for @p key.
      * @throws NewtonFailure when the matrix cannot be factored.
@@ -72,7 +73,17 @@ namespace Ricochet
     solve(const std::optional<Key>            &key,
           const std::function<void(Matrix &)> &assemble,
           const Vector                        &right_hand_side,
-          Vector                              &solution);
+          Vector                              &solution,
+          const bool                           may_reuse = false);
+
+    /// Choose pivots anew in the next factorisation without a key. Between two
+    /// calls pivots are kept, which is faster; after one, results do not depend
+    /// on what came before, so that a resumed run repeats them digit for digit.
+    void
+    begin_stage()
+    {
+      new_pivots = true;
+    }
 
     /// Number of factorisations made so far.
     unsigned int
@@ -112,13 +123,15 @@ namespace Ricochet
       ~Factorisation();
     };
 
-    /// Factor the matrix of @p entry.
+    /// Factor the matrix of @p entry, with the pivots of the last time if @p
+    /// keep_pivots.
     void
-    factorise(Factorisation &entry);
+    factorise(Factorisation &entry, const bool keep_pivots);
 
     const Parameters         parameters;
     std::list<Factorisation> kept;
     Factorisation            changing;
+    bool                     new_pivots          = true;
     unsigned int             factorisation_count = 0;
     double                   factorising = 0., substituting = 0.;
   };

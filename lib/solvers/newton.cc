@@ -32,6 +32,13 @@ namespace Ricochet
       "falls. Full steps are best for finding the active set; a shortened one "
       "breaks a cycle.",
       Patterns::Integer(0, 1000));
+    parameters.add_parameter(
+      "Reuse tangent below",
+      reuse_tangent_below,
+      "With nonlinear materials and contact laws, a tangent is used again "
+      "while each iteration makes the residual smaller by this factor; 0 for "
+      "a new tangent in each iteration (Newton's method proper).",
+      Patterns::Double(0., .9));
     parameters.leave_subsection();
   }
 
@@ -95,7 +102,12 @@ namespace Ricochet
           fail("not converged in " + std::to_string(parameters.max_iterations) +
                " iterations.");
 
-        problem.solve(residual, update);
+        // The tangent of the last iteration is good enough while the residual
+        // falls fast: factorising it costs much more than an iteration.
+        const bool may_reuse = history.size() > 1 &&
+          norm < parameters.reuse_tangent_below *
+              history[history.size() - 2].relative_residual;
+        problem.solve(residual, update, may_reuse);
         trial = solution;
         trial.add(-1., update);
         double     new_norm    = evaluate(trial);

@@ -26,6 +26,8 @@ namespace Ricochet
       double       tolerance         = 1e-12;
       unsigned int max_iterations    = 30;
       unsigned int line_search_after = 10;
+      /// A tangent serves again while the residual falls by this factor.
+      double reuse_tangent_below = .03;
 
       void
       add_parameters(dealii::ParameterHandler &parameters);
@@ -39,8 +41,10 @@ namespace Ricochet
       std::function<void(const Vector &solution, Vector &residual)> residual;
 
       /// Solve tangent * @p update = @p residual at the point of the last
-      /// residual().
-      std::function<void(const Vector &residual, Vector &update)> solve;
+      /// residual(); if @p may_reuse, an older tangent of this problem will do.
+      std::function<
+        void(const Vector &residual, Vector &update, const bool may_reuse)>
+        solve;
 
       /// Norm of the residual with all its rows as forces (N).
       std::function<double(const Vector &residual)> norm;

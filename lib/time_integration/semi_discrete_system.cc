@@ -184,15 +184,24 @@ namespace Ricochet
 
     const double bulk_weight =
       stage.bulk_step_force ? .5 : stage.bulk_weight_new;
-    const auto solve = [&](const Vector &right_hand_side, Vector &update) {
+    // Which points are active in the tangent without a key, if there is one:
+    // no other stage may use it, so that a resumed run does the same.
+    std::optional<std::uint64_t> factored_active_set;
+    const auto                   solve = [&](const Vector &right_hand_side,
+                           Vector       &update,
+                           const bool    may_reuse) {
       std::optional<DirectSolver::Key> key;
       const auto signature = bulk.is_linear() ? contact.tangent_signature()
-                                              : std::optional<std::uint64_t>();
+                                                                : std::optional<std::uint64_t>();
       if (signature)
         key = DirectSolver::Key{stage.inertia,
                                 bulk_weight,
                                 stage.contact_weight_new,
                                 *signature};
+      const std::uint64_t active_set = contact.active_set_signature();
+      const bool reuse = may_reuse && !key && factored_active_set == active_set;
+      if (!key)
+        factored_active_set = active_set;
       linear_solver.solve(
         key,
         [&](Matrix &tangent) {
@@ -210,13 +219,15 @@ namespace Ricochet
           tangent.clear_rows(clamped_list, 1.);
         },
         right_hand_side,
-        update);
+        update,
+        reuse);
     };
 
     const auto norm = [&](const Vector &result) {
       work = result;
       work.scale(contact.row_scaling());
-      return work.l2_norm();
+      return work.l2_norm() +
+        stage.contact_weight_new * contact.linearisation_error();
     };
 
     const NewtonSolver::Problem problem{
@@ -235,6 +246,7 @@ namespace Ricochet
                              old_state.mean_velocity,
                              stage.time_step};
     unsigned int       n_iterations = 0;
+    linear_solver.begin_stage();
     contact.begin_stage(start, stage.contact_weight_new);
     do
       try

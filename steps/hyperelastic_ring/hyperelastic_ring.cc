@@ -89,6 +89,11 @@ HyperelasticRing::HyperelasticRing()
   impact.time.time_step    = 1e-2;
   impact.scheme.name       = "midpoint";
 
+  // Stiff contact of a soft body: full steps find their way, though not always
+  // straight, and shortened ones get stuck.
+  impact.newton.max_iterations    = 60;
+  impact.newton.line_search_after = 40;
+
   impact.contact.treatment              = "improved normal compliance";
   impact.contact.compliance_coefficient = 8e11;
   impact.contact.compliance_exponent    = 2.;

@@ -30,6 +30,21 @@ SCHEMES = {
     "midpoint": ["Time/Scheme=midpoint"],
 }
 
+# The treatments of papers A and B, for the midpoint scheme and free bodies.
+# Those that keep the energy itself, those that keep it together with their
+# potential, and those that only lose.
+KEEP_ENERGY = ["persistent contact", "Ayyad-Barboteu two-step"]
+KEEP_MODIFIED_ENERGY = ["improved normal compliance", "Hauret-Le Tallec"]
+LOSE_ENERGY = ["Signorini active set", "Signorini multipliers",
+               "standard normal compliance", "penalty"]
+
+# A small elastic ball just before its impact, in the middle of a step, and a
+# small hyperelastic ring.
+BALL = ["Mesh/Nodes=392", "Mesh/Boundary nodes=64", "Start/Initial gap=0.0155",
+        "Time/Time step=1e-3", "Time/Final time=0.04"]
+RING = ["Mesh/Nodes around=64", "Mesh/Nodes across=4", "Start/Initial gap=0.155",
+        "Time/Time step=1e-2", "Time/Final time=0.8"]
+
 NO_FIELDS = ["Output/Fields every=0", "Output/Log every=0"]
 
 arguments = None

@@ -6,7 +6,7 @@ import time
 from common import *
 
 
-class BadInput(ProgramTest):
+class Refusal(ProgramTest):
 
     def refuse(self, *messages, program="bar_sd", exit_code=1, **kwargs):
         start = time.monotonic()
@@ -27,6 +27,9 @@ class BadInput(ProgramTest):
         file = self.folder / "given.prm"
         file.write_text(text)
         return file
+
+
+class BadInput(Refusal):
 
     def test_missing_file(self):
         self.refuse("the parameter file 'no-such.prm' does not exist",
@@ -196,6 +199,90 @@ class FailureWhileRunning(ProgramTest):
         self.assertGreater(ledger["step_halvings"][-1], 0)
         self.assertLess(max(map(abs, ledger["balance_residual"])), 1e-11)
         self.assertEqual(len(ledger["time"]), 241)
+
+
+
+class BadThrownBodies(Refusal):
+    """Papers A and B: what has no meaning, and what does have one."""
+
+    def refuse_ball(self, *messages, parameters):
+        self.refuse(*messages, program="elastic_ball", parameters=parameters)
+
+    def refuse_ring(self, *messages, parameters):
+        self.refuse(*messages, program="hyperelastic_ring",
+                    parameters=parameters)
+
+    def test_exponent_below_two(self):
+        self.refuse_ball("exponent alpha of normal compliance must be at least "
+                         "2", "it is 1.5",
+                         parameters=["Contact/Compliance exponent=1.5"])
+
+    def test_negative_friction(self):
+        self.refuse_ball("friction coefficient must not be negative; it is -0.1",
+                         parameters=["Contact/Friction coefficient=-0.1"])
+
+    def test_friction_without_compliance(self):
+        self.refuse_ball("tangential compliance must be positive",
+                         parameters=["Contact/Friction coefficient=0.1",
+                                     "Contact/Tangential compliance=0"])
+
+    def test_two_point_law_with_another_scheme(self):
+        for treatment in ("improved normal compliance", "persistent contact",
+                          "Hauret-Le Tallec", "Ayyad-Barboteu two-step"):
+            self.refuse_ball(f"The contact treatment '{treatment}'",
+                             "cannot be combined with the time scheme "
+                             "'TR-BDF2'", "Allowed with them: midpoint.",
+                             parameters=["Time/Scheme=TR-BDF2",
+                                         f"Contact/Treatment={treatment}"])
+
+    def test_friction_with_another_scheme(self):
+        self.refuse_ball("Friction cannot be combined with the time scheme "
+                         "'HHT'", "Allowed with it: midpoint",
+                         parameters=["Time/Scheme=HHT",
+                                     "Contact/Treatment=Signorini active set",
+                                     "Contact/Friction coefficient=0.1"])
+
+    def test_friction_with_nitsche(self):
+        self.refuse_ball("'Nitsche' cannot be combined with friction",
+                         "Allowed with it: penalty, Signorini multipliers",
+                         parameters=["Contact/Treatment=Nitsche",
+                                     "Contact/Friction coefficient=0.1"])
+
+    def test_nitsche_with_a_hyperelastic_body(self):
+        self.refuse_ring("'Nitsche' uses the stress of a linear elastic body",
+                         "Allowed with it: penalty",
+                         parameters=["Contact/Treatment=Nitsche"])
+
+    def test_viscosity(self):
+        self.refuse_ball("The viscosity 'Curnier' does not go with the law "
+                         "'linear elastic'", "Allowed with it: none, linear",
+                         parameters=["Material/Viscosity=Curnier"])
+        self.refuse_ring("The viscosity 'linear' does not go with the law",
+                         "none, Curnier, Pioletti",
+                         parameters=["Material/Viscosity=linear"])
+        self.refuse_ring("Viscosity eta is 3 and Material/Viscosity is none",
+                         parameters=["Material/Viscosity eta=3"])
+        self.refuse_ring("Viscosity cannot be combined with the time scheme "
+                         "'HHT'",
+                         parameters=["Material/Viscosity=Pioletti",
+                                     "Material/Viscosity eta=3",
+                                     "Time/Scheme=HHT",
+                                     "Contact/Treatment=Signorini active set"])
+
+    def test_poisson_ratio(self):
+        self.refuse_ball("Poisson ratio must lie between -1 and 1/2",
+                         parameters=["Material/Poisson ratio=0.5"])
+
+    def test_meshes(self):
+        self.refuse_ball("needs at least 134 nodes; 130 were asked for",
+                         parameters=["Mesh/Nodes=130"])
+        self.refuse_ball("8, 16, 32, ... boundary nodes; 100 were asked for",
+                         parameters=["Mesh/Cells=quadrilaterals",
+                                     "Mesh/Boundary nodes=100"])
+        self.refuse_ring("an even number of nodes around; 33 were asked for",
+                         parameters=["Mesh/Nodes around=33"])
+        self.refuse_ring("'1' of 'Mesh/Nodes across' is not allowed",
+                         parameters=["Mesh/Nodes across=1"])
 
 
 if __name__ == "__main__":

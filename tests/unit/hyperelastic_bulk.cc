@@ -6,6 +6,7 @@
 
 #include "meshes.h"
 
+#include <base/exceptions.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <materials/laws/ciarlet_geymonat.h>
 
@@ -176,6 +177,31 @@ BOOST_AUTO_TEST_CASE(in_3d)
   check<3>(false, 1);
   check<3>(true, 1);
   check<3>(true, 2);
+}
+
+BOOST_AUTO_TEST_CASE(inverted_meshes_are_refused)
+{
+  for (const bool simplices : {true, false})
+    {
+      CubeAbovePlane<2> cube(simplices);
+      // Move the middle vertex out of its cells.
+      for (const auto &cell : cube.triangulation.active_cell_iterators())
+        for (const unsigned int v : cell->vertex_indices())
+          if (cell->vertex(v).distance(dealii::Point<2>(.5, .5)) < 1e-9)
+            cell->vertex(v) = dealii::Point<2>(1.2, 1.2);
+      BOOST_CHECK_EXCEPTION(
+        Body<2>(cube.triangulation,
+                1,
+                {},
+                {1},
+                MultiplierSpace::none,
+                MPI_COMM_WORLD),
+        InputError,
+        [](const InputError &error) {
+          return std::string(error.what()).find("turned inside out") !=
+            std::string::npos;
+        });
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
