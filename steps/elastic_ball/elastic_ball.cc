@@ -91,6 +91,7 @@ ElasticBall::ElasticBall()
   ImpactParameters &impact = parameters.impact;
   impact.time.final_time   = 2.;
   impact.time.time_step    = 1e-3;
+  impact.time.fields_every = 50;
   impact.scheme.name       = "midpoint";
 
   impact.contact.treatment              = "improved normal compliance";

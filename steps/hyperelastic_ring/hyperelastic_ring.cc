@@ -87,6 +87,7 @@ HyperelasticRing::HyperelasticRing()
   ImpactParameters &impact = parameters.impact;
   impact.time.final_time   = 10.;
   impact.time.time_step    = 1e-2;
+  impact.time.fields_every = 20;
   impact.scheme.name       = "midpoint";
 
   // Stiff contact of a soft body: full steps find their way, though not always
