@@ -66,11 +66,6 @@ def draw_lines(axes, runs, start=GAP):
     axes.legend(fontsize=8)
 
 
-def rise_row(name, runs):
-    """Friction and viscosity: neither energy nor contact potential come from nothing."""
-    return dissipative_row(name, runs, "modified_energy")
-
-
 def share_row(name, one, *columns):
     """What is lost is what friction and viscosity took."""
     table = one.read()
@@ -326,7 +321,7 @@ def rigid_row(name, mu, one, paper="-"):
 A15 = {a: run("A-15", f"inc{a}") for a in (2, 3, 4)}
 SOFTER = {
     a: run(
-        "A-15", f"inc{a}_softer", f"figure_A15_inc{a}.prm", ("Contact/Tangential compliance=1e5",)
+        "A-15", f"inc{a}_softer", f"figure_A15_inc{a}.prm", ("Contact/Tangential compliance=1e6",)
     )
     for a in A15
 }
@@ -339,20 +334,21 @@ def draw_a15():
 
 
 def checks_a15():
-    rows = [rise_row("with friction", A15.values())]
+    # Friction this stiff multiplies Newton's tolerance.
+    rows = [dissipative_row("with friction", A15.values(), "modified_energy", 1e-11)]
     for a, one in A15.items():
         rows.append(share_row(INC[a].name, one, "friction_work"))
         rows.append(rigid_row(INC[a].name, 0.2, one, "slightly dissipative"))
     change = max(abs(lost(A15[a]) / lost(SOFTER[a]) - 1) for a in A15)
     rows.append(
         check(
-            "energy lost with a tenth of c_tau: relative change",
+            "energy lost with c_tau = 1e6 Pa s/m: relative change",
             f"{change:.3f}",
-            change < 0.05,
-            "< 5 %: points stick well enough for the regularisation not to count",
+            change < 0.02,
+            "< 2 %: points stick well enough for the regularisation not to count",
         )
     )
-    return rows + checks_of_runs([*A15.values(), *SOFTER.values()])
+    return rows + checks_of_runs([*A15.values(), *SOFTER.values()], halved=("inc3",))
 
 
 # A, table 3: penetration and the scan of c_nu -------------------------------
@@ -716,7 +712,7 @@ FIGURES = [
     Figure(
         "A-15",
         "Hyperelastic ring: improved normal compliance with friction",
-        "Energy relative to the start with Coulomb's friction, mu = 0.2, c_tau = 1e6 Pa s/m, for "
+        "Energy relative to the start with Coulomb's friction, mu = 0.2, c_tau = 1e9 Pa s/m, for "
         "alpha = 2, 3 and 4. " + COARSE_MESH + "It falls by the work of friction.",
         [*A15.values(), *SOFTER.values()],
         draw_a15,

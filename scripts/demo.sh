@@ -5,12 +5,12 @@
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 build Release
 
-for bar in bar_sd bar_ss; do
-  build/release/$bar parameter_files/$bar/default.prm --quiet
+for program in bar_sd bar_ss elastic_ball hyperelastic_ring; do
+  build/release/$program parameter_files/$program/default.prm --quiet
 done
 figures/make.py all
 
 echo
 echo "Pictures:      output/figures/index.html (and *.png beside it)"
-echo "For ParaView:  output/bar_sd/solution.pvd, output/bar_ss/solution.pvd"
-echo "Energy curves: output/bar_sd/energy.csv, output/bar_ss/energy.csv"
+echo "For ParaView:  output/*/solution.pvd, say output/hyperelastic_ring/solution.pvd"
+echo "Energy curves: output/*/energy.csv"

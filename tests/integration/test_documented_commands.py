@@ -53,11 +53,12 @@ class DocumentedCommands(ProgramTest):
     def test_all_parameter_files_are_valid(self):
         files = sorted((ROOT / "parameter_files").glob("*/*.prm"))
         self.assertGreater(len(files), 20)
-        for file in files:
-            with self.subTest(file.name):
-                code, out, error = self.attempt(file.parent.name, prm=file,
-                                                options=["--validate"])
-                self.assertEqual(code, 0, msg=error)
+        with ThreadPoolExecutor(max_workers=2) as pool:
+            results = pool.map(lambda file: self.attempt(
+                file.parent.name, prm=file, options=["--validate"]), files)
+            for file, (code, _, error) in zip(files, results):
+                with self.subTest(file.name):
+                    self.assertEqual(code, 0, msg=error)
 
 
 if __name__ == "__main__":

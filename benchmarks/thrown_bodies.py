@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Cost of a step of the elastic ball and the hyperelastic ring (paper A, tables
+2 and 4), on one rank: seconds per step against unknowns, and where they go.
+
+The shares come from the last lines of the programs' logs; start-up and set-up
+are not part of them. The exponent is that of cost ~ unknowns^exponent between
+the three largest meshes.
+"""
+
+import argparse
+import math
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+
+METHODS = [
+    ("Signorini multipliers", ["Contact/Treatment=Signorini multipliers"]),
+    ("persistent contact", ["Contact/Treatment=persistent contact"]),
+    ("INC, alpha = 3", ["Contact/Treatment=improved normal compliance",
+                        "Contact/Compliance exponent=3"]),
+    ("SNC", ["Contact/Treatment=standard normal compliance"]),
+]
+
+# Program, parameters, meshes, default final time; that of the papers.
+BODIES = {
+    "elastic_ball": (
+        ["Time/Time step=0.01", "Start/Initial gap=15.05"],
+        [[f"Mesh/Nodes={n}", f"Mesh/Boundary nodes={b}"]
+         for n, b in ((25, 16), (96, 32), (392, 64), (1580, 128), (6260, 256))],
+        2., 2.),
+    "hyperelastic_ring": (
+        ["Time/Time step=0.01"],
+        [[f"Mesh/Nodes around={a}", f"Mesh/Nodes across={b}"]
+         for a, b in ((32, 3), (64, 3), (128, 7), (256, 9), (512, 15))],
+        1., 10.),
+}
+
+SHARES = re.compile(r"residuals (\S+) s, tangents (\S+) s, (\d+) factorisations "
+                    r"(\S+) s, back-substitutions (\S+) s")
+
+
+def measure(program, parameters, final_time):
+    """Unknowns, steps, seconds in all steps, and the shares of a run."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [program, "--output-dir", folder]
+        for parameter in parameters + ["Output/Fields every=0",
+                                       "Output/Log every=0",
+                                       f"Time/Final time={final_time}"]:
+            command += ["--set", parameter]
+        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1",
+                       "DEAL_II_NUM_THREADS": "1"}
+        log = subprocess.run(command, check=True, capture_output=True,
+                             text=True, env=environment).stdout
+    unknowns = int(re.search(r"(\d+) unknowns", log).group(1))
+    steps, seconds = re.search(r"\| steps +\| +(\d+) \| +(\S+?)s \|",
+                               log).groups()
+    residual, tangent, count, factorisation, substitution = SHARES.search(
+        log).groups()
+    return {"unknowns": unknowns, "steps": int(steps),
+            "seconds": float(seconds), "residuals": float(residual),
+            "tangents": float(tangent), "factorisations": int(count),
+            "factorising": float(factorisation),
+            "substituting": float(substitution)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build-dir", default="build/release")
+    parser.add_argument("--body", choices=BODIES, action="append",
+                        help="only this one")
+    parser.add_argument("--whole-run", action="store_true",
+                        help="to the papers' final time (the ring: 10 s)")
+    arguments = parser.parse_args()
+    for body in arguments.body or BODIES:
+        parameters, meshes, final_time, whole = BODIES[body]
+        program = str(pathlib.Path(arguments.build_dir) / body)
+        print(f"\n{body}, dt = 0.01 s\n")
+        print("| method | unknowns | steps | ms a step | residuals | tangents "
+              "| factorisations | back-substitutions | exponent |")
+        print("|---|---|---|---|---|---|---|---|---|")
+        for name, method in METHODS:
+            points = []
+            for mesh in meshes:
+                run = measure(program, parameters + method + mesh,
+                              whole if arguments.whole_run else final_time)
+                step = run["seconds"] / run["steps"]
+                points.append((math.log(run["unknowns"]), math.log(step)))
+                exponent = ""
+                if len(points) == len(meshes):
+                    last = points[-3:]
+                    x = sum(p[0] for p in last) / 3
+                    y = sum(p[1] for p in last) / 3
+                    slope = (sum((p[0] - x) * (p[1] - y) for p in last) /
+                             sum((p[0] - x) ** 2 for p in last))
+                    exponent = f"{slope:.2f}"
+
+                def share(key):
+                    return f"{100 * run[key] / run['seconds']:.0f} %"
+
+                print(f"| {name} | {run['unknowns']} | {run['steps']} "
+                      f"| {1e3 * step:.2f} | {share('residuals')} "
+                      f"| {share('tangents')} | {run['factorisations']}: "
+                      f"{share('factorising')} | {share('substituting')} "
+                      f"| {exponent} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
