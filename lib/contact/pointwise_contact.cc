@@ -28,6 +28,7 @@ namespace Ricochet
     weight     = weight_;
     time_step  = start.time_step;
     n_iterates = 0;
+    step_force.assign(evaluator.contact_points().size(), 0.);
     evaluator.evaluate(start.solution, old_state);
     if (friction.coefficient > 0.)
       evaluator.evaluate_displacement(start.solution, old_displacement);
@@ -39,6 +40,9 @@ namespace Ricochet
   PointwiseContact::accept_iterate()
   {
     ++n_iterates;
+    for (unsigned int p = 0; p < state.size(); ++p)
+      step_force[p] =
+        -evaluator.contact_points()[p].weight * linearised_force(p).gap;
     if (law->traits().is_invertible)
       accepted_linearisation = linearisation;
     accepted_branch = friction_branch;
@@ -373,23 +377,27 @@ namespace Ricochet
   std::map<dealii::types::boundary_id, ContactSummary>
   PointwiseContact::summary(const Vector &solution, const Vector &contact_force)
   {
-    // The forces in the nodes are those of the last step, whatever two-point law
-    // they come from. In quadrature points, the law is asked at this instant.
-    const bool nodal = law->traits().nodal;
+    // A two-point law has no force at an instant, only over the last step. In
+    // nodes every force can be read off the vector.
+    const ContactLawTraits traits = law->traits();
+    const bool             over_step =
+      traits.is_two_point && !traits.uses_stress && step_force.size() > 0;
     evaluator.evaluate(solution, state);
     std::map<dealii::types::boundary_id, ContactSummary> sums;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         const ContactPoint &point       = evaluator.contact_points()[p];
         ContactSummary     &sum         = sums[point.boundary_id];
-        const double        point_force = nodal
+        const double        point_force = traits.nodal
                  ? -evaluator.normal_component(p, contact_force)
+                 : over_step
+                 ? step_force[p]
                  : point.weight * law->pressure(state[p], point.cell_diameter);
         sum.area += point.weight;
         sum.mean_gap += point.weight * state[p].gap;
         sum.max_penetration = std::max(sum.max_penetration, -state[p].gap);
         sum.force += point_force;
-        sum.active_points += nodal
+        sum.active_points += traits.nodal || over_step
           ? point_force > 0.
           : law->branch(state[p], state[p], point.cell_diameter) != 0;
       }

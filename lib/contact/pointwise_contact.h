@@ -153,7 +153,9 @@ namespace Ricochet
     std::vector<ContactPointState<>>  state, old_state, stress_state;
     // Where the law is linearised: now, and at the last accepted iterate.
     std::vector<ContactPointState<>> linearisation, accepted_linearisation;
-    // The same for friction.
+    // Normal force (N) of each point over the last step, for the summary.
+    std::vector<double> step_force;
+    // The same as for the law, for friction.
     std::vector<CoulombFriction::Branch> friction_branch, accepted_branch;
     // Displacements of the points, for slip; empty without friction.
     std::vector<dealii::Tensor<1, 3>> displacement, old_displacement;

@@ -200,16 +200,23 @@ namespace Ricochet
       &shape_gradients[(cell * n_points + q) * n_nodes];
     const int *index = &ghosted_index[cell * n_nodes * dim];
 
+    // Relative to the first node, since the gradients of all shape functions
+    // sum up to zero: far from where it started, the displacement of a body is
+    // much larger than its differences.
     old_f      = unit_symmetric_tensor<dim>();
     difference = 0.;
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int i = 0; i < dim; ++i)
-        {
-          const double old_value = old_values[index[a * dim + i]];
-          const double change    = new_values[index[a * dim + i]] - old_value;
-          old_f[i] += old_value * gradients[a];
-          difference[i] += change * gradients[a];
-        }
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        const double old_first    = old_values[index[i]];
+        const double first_change = new_values[index[i]] - old_first;
+        for (unsigned int a = 1; a < n_nodes; ++a)
+          {
+            const double old_value = old_values[index[a * dim + i]];
+            const double change    = new_values[index[a * dim + i]] - old_value;
+            old_f[i] += (old_value - old_first) * gradients[a];
+            difference[i] += (change - first_change) * gradients[a];
+          }
+      }
   }
 
 

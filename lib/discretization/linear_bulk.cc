@@ -86,12 +86,29 @@ namespace Ricochet
                               const LinearElastic &material,
                               const Viscosity     &viscosity)
     : has_viscosity(viscosity.is_active())
+    , communicator(body.communicator)
+    , component(body.owned_indices().n_elements(), dim)
     , work(body.make_vector())
     , viscous_force(body.make_vector())
   {
     AssertThrow(viscosity.law == Viscosity::Law::none ||
                   viscosity.law == Viscosity::Law::linear,
                 ExcMessage("A linear body has linear viscosity."));
+    const FiniteElement<dim>            &element = body.dof_handler().get_fe();
+    std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
+    for (const auto &cell : body.dof_handler().active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          cell->get_dof_indices(indices);
+          for (unsigned int i = 0; i < indices.size(); ++i)
+            {
+              const auto index = body.system_index(indices[i]);
+              if (body.owned_indices().is_element(index))
+                component[body.owned_indices().index_within_set(index)] =
+                  element.system_to_component_index(i).first;
+            }
+        }
+
     stiffness.reinit(body.sparsity_pattern());
     stiffness.copy_from(assemble_strain_matrix(body, material));
     scale = stiffness.linfty_norm();
@@ -163,11 +180,33 @@ namespace Ricochet
 
 
   template <int dim>
+  void
+  LinearBulk<dim>::remove_translation(const Vector &solution) const
+  {
+    work                       = solution;
+    double             *values = work.trilinos_vector()[0];
+    std::vector<double> my_sums(2 * dim, 0.), sums(2 * dim);
+    for (unsigned int i = 0; i < component.size(); ++i)
+      if (component[i] < dim)
+        {
+          my_sums[component[i]] += values[i];
+          my_sums[dim + component[i]] += 1.;
+        }
+    Utilities::MPI::sum(my_sums, communicator, sums);
+    for (unsigned int i = 0; i < component.size(); ++i)
+      if (component[i] < dim)
+        values[i] -= sums[component[i]] / sums[dim + component[i]];
+  }
+
+
+
+  template <int dim>
   double
   LinearBulk<dim>::energy(const Vector &solution) const
   {
-    stiffness.vmult(work, solution);
-    return .5 * (work * solution);
+    remove_translation(solution);
+    stiffness.vmult(viscous_force, work);
+    return .5 * (viscous_force * work);
   }
 
 

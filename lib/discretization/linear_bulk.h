@@ -64,10 +64,19 @@ namespace Ricochet
     }
 
   private:
-    const bool has_viscosity;
-    Matrix     stiffness;
-    Matrix     viscosity_matrix;
-    double     scale = 0.;
+    /// #work = @p solution without its mean translation, which stores nothing:
+    /// far from where it started, the displacement of a body is much larger
+    /// than its differences.
+    void
+    remove_translation(const Vector &solution) const;
+
+    const bool     has_viscosity;
+    const MPI_Comm communicator;
+    // The component of each owned displacement; dim for multipliers.
+    std::vector<unsigned char> component;
+    Matrix                     stiffness;
+    Matrix                     viscosity_matrix;
+    double                     scale = 0.;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, viscous_force;
   };

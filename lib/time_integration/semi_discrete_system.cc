@@ -245,25 +245,42 @@ namespace Ricochet
                              old_state.contact_force,
                              old_state.mean_velocity,
                              stage.time_step};
-    unsigned int       n_iterations = 0;
-    linear_solver.begin_stage();
-    contact.begin_stage(start, stage.contact_weight_new);
-    do
-      try
+    unsigned int       n_iterations     = 0;
+    const auto         solve_all_passes = [&]() {
+      linear_solver.begin_stage();
+      factored_active_set.reset();
+      contact.begin_stage(start, stage.contact_weight_new);
+      do
         {
           const auto &history = newton.solve(problem, solution);
           if (newton_observer)
             newton_observer(history);
           n_iterations += history.size() - 1;
-        }
-      catch (const NewtonFailure &newton_failure)
-        {
-          const std::string reason = bulk.failure();
-          if (reason.empty())
-            throw;
-          throw NewtonFailure(newton_failure.what() + reason + "\n");
-        }
-    while (contact.next_pass());
+      } while (contact.next_pass());
+    };
+    try
+      {
+        solve_all_passes();
+      }
+    catch (const NewtonFailure &)
+      {
+        // The guess of a nonlinear body may be so bad, with elements nearly flat,
+        // that there is no way out; the last state is a body that exists.
+        if (bulk.is_linear())
+          throw;
+        solution = old_state.solution;
+        try
+          {
+            solve_all_passes();
+          }
+        catch (const NewtonFailure &newton_failure)
+          {
+            const std::string reason = bulk.failure();
+            if (reason.empty())
+              throw;
+            throw NewtonFailure(newton_failure.what() + reason + "\n");
+          }
+      }
     contact_force = contact.contact_force();
     return n_iterations;
   }
