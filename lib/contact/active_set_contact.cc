@@ -5,6 +5,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 
 namespace Ricochet
 {
@@ -207,8 +208,9 @@ namespace Ricochet
     // T of a node, its normal row n.T is taken out and replaced by that of the
     // constraint; the tangential rows stay (no friction), are replaced too
     // (stick), or become
-    //   (I - ratio (I - d d^T)) T_t + ratio scale (I - d d^T) - mu d n.T
-    // (slip, d being the direction of friction). The rows of one node have the
+    //   (P - ratio (P - d d^T)) T + ratio scale weight (P - d d^T) - mu d n.T
+    // (slip, d being the direction of friction, P the projection on the tangent
+    // plane). The rows of one node have the
     // same columns in the same order, because cells couple all components.
     const ContactPoints &coefficients = evaluator.coefficients();
     const auto          &epetra       = tangent.trilinos_matrix();
@@ -286,6 +288,13 @@ namespace Ricochet
           const double force = constraint_scale(p) *
             gap_round_off(evaluator.contact_points()[p], state[p].gap);
           square += force * force;
+          if (nodes[p].status == Status::stick)
+            {
+              const double stick = constraint_scale(p) *
+                gap_round_off(evaluator.contact_points()[p],
+                              displacement[p].norm());
+              square += stick * stick;
+            }
         }
     return std::sqrt(
       dealii::Utilities::MPI::sum(square, evaluator.communicator));

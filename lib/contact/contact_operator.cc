@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <contact/contact_operator.h>
 
+#include <algorithm>
+
 namespace Ricochet
 {
   void

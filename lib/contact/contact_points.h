@@ -56,7 +56,7 @@ namespace Ricochet
   }
 
   /**
-   * All contact points of this rank, with their coefficients in three flat
+   * All contact points of this rank, with their coefficients in flat
    * arrays that the hot loops run through. Made once: linear kinematics.
    */
   struct ContactPoints

@@ -45,13 +45,15 @@ namespace Ricochet
    * has no meaning, and values out of range.
    *
    * @param linear_material the body is linear elastic.
+   * @param viscous the body is viscous.
    * @throws InputError that names what is allowed.
    */
   void
   check_combination(const ContactParameters &parameters,
                     const std::string       &scheme,
                     const bool               redistributed_mass,
-                    const bool               linear_material);
+                    const bool               linear_material,
+                    const bool               viscous);
 
   /// The multiplier space that the treatment of @p parameters needs.
   MultiplierSpace

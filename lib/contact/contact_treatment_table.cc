@@ -223,7 +223,8 @@ namespace Ricochet
   check_combination(const ContactParameters &parameters,
                     const std::string       &scheme,
                     const bool               redistributed_mass,
-                    const bool               linear_material)
+                    const bool               linear_material,
+                    const bool               viscous)
   {
     const ContactLawTraits traits = find(parameters).traits;
     if (parameters.compliance_exponent < 2.)
@@ -240,6 +241,19 @@ namespace Ricochet
         "' uses the stress of a linear elastic body on the contact boundary "
         "and cannot be combined with a hyperelastic one.\nAllowed with it: " +
         names_of([](const auto &t) { return !t.uses_stress; }) + ".");
+    if (viscous && traits.uses_stress)
+      throw InputError(
+        "The contact treatment '" + parameters.treatment +
+        "' uses the elastic stress on the contact boundary and cannot be "
+        "combined with a viscous body.\nAllowed with it: " +
+        names_of([](const auto &t) { return !t.uses_stress; }) + ".");
+    if (parameters.treatment == "Hauret-Le Tallec" &&
+        parameters.compliance_exponent != 2.)
+      throw InputError(
+        "Hauret-Le Tallec is a penalisation with the exponent 2; Contact/"
+        "Compliance exponent is " +
+        to_text(parameters.compliance_exponent) +
+        ". For others take improved normal compliance.");
     if (parameters.friction_coefficient > 0.)
       {
         if (!traits.takes_friction)
@@ -252,7 +266,8 @@ namespace Ricochet
             "Friction cannot be combined with the time scheme '" + scheme +
             "'.\nAllowed with it: midpoint. There friction acts against the "
             "mean slip rate of the step, so that its work is never negative.");
-        if (!(parameters.tangential_compliance > 0.))
+        if (find(parameters).make_law &&
+            !(parameters.tangential_compliance > 0.))
           throw InputError(
             "The tangential compliance must be positive; it is " +
             to_text(parameters.tangential_compliance) + ".");

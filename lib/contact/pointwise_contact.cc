@@ -164,6 +164,18 @@ namespace Ricochet
 
 
   void
+  PointwiseContact::clear_multipliers(Vector &vector) const
+  {
+    double *values = vector.trilinos_vector()[0];
+    for (unsigned int i = n_displacements_owned;
+         i < vector.locally_owned_size();
+         ++i)
+      values[i] = 0.;
+  }
+
+
+
+  void
   PointwiseContact::complete_residual(const Vector &solution, Vector &residual)
   {
     evaluator.evaluate(solution, state);
@@ -192,12 +204,7 @@ namespace Ricochet
       }
     residual.add(weight, force);
 
-    // What is kept is a force on displacements; the equations of the
-    // multipliers hold at the end of a stage and are never averaged.
-    double *values = force.trilinos_vector()[0];
-    for (unsigned int i = n_displacements_owned; i < force.locally_owned_size();
-         ++i)
-      values[i] = 0.;
+    clear_multipliers(force);
   }
 
 
@@ -302,7 +309,10 @@ namespace Ricochet
   std::uint64_t
   PointwiseContact::active_set_signature() const
   {
-    return global_hash(branches(), evaluator.communicator);
+    std::vector<int> values = branches();
+    for (unsigned int p = 0; p < friction_branch.size(); ++p)
+      values.push_back(friction_branch[p].sticks);
+    return global_hash(values, evaluator.communicator);
   }
 
 
@@ -328,11 +338,7 @@ namespace Ricochet
                                evaluator.contact_points()[p].cell_diameter),
                     result);
     result.compress(VectorOperation::add);
-    double *values = result.trilinos_vector()[0];
-    for (unsigned int i = n_displacements_owned;
-         i < result.locally_owned_size();
-         ++i)
-      values[i] = 0.;
+    clear_multipliers(result);
   }
 
 
@@ -397,7 +403,8 @@ namespace Ricochet
         sum.mean_gap += point.weight * state[p].gap;
         sum.max_penetration = std::max(sum.max_penetration, -state[p].gap);
         sum.force += point_force;
-        sum.active_points += traits.nodal || over_step
+        // Two-point laws are active over a step, the others at an instant.
+        sum.active_points += traits.is_two_point && !traits.uses_stress
           ? point_force > 0.
           : law->branch(state[p], state[p], point.cell_diameter) != 0;
       }

@@ -120,6 +120,11 @@ namespace Ricochet
     void
     compute_row_scaling();
 
+    /// What is kept is a force on displacements; the equations of the
+    /// multipliers hold at the end of a stage and are never averaged.
+    void
+    clear_multipliers(Vector &vector) const;
+
     /// Choose the states at which the law is linearised for the residual at
     /// #state.
     void

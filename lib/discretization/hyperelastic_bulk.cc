@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <base/exceptions.h>
 #include <base/parameter_file.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <materials/gonzalez.h>
@@ -8,6 +7,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -558,14 +558,15 @@ namespace Ricochet
   HyperelasticBulk<dim>::failure() const
   {
     // The worst element of all ranks; all of them get the same text.
-    std::vector<double> mine = {
-      n_cells > 0 ? smallest_determinant : std::numeric_limits<double>::max()};
+    std::vector<double> mine = {std::numeric_limits<double>::max()};
+    if (n_cells > 0)
+      mine[0] = std::isnan(smallest_determinant)
+        ? -std::numeric_limits<double>::max()
+        : smallest_determinant;
     for (unsigned int d = 0; d < dim; ++d)
       mine.push_back(n_cells > 0 ? cell_centers[worst_cell][d] : 0.);
-    std::vector<double> worst = mine;
-    for (const auto &other : Utilities::MPI::all_gather(communicator, mine))
-      if (!(other[0] >= worst[0]))
-        worst = other;
+    const auto all   = Utilities::MPI::all_gather(communicator, mine);
+    const auto worst = *std::min_element(all.begin(), all.end());
     if (worst[0] > flat)
       return {};
     std::string text =

@@ -25,7 +25,6 @@ namespace Ricochet
   class HyperelasticBulk : public BulkOperator
   {
   public:
-    /// @throws InputError when an element of the mesh is turned inside out.
     HyperelasticBulk(const Body<dim> &body, const Material<dim> &material);
 
     void

@@ -47,12 +47,7 @@ namespace Ricochet
       matrix.compress(VectorOperation::add);
       return matrix;
     }
-  } // namespace
 
-
-
-  namespace
-  {
     /// The matrix of stress(strain(u)) : strain(v).
     template <int dim>
     Matrix
@@ -89,7 +84,7 @@ namespace Ricochet
     , communicator(body.communicator)
     , component(body.owned_indices().n_elements(), dim)
     , work(body.make_vector())
-    , viscous_force(body.make_vector())
+    , product(body.make_vector())
   {
     AssertThrow(viscosity.law == Viscosity::Law::none ||
                   viscosity.law == Viscosity::Law::linear,
@@ -128,7 +123,9 @@ namespace Ricochet
   void
   LinearBulk<dim>::force(const Vector &solution, Vector &force) const
   {
-    stiffness.vmult(force, solution);
+    work = solution;
+    remove_translation();
+    stiffness.vmult(force, work);
   }
 
 
@@ -153,13 +150,14 @@ namespace Ricochet
   {
     work = old_solution;
     work.sadd(.5, .5, new_solution);
+    remove_translation();
     stiffness.vmult(force, work);
     if (has_viscosity)
       {
         work = new_solution;
         work -= old_solution;
-        viscosity_matrix.vmult(viscous_force, work);
-        force.add(1. / time_step, viscous_force);
+        viscosity_matrix.vmult(product, work);
+        force.add(1. / time_step, product);
       }
   }
 
@@ -181,9 +179,8 @@ namespace Ricochet
 
   template <int dim>
   void
-  LinearBulk<dim>::remove_translation(const Vector &solution) const
+  LinearBulk<dim>::remove_translation() const
   {
-    work                       = solution;
     double             *values = work.trilinos_vector()[0];
     std::vector<double> my_sums(2 * dim, 0.), sums(2 * dim);
     for (unsigned int i = 0; i < component.size(); ++i)
@@ -204,9 +201,10 @@ namespace Ricochet
   double
   LinearBulk<dim>::energy(const Vector &solution) const
   {
-    remove_translation(solution);
-    stiffness.vmult(viscous_force, work);
-    return .5 * (viscous_force * work);
+    work = solution;
+    remove_translation();
+    stiffness.vmult(product, work);
+    return .5 * (product * work);
   }
 
 
@@ -221,8 +219,8 @@ namespace Ricochet
       return 0.;
     work = new_solution;
     work -= old_solution;
-    viscosity_matrix.vmult(viscous_force, work);
-    return (viscous_force * work) / time_step;
+    viscosity_matrix.vmult(product, work);
+    return (product * work) / time_step;
   }
 
 

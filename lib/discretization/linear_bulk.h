@@ -64,11 +64,11 @@ namespace Ricochet
     }
 
   private:
-    /// #work = @p solution without its mean translation, which stores nothing:
-    /// far from where it started, the displacement of a body is much larger
-    /// than its differences.
+    /// Take the mean translation, which stores nothing, out of #work: far from
+    /// where it started, the displacement of a body is much larger than its
+    /// differences.
     void
-    remove_translation(const Vector &solution) const;
+    remove_translation() const;
 
     const bool     has_viscosity;
     const MPI_Comm communicator;
@@ -78,7 +78,7 @@ namespace Ricochet
     Matrix                     viscosity_matrix;
     double                     scale = 0.;
     // Work space, so that nothing is allocated in a time step.
-    mutable Vector work, viscous_force;
+    mutable Vector work, product;
   };
 
   /// Consistent mass matrix (kg) of @p body with the constant @p density

@@ -140,6 +140,12 @@ namespace Ricochet
         "The Poisson ratio must lie between -1 and 1/2, both "
         "excluded; it is " +
         to_text(poisson_ratio) + ".");
+    if (law == "neo-Hookean" && plane_state == "plane stress" &&
+        poisson_ratio < 0.)
+      throw InputError(
+        "A neo-Hookean body in plane stress needs a Poisson ratio "
+        "that is not negative; it is " +
+        to_text(poisson_ratio) + ".");
     if (viscosity == "none" && viscosity_eta > 0.)
       throw InputError("Material/Viscosity eta is " + to_text(viscosity_eta) +
                        " and Material/Viscosity is none: name a viscosity "

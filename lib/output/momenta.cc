@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <output/momenta.h>
 
+#include <set>
+
 namespace Ricochet
 {
   using namespace dealii;

@@ -29,12 +29,14 @@ namespace Ricochet
 
 
   void
-  ImpactParameters::validate(const bool linear_material) const
+  ImpactParameters::validate(const bool linear_material,
+                             const bool viscous) const
   {
     check_combination(contact,
                       scheme.name,
                       redistributed_mass(),
-                      linear_material);
+                      linear_material,
+                      viscous);
     if (time.final_time > 1e8 * time.time_step)
       throw InputError("The final time " + to_text(time.final_time) +
                        " s is more than 1e8 time steps of " +

@@ -25,9 +25,10 @@ namespace Ricochet
     add_parameters(dealii::ParameterHandler &parameters);
 
     /// Refuse combinations without meaning. @param linear_material the body is
-    /// linear elastic. @throws InputError
+    /// linear elastic. @param viscous it is viscous. @throws InputError
     void
-    validate(const bool linear_material = true) const;
+    validate(const bool linear_material = true,
+             const bool viscous         = false) const;
 
     bool
     redistributed_mass() const

@@ -79,6 +79,14 @@ namespace Ricochet
       ring_counts(n_nodes - n_boundary_nodes - 1);
     counts.push_back(n_boundary_nodes);
 
+    // Between two boundary nodes the boundary is a chord; the ring within must
+    // not reach it.
+    if (1. - 1. / counts.size() >= std::cos(numbers::PI / n_boundary_nodes))
+      throw InputError("A disk with " + std::to_string(n_boundary_nodes) +
+                       " boundary nodes has no room for " +
+                       std::to_string(n_nodes) +
+                       " nodes: ask for more boundary nodes or fewer nodes.");
+
     std::vector<Point<2>>    vertices = {center};
     std::vector<CellData<2>> cells;
     unsigned int             inner_begin = 0, n_inner = 1;

@@ -43,7 +43,9 @@ namespace Ricochet
   ThrownBodyParameters::validate() const
   {
     material.validate(2, impact.scheme.name);
-    impact.validate(material.law == "linear elastic");
+    impact.validate(material.law == "linear elastic",
+                    material.viscosity != "none" &&
+                      material.viscosity_eta > 0.);
   }
 
 
@@ -55,6 +57,20 @@ namespace Ricochet
              std::make_shared<Functions::SignedDistance::Plane<2>>(
                Point<2>(),
                Tensor<1, 2>({0., 1.}))}};
+  }
+
+
+
+  State
+  state_in_flight(const ThrownBodyParameters &parameters, Impact<2> &body)
+  {
+    Vector displacement, velocity;
+    body.body.interpolate(Functions::ZeroFunction<2>(2), displacement);
+    body.body.interpolate(Functions::ConstantFunction<2>(std::vector<double>{
+                            parameters.initial_velocity[0],
+                            parameters.initial_velocity[1]}),
+                          velocity);
+    return body.system.initial_state(displacement, velocity, /* time */ 0.);
   }
 
 

@@ -146,29 +146,26 @@ namespace Ricochet
 
 
 
-  double
-  TimeLoop::mechanical_energy(const State &state) const
+  TimeLoop::Energies
+  TimeLoop::energies_of(const State &state) const
   {
-    return system.kinetic_energy(state.velocity) +
-      system.bulk.energy(state.solution);
+    return {system.kinetic_energy(state.velocity),
+            system.bulk.energy(state.solution)};
   }
 
 
 
   void
   TimeLoop::add_row(const State      &state,
+                    const Energies   &energies,
                     const StepReport &report,
                     const double      balance_residual)
   {
-    const double kinetic_energy = system.kinetic_energy(state.velocity);
-    const double elastic_energy = system.bulk.energy(state.solution);
-    const double energy         = kinetic_energy + elastic_energy;
-
     std::vector<double> row = {state.time,
-                               kinetic_energy,
-                               elastic_energy,
-                               energy,
-                               energy +
+                               energies.kinetic,
+                               energies.stored,
+                               energies.total(),
+                               energies.total() +
                                  system.contact.potential(state.solution),
                                external_work,
                                contact_work,
@@ -276,8 +273,9 @@ namespace Ricochet
     else
       {
         ledger.start();
-        initial_energy = mechanical_energy(state);
-        add_row(state, StepReport(), 0.);
+        const Energies energies = energies_of(state);
+        initial_energy          = energies.total();
+        add_row(state, energies, StepReport(), 0.);
         if (fields)
           write_fields(state, 0);
       }
@@ -323,7 +321,7 @@ namespace Ricochet
     };
     const Timer        stopwatch;
     const unsigned int first_step      = step;
-    double             energy          = mechanical_energy(state);
+    double             energy          = energies_of(state).total();
     unsigned int       halvings_before = n_halvings;
     try
       {
@@ -345,8 +343,9 @@ namespace Ricochet
             friction_work += report.friction_work;
             viscous_dissipation += report.viscous_dissipation;
             numerical_dissipation += report.numerical_dissipation;
-            const double old_energy = energy;
-            energy                  = mechanical_energy(state);
+            const double   old_energy = energy;
+            const Energies energies   = energies_of(state);
+            energy                    = energies.total();
             const double residual = energy - old_energy - report.external_work +
               report.contact_work + report.friction_work +
               report.viscous_dissipation + report.numerical_dissipation;
@@ -356,7 +355,10 @@ namespace Ricochet
               largest_energy = std::max(largest_energy, energy);
             const double scale =
               initial_energy > 0. ? initial_energy : largest_energy;
-            add_row(state, report, scale > 0. ? residual / scale : residual);
+            add_row(state,
+                    energies,
+                    report,
+                    scale > 0. ? residual / scale : residual);
             timer.leave_subsection();
 
             if (parameters.log_every > 0 && step % parameters.log_every == 0)

@@ -79,12 +79,25 @@ namespace Ricochet
             const unsigned int n_halvings_so_far,
             State             &new_state);
 
-    /// Kinetic plus stored energy (J).
-    double
-    mechanical_energy(const State &state) const;
+    /// J
+    struct Energies
+    {
+      double kinetic = 0.;
+      double stored  = 0.;
+
+      double
+      total() const
+      {
+        return kinetic + stored;
+      }
+    };
+
+    Energies
+    energies_of(const State &state) const;
 
     void
     add_row(const State      &state,
+            const Energies   &energies,
             const StepReport &report,
             const double      balance_residual);
 

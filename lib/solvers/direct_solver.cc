@@ -70,8 +70,10 @@ namespace Ricochet
         entry.solver.reset(Amesos().Create(name, *entry.problem));
         AssertThrow(entry.solver,
                     ExcMessage("Trilinos was built without " + name));
-        error = entry.solver->SymbolicFactorization();
       }
+    // MUMPS looks at the values already when it orders the unknowns.
+    if (!keep_pivots)
+      error = entry.solver->SymbolicFactorization();
     // KLU looks at its pivots and chooses others when they are no longer good.
     Teuchos::ParameterList list;
     list.set("Refactorize", keep_pivots);

@@ -105,6 +105,7 @@ namespace Ricochet
         // The tangent of the last iteration is good enough while the residual
         // falls fast: factorising it costs much more than an iteration.
         const bool may_reuse = history.size() > 1 &&
+          history.size() <= parameters.line_search_after &&
           norm < parameters.reuse_tangent_below *
               history[history.size() - 2].relative_residual;
         problem.solve(residual, update, may_reuse);

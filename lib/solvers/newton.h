@@ -81,11 +81,11 @@ namespace Ricochet
     {}
 
     /**
-     * Solve @p problem, from @p solution to @p solution. A step to a point whose
-     * residual is not finite (an element is turned inside out) is shortened
-     * until it is. The guess is never
-     * accepted as it is, unless its residual is exactly zero: there is at least
-     * one linear solve.
+     * Solve @p problem, from @p solution to @p solution. If the residual at the
+     * guess is not finite (an element is turned inside out), the safe guess takes
+     * its place; a step to such a point is shortened, to 1/1024 at most. The
+     * guess is never accepted as it is, unless its residual is exactly zero:
+     * there is at least one linear solve.
      *
      * @return one entry per residual that was looked at: the number of linear
      * solves plus one.

@@ -14,9 +14,11 @@ namespace Ricochet
    *
    * where the bulk force is the discrete derivative of the stored energy
    * (Gonzalez' stress for hyperelastic bodies) plus the viscous force.
-   * Two-point contact laws bring their own discrete derivative; with
-   * Nitsche-hybrid this is the hybrid scheme of paper C. All other treatments
-   * are enforced at the end of the step, where they can only dissipate.
+   * Two-point treatments look at both ends of the step: improved normal
+   * compliance and Hauret-Le Tallec are discrete derivatives, persistent contact
+   * is a condition on the change of the gap, and with Nitsche-hybrid this is the
+   * hybrid scheme of paper C. All other treatments are enforced at the end of
+   * the step, where Signorini, penalty and standard compliance only dissipate.
    */
   class Midpoint : public TimeScheme
   {

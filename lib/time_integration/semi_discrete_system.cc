@@ -187,12 +187,16 @@ namespace Ricochet
     // Which points are active in the tangent without a key, if there is one:
     // no other stage may use it, so that a resumed run does the same.
     std::optional<std::uint64_t> factored_active_set;
-    const auto                   solve = [&](const Vector &right_hand_side,
+    // Counted where they are made, so that those of a first attempt that failed
+    // count too.
+    unsigned int n_iterations = 0;
+    const auto   solve        = [&](const Vector &right_hand_side,
                            Vector       &update,
                            const bool    may_reuse) {
+      ++n_iterations;
       std::optional<DirectSolver::Key> key;
       const auto signature = bulk.is_linear() ? contact.tangent_signature()
-                                                                : std::optional<std::uint64_t>();
+                                                       : std::optional<std::uint64_t>();
       if (signature)
         key = DirectSolver::Key{stage.inertia,
                                 bulk_weight,
@@ -245,7 +249,6 @@ namespace Ricochet
                              old_state.contact_force,
                              old_state.mean_velocity,
                              stage.time_step};
-    unsigned int       n_iterations     = 0;
     const auto         solve_all_passes = [&]() {
       linear_solver.begin_stage();
       factored_active_set.reset();
@@ -255,7 +258,6 @@ namespace Ricochet
           const auto &history = newton.solve(problem, solution);
           if (newton_observer)
             newton_observer(history);
-          n_iterations += history.size() - 1;
       } while (contact.next_pass());
     };
     try
@@ -268,14 +270,17 @@ namespace Ricochet
         // that there is no way out; the last state is a body that exists.
         if (bulk.is_linear())
           throw;
-        solution = old_state.solution;
+        const std::string first_reason = bulk.failure();
+        solution                       = old_state.solution;
         try
           {
             solve_all_passes();
           }
         catch (const NewtonFailure &newton_failure)
           {
-            const std::string reason = bulk.failure();
+            const std::string second_reason = bulk.failure();
+            const std::string reason =
+              second_reason.empty() ? first_reason : second_reason;
             if (reason.empty())
               throw;
             throw NewtonFailure(newton_failure.what() + reason + "\n");

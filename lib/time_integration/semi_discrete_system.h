@@ -51,7 +51,8 @@ namespace Ricochet
     /// m
     Vector inertia_origin;
 
-    /// Length of the step or stage (s).
+    /// Length of the step (s); needed by step forces, slip and predictors of the
+    /// gap, so by the midpoint scheme only.
     double time_step = 0.;
 
     /// The bulk force is that of a step; its weights are not used.

@@ -85,9 +85,9 @@ namespace Ricochet
       "Scheme",
       name,
       "Time scheme: Crank-Nicolson (HHT with alpha = 0); HHT (paper C, (24)); "
-      "TR-BDF2 (C, (33)); midpoint (C, (38); with the Nitsche-hybrid treatment "
-      "this is the hybrid scheme); ARKODE (adaptive Runge-Kutta of SUNDIALS, "
-      "for Nitsche and penalty, as a check).",
+      "TR-BDF2 (C, (33)); midpoint (A (3.2), B (3.1); with the Nitsche-hybrid "
+      "treatment this is the hybrid scheme, C (38)); ARKODE (adaptive "
+      "Runge-Kutta of SUNDIALS, for treatments with a potential, as a check).",
       Patterns::Selection(time_scheme_names()));
     parameters.add_parameter(
       "HHT alpha",

@@ -15,7 +15,7 @@
 // for dynamic hyperelastic problems with energy conservation property", section
 // 6.1) and of paper B (section 6.1, with viscosity).
 //
-// The impact lasts some 15 ms, in which waves run up and down the ball twice.
+// The impact lasts some 25 ms, in which waves run up and down the ball twice.
 // Kinetic energy goes into them and comes back, and the question is how much of
 // it a contact method loses on the way: Signorini's condition imposed at the end
 // of a step kills the velocity of every node that lands; persistent contact and
@@ -187,14 +187,7 @@ ElasticBall::run(RunFolder &folder)
              impact.mass + " mass");
 
   // The ball flies, undeformed.
-  Ricochet::Vector displacement, velocity;
-  ball.body.interpolate(Functions::ZeroFunction<2>(2), displacement);
-  ball.body.interpolate(Functions::ConstantFunction<2>(
-                          std::vector<double>{parameters.initial_velocity[0],
-                                              parameters.initial_velocity[1]}),
-                        velocity);
-  const State initial_state =
-    ball.system.initial_state(displacement, velocity, /* time */ 0.);
+  const State initial_state = state_in_flight(parameters, ball);
 
   // The time loop writes energies and contact. Momenta tell whether a scheme
   // does more than keep the energy: without friction nothing pushes the ball

@@ -179,14 +179,7 @@ HyperelasticRing::run(RunFolder &folder)
              impact.mass + " mass");
 
   // The ring flies, undeformed.
-  Ricochet::Vector displacement, velocity;
-  ring.body.interpolate(Functions::ZeroFunction<2>(2), displacement);
-  ring.body.interpolate(Functions::ConstantFunction<2>(
-                          std::vector<double>{parameters.initial_velocity[0],
-                                              parameters.initial_velocity[1]}),
-                        velocity);
-  const State initial_state =
-    ring.system.initial_state(displacement, velocity, /* time */ 0.);
+  const State initial_state = state_in_flight(parameters, ring);
 
   // The time loop writes energies and contact. Without friction the momentum
   // along the foundation stays what it is; off contact so does the angular

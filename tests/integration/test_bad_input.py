@@ -225,6 +225,13 @@ class BadThrownBodies(Refusal):
         self.refuse_ball("tangential compliance must be positive",
                          parameters=["Contact/Friction coefficient=0.1",
                                      "Contact/Tangential compliance=0"])
+        # Exact friction needs none.
+        code, _, error = self.attempt(
+            "elastic_ball", ["Contact/Friction coefficient=0.1",
+                             "Contact/Tangential compliance=0",
+                             "Contact/Treatment=persistent contact"],
+            options=["--validate"])
+        self.assertEqual(code, 0, msg=error)
 
     def test_two_point_law_with_another_scheme(self):
         for treatment in ("improved normal compliance", "persistent contact",
@@ -269,13 +276,31 @@ class BadThrownBodies(Refusal):
                                      "Time/Scheme=HHT",
                                      "Contact/Treatment=Signorini active set"])
 
+    def test_viscosity_with_nitsche(self):
+        self.refuse_ball("'Nitsche' uses the elastic stress on the contact "
+                         "boundary and cannot be combined with a viscous body",
+                         parameters=["Contact/Treatment=Nitsche",
+                                     "Material/Viscosity=linear",
+                                     "Material/Viscosity eta=1e6"])
+
+    def test_exponent_of_hauret(self):
+        self.refuse_ball("Hauret-Le Tallec is a penalisation with the exponent "
+                         "2", parameters=["Contact/Treatment=Hauret-Le Tallec",
+                                          "Contact/Compliance exponent=3"])
+
     def test_poisson_ratio(self):
         self.refuse_ball("Poisson ratio must lie between -1 and 1/2",
                          parameters=["Material/Poisson ratio=0.5"])
+        self.refuse_ring("needs a Poisson ratio that is not negative",
+                         parameters=["Material/Law=neo-Hookean",
+                                     "Material/Poisson ratio=-0.2"])
 
     def test_meshes(self):
         self.refuse_ball("needs at least 134 nodes; 130 were asked for",
                          parameters=["Mesh/Nodes=130"])
+        self.refuse_ball("16 boundary nodes has no room for 20000 nodes",
+                         parameters=["Mesh/Nodes=20000",
+                                     "Mesh/Boundary nodes=16"])
         self.refuse_ball("8, 16, 32, ... boundary nodes; 100 were asked for",
                          parameters=["Mesh/Cells=quadrilaterals",
                                      "Mesh/Boundary nodes=100"])

@@ -204,8 +204,12 @@ class ThrownBodies(ProgramTest):
                            for n in (1, 2)]
                 for name in ledgers[0].names:
                     if name in ("newton_iterations", "linear_solves",
-                                "balance_residual", "numerical_dissipation",
-                                "penetration_foundation"):
+                                "balance_residual", "numerical_dissipation"):
+                        continue
+                    # Signorini's condition has none but round-off.
+                    if (name == "penetration_foundation" and
+                            "Contact/Treatment=Signorini multipliers" in
+                            parameters):
                         continue
                     # Some columns are sums that nearly vanish.
                     whole = {"angular_momentum": 1e6, "momentum_x": 1e6,

@@ -58,8 +58,8 @@ namespace Ricochet
       return result;
     }
 
-    /// Solves mu (s - 1) + lambda/2 ln(s det) = 0 for s = C_33. The function
-    /// rises and is concave, so that Newton's method from a point where it is
+    /// Solves mu (s - 1) + lambda/2 ln(s det) = 0 for s = C_33. With lambda >=
+    /// 0 the function rises and is concave, so that Newton's method from a point where it is
     /// negative climbs to the root.
     double
     plane_stress_c33(const double /*trace*/, const double determinant) const
