@@ -43,7 +43,7 @@ LOSE_ENERGY = ["Signorini active set", "Signorini multipliers",
 BALL = ["Mesh/Nodes=392", "Mesh/Boundary nodes=64", "Start/Initial gap=0.0155",
         "Time/Time step=1e-3", "Time/Final time=0.04"]
 RING = ["Mesh/Nodes around=64", "Mesh/Nodes across=4", "Start/Initial gap=0.155",
-        "Time/Time step=1e-2", "Time/Final time=0.8"]
+        "Time/Time step=1e-2", "Time/Final time=0.5"]
 
 NO_FIELDS = ["Output/Fields every=0", "Output/Log every=0"]
 
