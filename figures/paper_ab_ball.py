@@ -21,11 +21,13 @@ from paper_ab_common import (
     body,
     checks_of_runs,
     constant_row,
+    cost_checks,
     curve,
     dip,
     dissipative_row,
     energy,
     energy_axes,
+    factor_row,
     fill,
     loses_row,
     lost,
@@ -35,14 +37,12 @@ from paper_ab_common import (
     percent,
     recovered_row,
     span,
+    statement,
     table_image,
-    timing_exponent,
     timing_of_steps,
 )
-from report import Figure, check, info, note
-from runs import Run
-
-QUIET = ("Output/Fields every=0", "Output/Log every=0")
+from report import Figure, check, info
+from runs import QUIET, Run
 
 # What the parameter files impact_*.prm hold: time step (s), initial gap (m), and the
 # whole steps in that gap.
@@ -85,13 +85,6 @@ def lines(axes, methods, runs, bands, step, values=energy, width=1.3):
             linewidth=width,
             linestyle=style,
         )
-
-
-def statement(quantity, ours, holds, criterion, paper, reason):
-    """A statement of a paper: a check, or a note with the reason if it does not hold."""
-    if holds:
-        return check(quantity, ours, True, criterion, paper)
-    return note(quantity, ours, reason, paper)
 
 
 # The runs -------------------------------------------------------------------
@@ -516,18 +509,6 @@ def draw_t1():
     )
 
 
-def factor_row(name, values, paper, reason):
-    """Whether some of the values is within a factor of two of the paper's."""
-    return statement(
-        f"largest penetration, {name} (m)",
-        span(values),
-        min(values) <= 2 * paper and max(values) >= paper / 2,
-        "some position within a factor of two",
-        f"{paper:.2e}",
-        reason,
-    )
-
-
 def checks_t1():
     rows = []
     for method, paper in TABLE_1:
@@ -725,47 +706,6 @@ def checks_t2():
     return cost_checks(COST_METHODS, COST, FAMILY, PAPER_CPU) + checks_of_runs(
         COST.values(), 1e-8, "< 1e-8: round-off of 15 m of flight, as large before the impact"
     )
-
-
-def cost_checks(methods, runs, family, paper):
-    """Cost of a step against degrees of freedom; used for the ring too."""
-    rows = []
-    dofs = [2 * nodes for nodes in family.values()]
-    for method in methods:
-        timings = [timing_of_steps(runs[method.key, n]) for n in family]
-        for n, (seconds, steps), cpu in zip(family, timings, paper[method.key]):
-            rows.append(
-                info(
-                    f"{method.name}, {n} nodes on the circle: steps (s), a step (ms)",
-                    f"{seconds:.3g}, {1e3 * seconds / steps:.3g}",
-                    f"{cpu:g} s",
-                )
-            )
-        slope = timing_exponent(dofs, [t[0] for t in timings])
-        theirs = timing_exponent(dofs, paper[method.key])
-        rows.append(
-            check(
-                f"{method.name}: exponent of the cost in degrees of freedom, three finest meshes",
-                f"{slope:.2f}",
-                slope < 2,
-                "< 2: less than a banded factorisation in each step",
-                f"{theirs:.2f}",
-            )
-        )
-    finest = {m.key: timing_of_steps(runs[m.key, list(family)[-1]])[0] for m in methods}
-    ratio = finest["signorini"] / finest["persistent"]
-    theirs = paper["signorini"][-1] / paper["persistent"][-1]
-    rows.append(
-        statement(
-            "finest mesh, Signorini multipliers over persistent contact",
-            f"{ratio:.2f}",
-            ratio > 1,
-            "more than 1",
-            f"{theirs:.1f}",
-            "a sparse direct solver takes the few multipliers of the active nodes in its stride",
-        )
-    )
-    return rows
 
 
 # The figures ----------------------------------------------------------------

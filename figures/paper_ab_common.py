@@ -221,39 +221,32 @@ def body(axes, path, stretch=1.0, arrow=1.0, stress=False, limit=None):
 # Checks that several figures share ------------------------------------------
 
 
-def checks_of_runs(runs, tolerance=1e-9, criterion="< 1e-9 of the energy", halved=()):
-    """What must hold in each run, whatever the method.
+def statement(quantity, ours, holds, criterion, paper, reason):
+    """A statement of a paper: a check, or a note with the reason if it does not hold."""
+    if holds:
+        return check(quantity, ours, True, criterion, paper)
+    return note(quantity, ours, reason, paper)
 
-    `halved` names runs that are known to halve a step: a note says so.
-    """
+
+def checks_of_runs(runs, tolerance=1e-9, criterion="< 1e-9 of the energy"):
+    """What must hold in each run, whatever the method."""
     runs = list({run.folder: run for run in runs}.values())
     # Newton's tolerance is 1e-12 of the forces; stiff contact multiplies it.
     residual = max(np.abs(run.read()["balance_residual"]).max() for run in runs)
-    rows = [
+    # The column of halvings counts from the start.
+    halvings = sum(int(run.read()["step_halvings"].max()) for run in runs)
+    return [
         check(
             f"max |balance residual|, {len(runs)} runs",
             f"{residual:.1e}",
             residual < tolerance,
             criterion,
             exact="0",
-        )
+        ),
+        check(
+            f"step halvings, {len(runs)} runs", f"{halvings}", halvings == 0, "none", exact="0"
+        ),
     ]
-    # The column counts from the start.
-    halvings = {run: int(run.read()["step_halvings"].max()) for run in runs}
-    known = [run for run in runs if run.curve in halved and halvings[run]]
-    count = sum(n for run, n in halvings.items() if run not in known)
-    quantity = f"step halvings, {len(runs) - len(known)} runs"
-    rows.append(check(quantity, f"{count}", count == 0, "none", exact="0"))
-    for run in known:
-        rows.append(
-            note(
-                f"step halvings, {run.curve}",
-                f"{halvings[run]}",
-                "Newton's method does not end in one step of this run, and its halves do",
-                exact="0",
-            )
-        )
-    return rows
 
 
 def constant_row(name, runs, column="energy", paper="conserved"):
@@ -322,7 +315,7 @@ def order_row(quantity, values, criterion, paper, form="{:.2f} %", rising=True):
     return check(quantity, ours, bool((steps > 0).all()), criterion, paper)
 
 
-def momentum_row(runs, axis="x"):
+def momentum_row(runs):
     """Without friction no force acts along the foundation."""
     worst = 0.0
     for run in runs:
@@ -336,3 +329,56 @@ def momentum_row(runs, axis="x"):
         "< 1e-9 of the initial momentum",
         exact="0",
     )
+
+
+def factor_row(name, values, paper, reason):
+    """Whether some of the values is within a factor of two of the paper's."""
+    return statement(
+        f"largest penetration, {name} (m)",
+        span(values),
+        min(values) <= 2 * paper and max(values) >= paper / 2,
+        "some position within a factor of two",
+        f"{paper:.2e}",
+        reason,
+    )
+
+
+def cost_checks(methods, runs, family, paper):
+    """Cost of a step against degrees of freedom, on meshes of one family."""
+    rows = []
+    dofs = [2 * nodes for nodes in family.values()]
+    for method in methods:
+        timings = [timing_of_steps(runs[method.key, n]) for n in family]
+        for n, (seconds, steps), cpu in zip(family, timings, paper[method.key]):
+            rows.append(
+                info(
+                    f"{method.name}, {n} nodes on the circle: steps (s), a step (ms)",
+                    f"{seconds:.3g}, {1e3 * seconds / steps:.3g}",
+                    f"{cpu:g} s",
+                )
+            )
+        slope = timing_exponent(dofs, [t[0] for t in timings])
+        theirs = timing_exponent(dofs, paper[method.key])
+        rows.append(
+            check(
+                f"{method.name}: exponent of the cost in degrees of freedom, three finest meshes",
+                f"{slope:.2f}",
+                slope < 2,
+                "< 2: less than a banded factorisation in each step",
+                f"{theirs:.2f}",
+            )
+        )
+    finest = {m.key: timing_of_steps(runs[m.key, list(family)[-1]])[0] for m in methods}
+    ratio = finest["signorini"] / finest["persistent"]
+    theirs = paper["signorini"][-1] / paper["persistent"][-1]
+    rows.append(
+        statement(
+            "finest mesh, Signorini multipliers over persistent contact",
+            f"{ratio:.2f}",
+            ratio > 1,
+            "more than 1",
+            f"{theirs:.1f}",
+            "a sparse direct solver takes the few multipliers of the active nodes in its stride",
+        )
+    )
+    return rows

@@ -8,7 +8,6 @@ mesh of 128 x 13 nodes; where many runs are needed, the mesh has 64 x 5 nodes.
 import matplotlib.pyplot as plt
 import numpy as np
 
-from paper_ab_ball import QUIET, cost_checks, factor_row, statement
 from paper_ab_common import (
     EMM,
     HAURET,
@@ -22,11 +21,13 @@ from paper_ab_common import (
     body,
     checks_of_runs,
     constant_row,
+    cost_checks,
     curve,
     dip,
     dissipative_row,
     energy,
     energy_axes,
+    factor_row,
     fill,
     lost,
     momentum_row,
@@ -35,11 +36,12 @@ from paper_ab_common import (
     percent,
     recovered_row,
     span,
+    statement,
     table_image,
     timing_of_steps,
 )
 from report import Figure, check, info, note
-from runs import Run
+from runs import QUIET, Run
 
 GAP = 0.55  # m, of default.prm
 AGAINST = "time since the ring touches (s)"
@@ -166,8 +168,6 @@ BANDS = {
     key: band(COARSE[key], 5, 1e-2, 2)
     for key in ("signorini", "snc", "two_step", "persistent", "inc2", "inc3")
 }
-# One of the steps of this run is halved.
-HALVED = ("two_step_coarse_at_0.65",)
 A11_RUNS = [r for m in METHODS for r in (FULL[m.key], COARSE[m.key], *BANDS[m.key])]
 
 
@@ -208,7 +208,7 @@ def checks_a11():
                 "9 %",
             )
         )
-    return rows + [momentum_row(A11_RUNS)] + checks_of_runs(A11_RUNS, halved=HALVED)
+    return rows + [momentum_row(A11_RUNS)] + checks_of_runs(A11_RUNS)
 
 
 # A 13: the exponent; A 14: the time step ------------------------------------
@@ -348,7 +348,7 @@ def checks_a15():
             "< 2 %: points stick well enough for the regularisation not to count",
         )
     )
-    return rows + checks_of_runs([*A15.values(), *SOFTER.values()], halved=("inc3",))
+    return rows + checks_of_runs([*A15.values(), *SOFTER.values()])
 
 
 # A, table 3: penetration and the scan of c_nu -------------------------------

@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from report import Figure, check, info, note
-from runs import Run
+from runs import QUIET, Run
 
 FINAL_TIME = 12.0  # s
 TIME_STEP = 0.05  # s
@@ -89,8 +89,6 @@ SS = Bar(
 
 # The runs -------------------------------------------------------------------
 
-# The figures need no fields for ParaView, and no line per step.
-QUIET = ("Output/Fields every=0", "Output/Log every=0")
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,10 @@ import numpy as np
 CHECKOUT = pathlib.Path(__file__).resolve().parent.parent
 OUTPUT = CHECKOUT / "output"
 
+# Overrides of runs for curves, which need no fields for ParaView and no line per
+# step.
+QUIET = ("Output/Fields every=0", "Output/Log every=0")
+
 # Written after a run has ended well, with all that its result depends on.
 STAMP = "finished.json"
 
