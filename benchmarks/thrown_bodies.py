@@ -21,7 +21,8 @@ METHODS = [
     ("persistent contact", ["Contact/Treatment=persistent contact"]),
     ("INC, alpha = 3", ["Contact/Treatment=improved normal compliance",
                         "Contact/Compliance exponent=3"]),
-    ("SNC", ["Contact/Treatment=standard normal compliance"]),
+    ("SNC, alpha = 3", ["Contact/Treatment=standard normal compliance",
+                        "Contact/Compliance exponent=3"]),
 ]
 
 # Program, parameters, meshes, default final time; that of the papers.
@@ -71,6 +72,10 @@ def main():
     parser.add_argument("--build-dir", default="build/release")
     parser.add_argument("--body", choices=BODIES, action="append",
                         help="only this one")
+    parser.add_argument("--repeat", type=int, default=1,
+                        help="runs of each; the fastest counts")
+    parser.add_argument("--meshes", type=int, default=5,
+                        help="only so many, counted from the finest")
     parser.add_argument("--whole-run", action="store_true",
                         help="to the papers' final time (the ring: 10 s)")
     arguments = parser.parse_args()
@@ -83,13 +88,15 @@ def main():
         print("|---|---|---|---|---|---|---|---|---|")
         for name, method in METHODS:
             points = []
-            for mesh in meshes:
-                run = measure(program, parameters + method + mesh,
-                              whole if arguments.whole_run else final_time)
+            for mesh in meshes[-arguments.meshes:]:
+                run = min((measure(program, parameters + method + mesh,
+                                   whole if arguments.whole_run else final_time)
+                           for _ in range(arguments.repeat)),
+                          key=lambda run: run["seconds"])
                 step = run["seconds"] / run["steps"]
                 points.append((math.log(run["unknowns"]), math.log(step)))
                 exponent = ""
-                if len(points) == len(meshes):
+                if mesh is meshes[-1] and len(points) >= 3:
                     last = points[-3:]
                     x = sum(p[0] for p in last) / 3
                     y = sum(p[1] for p in last) / 3

@@ -684,6 +684,7 @@ COST = {
             "Time/Time step=1e-2",
             "Time/Final time=2",
             "Start/Initial gap=15.05",
+            *(("Contact/Compliance exponent=3",) if method is SNC else ()),
         ),
         cost=n,
     )

@@ -550,6 +550,7 @@ COST = {
             f"Mesh/Nodes around={around}",
             f"Mesh/Nodes across={across}",
             "Time/Final time=1",
+            *(("Contact/Compliance exponent=3",) if m is SNC else ()),
         ),
         cost=n,
     )

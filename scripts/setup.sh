@@ -6,7 +6,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # What Ricochet needs of Debian 12. OpenBLAS replaces the reference BLAS, which
 # is five times slower in factorisations.
-packages="cmake ninja-build g++ ccache libdeal.ii-dev libeigen3-dev libboost-dev
+packages="cmake ninja-build g++ ccache libdeal.ii-dev libeigen3-dev libsuitesparse-dev
+  libgmsh-dev libboost-dev
   libhdf5-openmpi-dev libsundials-dev libopenblas0-pthread openmpi-bin numdiff
   perl python3 python3-matplotlib python3-numpy python3-h5py"
 

@@ -12,20 +12,6 @@ namespace Ricochet
   using dealii::Tensor;
   using dealii::VectorOperation;
 
-  Tensor<1, 3>
-  ActiveSetContact::at_node(const unsigned int p, const Vector &vector) const
-  {
-    const ContactPoints &coefficients = evaluator.coefficients();
-    Tensor<1, 3>         value;
-    for (unsigned int k = coefficients.points[p].begin;
-         k < coefficients.points[p].end;
-         ++k)
-      value[coefficients.component[k]] = vector(coefficients.index[k]);
-    return value;
-  }
-
-
-
   double
   ActiveSetContact::constraint_scale(const unsigned int p) const
   {
@@ -78,7 +64,7 @@ namespace Ricochet
     for (unsigned int p = 0; p < nodes.size(); ++p)
       {
         Node &node            = nodes[p];
-        node.initial_reaction = -1. * at_node(p, start.contact_force);
+        node.initial_reaction = -1. * evaluator.at_node(p, start.contact_force);
         node.candidate        = true;
         if (condition == Condition::persistent)
           node.candidate = old_state[p].gap +
@@ -137,7 +123,7 @@ namespace Ricochet
         // The reaction of the last iterate: what the equation of motion leaves
         // over in the nodes that were active. In the first iteration it is the
         // reaction of the last step.
-        const Tensor<1, 3> excess = at_node(p, residual);
+        const Tensor<1, 3> excess = evaluator.at_node(p, residual);
         if (first_in_stage)
           node.reaction = node.initial_reaction;
         else if (node.accepted_status == Status::open)
@@ -158,8 +144,8 @@ namespace Ricochet
         node.friction_ratio     = 0.;
         const Tensor<1, 3> tangential_reaction =
           node.reaction - normal_reaction * normal;
-        Tensor<1, 3> slip = displacement[p] - old_displacement[p];
-        slip -= (normal * slip) * normal;
+        const Tensor<1, 3> slip =
+          tangent_plane(normal) * (displacement[p] - old_displacement[p]);
         if (friction_coefficient > 0.)
           {
             const Tensor<1, 3> friction_trial =
@@ -210,8 +196,8 @@ namespace Ricochet
     // (stick), or become
     //   (P - ratio (P - d d^T)) T + ratio scale weight (P - d d^T) - mu d n.T
     // (slip, d being the direction of friction, P the projection on the tangent
-    // plane). The rows of one node have the
-    // same columns in the same order, because cells couple all components.
+    // plane). The rows of one node have the same columns in the same order,
+    // because cells couple all components.
     const ContactPoints &coefficients = evaluator.coefficients();
     const auto          &epetra       = tangent.trilinos_matrix();
     const double         closing_derivative =
@@ -244,9 +230,8 @@ namespace Ricochet
 
         // What multiplies T in the new rows, and what stands in the columns of
         // the node itself.
-        Tensor<2, 3> from_rows, own;
-        Tensor<2, 3> plane(dealii::unit_symmetric_tensor<3>());
-        plane -= outer_product(normal, normal);
+        Tensor<2, 3>       from_rows, own;
+        const Tensor<2, 3> plane = tangent_plane(normal);
         own = closing_derivative * scale * outer_product(normal, normal);
         if (node.status == Status::stick)
           own += scale * plane;
@@ -317,7 +302,6 @@ namespace Ricochet
   ActiveSetContact::tangent_signature() const
   {
     // The direction of slip is part of the tangent.
-    std::vector<int> values = statuses();
     if (friction_coefficient > 0.)
       {
         const bool slips =
@@ -328,8 +312,7 @@ namespace Ricochet
                                         evaluator.communicator) == 1)
           return {};
       }
-    values.push_back(static_cast<int>(closing_kind()));
-    return global_hash(values, evaluator.communicator);
+    return active_set_signature();
   }
 
 
@@ -368,14 +351,12 @@ namespace Ricochet
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         const ContactPoint &point = evaluator.contact_points()[p];
-        ContactSummary     &sum   = sums[point.boundary_id];
         const double        node_reaction =
-          -evaluator.normal_component(p, contact_force);
-        sum.area += point.weight;
-        sum.mean_gap += point.weight * state[p].gap;
-        sum.max_penetration = std::max(sum.max_penetration, -state[p].gap);
-        sum.force += node_reaction;
-        sum.active_points += node_reaction > 0.;
+          -(point.obstacle_normal * evaluator.at_node(p, contact_force));
+        sums[point.boundary_id].add(point,
+                                    state[p].gap,
+                                    node_reaction,
+                                    node_reaction > 0.);
       }
     add_stress_pressure(solution, stress_evaluator, stress_state, sums);
     return reduce_summaries(sums, evaluator.communicator);

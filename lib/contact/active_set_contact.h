@@ -84,6 +84,23 @@ namespace Ricochet
     void
     complete_tangent(Matrix &tangent) const override;
 
+    /// Nothing.
+    void
+    complete_open_tangent(Matrix & /*tangent*/) const override
+    {}
+
+    std::vector<dealii::types::global_dof_index>
+    tangent_rows() const override
+    {
+      return evaluator.unknowns();
+    }
+
+    bool
+    has_symmetric_tangent() const override
+    {
+      return false;
+    }
+
     std::optional<std::uint64_t>
     tangent_signature() const override;
 
@@ -161,10 +178,6 @@ namespace Ricochet
       Status               accepted_status = Status::open;
       dealii::Tensor<1, 3> initial_reaction;
     };
-
-    /// The vector's entries at node @p p.
-    dealii::Tensor<1, 3>
-    at_node(const unsigned int p, const Vector &vector) const;
 
     /// Stiffness (N/m) with which closing and slip of node @p p enter the
     /// residual.

@@ -68,11 +68,9 @@ namespace Ricochet
     /// minus the force on the gap is a contact pressure.
     bool takes_friction = false;
     /// The tangent depends on nothing but branch(): factorisations can be kept
-    /// while the branches stay the same.
+    /// while the branches stay the same. Otherwise the force is a pressure, never
+    /// negative, that depends on the gap alone and falls with it.
     bool piecewise_linear = true;
-    /// gap_at_pressure() is there: Newton's method linearises the law at a
-    /// pressure instead of a gap.
-    bool is_invertible = false;
     /// potential() is the potential of force(), so that a modified energy
     /// exists.
     bool has_potential = true;
@@ -124,19 +122,6 @@ namespace Ricochet
     virtual double
     pressure(const ContactPointState<> &state,
              const double               cell_diameter) const = 0;
-
-    /**
-     * For invertible laws, whose force depends on the gap alone: the new gap at
-     * which the pressure, minus the force on the gap, has the positive value @p
-     * pressure.
-     */
-    virtual double
-    gap_at_pressure(const double /*pressure*/,
-                    const ContactPointState<> &new_state,
-                    const ContactPointState<> & /*old_state*/) const
-    {
-      return new_state.gap;
-    }
 
     /// Stiffness (Pa/m) that makes the multiplier's equation comparable with
     /// the forces; 1 for laws without multiplier.
@@ -202,17 +187,6 @@ namespace Ricochet
              const double               cell_diameter) const override
     {
       return law.pressure(state, cell_diameter);
-    }
-
-    double
-    gap_at_pressure(const double               pressure,
-                    const ContactPointState<> &new_state,
-                    const ContactPointState<> &old_state) const override
-    {
-      if constexpr (Law::traits().is_invertible)
-        return law.gap_at_pressure(pressure, old_state);
-      else
-        return new_state.gap;
     }
 
     double

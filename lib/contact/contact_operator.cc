@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <contact/contact_operator.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 namespace Ricochet
@@ -17,6 +19,35 @@ namespace Ricochet
       longest = std::max(longest, point.end - point.begin);
     values.resize(longest);
     local_matrix.resize(longest);
+  }
+
+
+
+  std::vector<dealii::types::global_dof_index>
+  ContactPointEvaluator::unknowns() const
+  {
+    // The smallest gap of all points that know an unknown.
+    using Index = dealii::types::global_dof_index;
+    std::vector<std::pair<Index, double>> mine;
+    for (const ContactPoint &point : points.points)
+      for (unsigned int k = point.begin; k < point.end; ++k)
+        mine.emplace_back(points.index[k], point.initial_gap);
+    std::map<Index, double> gap;
+    for (const auto &list :
+         dealii::Utilities::MPI::all_gather(communicator, mine))
+      for (const auto &[index, initial_gap] : list)
+        {
+          const auto known = gap.emplace(index, initial_gap).first;
+          known->second    = std::min(known->second, initial_gap);
+        }
+    std::vector<std::pair<double, Index>> sorted;
+    for (const auto &[index, initial_gap] : gap)
+      sorted.emplace_back(initial_gap, index);
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<Index> unknowns;
+    for (const auto &entry : sorted)
+      unknowns.push_back(entry.second);
+    return unknowns;
   }
 
 
@@ -163,14 +194,29 @@ namespace Ricochet
 
 
 
-  double
-  ContactPointEvaluator::normal_component(const unsigned int p,
-                                          const Vector      &vector) const
+  dealii::Tensor<1, 3>
+  ContactPointEvaluator::at_node(const unsigned int p,
+                                 const Vector      &vector) const
   {
-    double sum = 0.;
+    dealii::Tensor<1, 3> value;
     for (unsigned int k = points.points[p].begin; k < points.points[p].end; ++k)
       if (points.shape_value[k] != 0.)
-        sum += points.gap_coefficient[k] * vector(points.index[k]);
-    return sum;
+        value[points.component[k]] = vector(points.index[k]);
+    return value;
+  }
+
+
+
+  void
+  ContactSummary::add(const ContactPoint &point,
+                      const double        gap,
+                      const double        point_force,
+                      const bool          is_active)
+  {
+    area += point.weight;
+    mean_gap += point.weight * gap;
+    max_penetration = std::max(max_penetration, -gap);
+    force += point_force;
+    active_points += is_active;
   }
 } // namespace Ricochet

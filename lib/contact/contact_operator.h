@@ -32,6 +32,14 @@ namespace Ricochet
     double stress_pressure = 0.;
     /// Number of contact points that are active.
     unsigned int active_points = 0;
+
+    /// Add a point to the sums: means are weighted sums until
+    /// reduce_summaries() divides them.
+    void
+    add(const ContactPoint &point,
+        const double        gap,
+        const double        point_force,
+        const bool          is_active);
   };
 
   /// The beginning of a step or stage, as far as contact looks back.
@@ -90,6 +98,20 @@ namespace Ricochet
     /// Complete @p tangent at the solution of the last complete_residual().
     virtual void
     complete_tangent(Matrix &tangent) const = 0;
+
+    /// Complete @p tangent as if all points were open.
+    virtual void
+    complete_open_tangent(Matrix &tangent) const = 0;
+
+    /// All rows that complete_tangent() may change, on all ranks: by initial
+    /// gap, which is how contact spreads.
+    virtual std::vector<dealii::types::global_dof_index>
+    tangent_rows() const = 0;
+
+    /// Whether complete_tangent() keeps a symmetric tangent symmetric, but for
+    /// friction.
+    virtual bool
+    has_symmetric_tangent() const = 0;
 
     /**
      * A number that is the same on all ranks and changes whenever the tangent
@@ -213,16 +235,20 @@ namespace Ricochet
         const std::array<dealii::Tensor<1, 3>, 3> &with_state,
         Matrix                                    &matrix) const;
 
-    /// Component along the obstacle's normal of a force @p vector at @p p, which
-    /// must be a node of this rank.
-    double
-    normal_component(const unsigned int p, const Vector &vector) const;
+    /// The displacement or force of @p vector at @p p, which must be a node of
+    /// this rank.
+    dealii::Tensor<1, 3>
+    at_node(const unsigned int p, const Vector &vector) const;
 
     const std::vector<ContactPoint> &
     contact_points() const
     {
       return points.points;
     }
+
+    /// The unknowns of all points on all ranks, by initial gap.
+    std::vector<dealii::types::global_dof_index>
+    unknowns() const;
 
     /// Whether there are points on any rank.
     bool

@@ -46,6 +46,14 @@ namespace Ricochet
     unsigned int begin = 0, end = 0;
   };
 
+  /// The projection on the plane with the unit normal @p normal.
+  inline dealii::Tensor<2, 3>
+  tangent_plane(const dealii::Tensor<1, 3> &normal)
+  {
+    return dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) -
+      outer_product(normal, normal);
+  }
+
   /// Round-off (m) of a gap that is the difference of an initial gap and a
   /// displacement.
   inline double

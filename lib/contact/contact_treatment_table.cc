@@ -369,8 +369,8 @@ namespace Ricochet
       "Augmentation",
       augmentation,
       "Parameter gamma_a (Pa) of the proximal augmented Lagrangian (paper C, "
-      "(18)). For the Signorini treatments it steers the choice of the active "
-      "set and leaves the solution alone.",
+      "(18)). For the other treatments it steers Newton's method, best with "
+      "about Young's modulus, and leaves the solution alone.",
       Patterns::Double(1e-30));
     parameters.add_parameter(
       "Compliance coefficient",

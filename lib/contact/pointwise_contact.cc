@@ -9,26 +9,13 @@ namespace Ricochet
 {
   using dealii::VectorOperation;
 
-  namespace
-  {
-    /// The projection on the plane with the unit normal @p normal.
-    dealii::Tensor<2, 3>
-    tangent_plane(const dealii::Tensor<1, 3> &normal)
-    {
-      return dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) -
-        outer_product(normal, normal);
-    }
-  } // namespace
-
-
-
   void
   PointwiseContact::begin_stage(const ContactStart &start, const double weight_)
   {
     weight     = weight_;
     time_step  = start.time_step;
     n_iterates = 0;
-    step_force.assign(evaluator.contact_points().size(), 0.);
+    point_force.assign(evaluator.contact_points().size(), {});
     evaluator.evaluate(start.solution, old_state);
     if (friction.coefficient > 0.)
       evaluator.evaluate_displacement(start.solution, old_displacement);
@@ -40,10 +27,7 @@ namespace Ricochet
   PointwiseContact::accept_iterate()
   {
     ++n_iterates;
-    for (unsigned int p = 0; p < state.size(); ++p)
-      step_force[p] =
-        -evaluator.contact_points()[p].weight * linearised_force(p).gap;
-    if (law->traits().is_invertible)
+    if (!law->traits().piecewise_linear)
       accepted_linearisation = linearisation;
     accepted_branch = friction_branch;
   }
@@ -56,23 +40,45 @@ namespace Ricochet
     // It helps to come near the solution; should it not, the law is linearised
     // at the gap again.
     linearisation = state;
-    if (!law->traits().is_invertible || n_iterates == 0 || n_iterates > 8)
+    if (law->traits().piecewise_linear || n_iterates == 0 || n_iterates > 8)
       return;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         // The pressure that the last linearisation has at the new gap.
         const double h = evaluator.contact_points()[p].cell_diameter;
         const ContactPointState<> &at = accepted_linearisation[p];
-        const double pressure         = -law->force(at, old_state[p], h).gap -
+        const double predicted        = -law->force(at, old_state[p], h).gap -
           law->tangent(at, old_state[p], h)[0][0] * (state[p].gap - at.gap);
-        // Only while the point penetrates: of one that leaves, the gap says
-        // more than the pressure.
-        if (!(pressure > 0.) || state[p].gap >= 0.)
-          continue;
-        const double gap =
-          law->gap_at_pressure(pressure, state[p], old_state[p]);
-        if (gap < 0.)
-          linearisation[p].gap = gap;
+
+        // Where the law meets the body's line through gap and predicted pressure:
+        // excess(gap) = law's pressure - body's pressure falls with the gap. The
+        // law's pressure being never negative and falling, the zero lies between
+        // the gap and where the excess there would be used up by the body alone.
+        const double        body_stiffness = augmentation / h;
+        ContactPointState<> trial          = state[p];
+        const auto          excess         = [&]() {
+          return -law->force(trial, old_state[p], h).gap - predicted -
+            body_stiffness * (trial.gap - state[p].gap);
+        };
+        double       value = excess();
+        const double far   = state[p].gap + value / body_stiffness;
+        double       low   = std::min(state[p].gap, far);
+        double       high  = std::max(state[p].gap, far);
+        const double close = 1e-3 * (high - low);
+        for (unsigned int k = 0; k < 60 && high - low > close; ++k)
+          {
+            (value > 0. ? low : high) = trial.gap;
+            const double slope =
+              -law->tangent(trial, old_state[p], h)[0][0] - body_stiffness;
+            const double step = -value / slope;
+            if (std::abs(step) < close)
+              break;
+            trial.gap += step;
+            if (!(trial.gap > low && trial.gap < high))
+              trial.gap = .5 * (low + high);
+            value = excess();
+          }
+        linearisation[p].gap = trial.gap;
       }
   }
 
@@ -95,22 +101,22 @@ namespace Ricochet
   double
   PointwiseContact::linearisation_error() const
   {
-    if (!law->traits().is_invertible && friction.coefficient == 0.)
+    if (law->traits().piecewise_linear && friction.coefficient == 0.)
       return 0.;
     double square = 0.;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         const ContactPoint &point = evaluator.contact_points()[p];
         const double        error = point.weight *
-          (linearised_force(p).gap -
+          (point_force[p].gap -
            law->force(state[p], old_state[p], point.cell_diameter).gap);
         square += error * error;
         const double pressure =
           friction.coefficient > 0. ? friction_pressure(p) : 0.;
         if (pressure > 0.)
           square += point.weight * point.weight *
-            (friction.traction_on(friction_branch[p], pressure, slip_rate(p)) -
-             friction.traction(pressure, slip_rate(p)))
+            (friction.traction_on(friction_branch[p], pressure, slip_rate[p]) -
+             friction.traction(pressure, slip_rate[p]))
               .norm_square();
       }
     return std::sqrt(
@@ -122,7 +128,7 @@ namespace Ricochet
   double
   PointwiseContact::friction_pressure(const unsigned int p) const
   {
-    return positive_part(-linearised_force(p).gap);
+    return positive_part(-point_force[p].gap);
   }
 
 
@@ -134,7 +140,7 @@ namespace Ricochet
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         const double               pressure = friction_pressure(p);
-        const dealii::Tensor<1, 3> rate     = slip_rate(p);
+        const dealii::Tensor<1, 3> rate     = slip_rate[p];
         dealii::Tensor<1, 3> trial = friction.tangential_compliance * rate;
         if (n_iterates > 0 && accepted_branch.size() == state.size())
           {
@@ -150,15 +156,6 @@ namespace Ricochet
           }
         friction_branch[p] = friction.choose_branch(pressure, rate, trial);
       }
-  }
-
-
-
-  dealii::Tensor<1, 3>
-  PointwiseContact::slip_rate(const unsigned int p) const
-  {
-    return tangent_plane(evaluator.contact_points()[p].obstacle_normal) *
-      (displacement[p] - old_displacement[p]) / time_step;
   }
 
 
@@ -181,12 +178,21 @@ namespace Ricochet
     evaluator.evaluate(solution, state);
     choose_linearisation();
     force = 0.;
+    point_force.resize(state.size());
     for (unsigned int p = 0; p < state.size(); ++p)
-      evaluator.add(p, linearised_force(p), force);
+      {
+        point_force[p] = linearised_force(p);
+        evaluator.add(p, point_force[p], force);
+      }
     force.compress(VectorOperation::add);
     if (friction.coefficient > 0.)
       {
         evaluator.evaluate_displacement(solution, displacement);
+        slip_rate.resize(state.size());
+        for (unsigned int p = 0; p < state.size(); ++p)
+          slip_rate[p] =
+            tangent_plane(evaluator.contact_points()[p].obstacle_normal) *
+            (displacement[p] - old_displacement[p]) / time_step;
         choose_friction_branches();
         friction_part = 0.;
         for (unsigned int p = 0; p < state.size(); ++p)
@@ -196,7 +202,7 @@ namespace Ricochet
               evaluator.add(p,
                             friction.traction_on(friction_branch[p],
                                                  pressure,
-                                                 slip_rate(p)),
+                                                 slip_rate[p]),
                             friction_part);
           }
         friction_part.compress(VectorOperation::add);
@@ -227,7 +233,7 @@ namespace Ricochet
             dealii::Tensor<1, 3> with_pressure;
             friction.derivatives(friction_branch[p],
                                  pressure,
-                                 slip_rate(p),
+                                 slip_rate[p],
                                  tangent_plane(point.obstacle_normal),
                                  with_slip_rate,
                                  with_pressure);
@@ -239,6 +245,21 @@ namespace Ricochet
                             -law_tangent[0][2] * with_pressure}},
                           tangent);
           }
+      }
+    tangent.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  PointwiseContact::complete_open_tangent(Matrix &tangent) const
+  {
+    for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
+      {
+        const double        h = evaluator.contact_points()[p].cell_diameter;
+        ContactPointState<> open;
+        open.gap = h;
+        evaluator.add(p, weight, law->tangent(open, open, h), tangent);
       }
     tangent.compress(VectorOperation::add);
   }
@@ -387,26 +408,25 @@ namespace Ricochet
     // nodes every force can be read off the vector.
     const ContactLawTraits traits = law->traits();
     const bool             over_step =
-      traits.is_two_point && !traits.uses_stress && step_force.size() > 0;
+      traits.is_two_point && !traits.uses_stress && point_force.size() > 0;
     evaluator.evaluate(solution, state);
     std::map<dealii::types::boundary_id, ContactSummary> sums;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
-        const ContactPoint &point       = evaluator.contact_points()[p];
-        ContactSummary     &sum         = sums[point.boundary_id];
-        const double        point_force = traits.nodal
-                 ? -evaluator.normal_component(p, contact_force)
+        const ContactPoint &point        = evaluator.contact_points()[p];
+        const double        normal_force = traits.nodal
+                 ? -(point.obstacle_normal * evaluator.at_node(p, contact_force))
                  : over_step
-                 ? step_force[p]
+                 ? -point.weight * point_force[p].gap
                  : point.weight * law->pressure(state[p], point.cell_diameter);
-        sum.area += point.weight;
-        sum.mean_gap += point.weight * state[p].gap;
-        sum.max_penetration = std::max(sum.max_penetration, -state[p].gap);
-        sum.force += point_force;
         // Two-point laws are active over a step, the others at an instant.
-        sum.active_points += traits.is_two_point && !traits.uses_stress
-          ? point_force > 0.
+        const bool is_active = traits.is_two_point && !traits.uses_stress
+          ? normal_force > 0.
           : law->branch(state[p], state[p], point.cell_diameter) != 0;
+        sums[point.boundary_id].add(point,
+                                    state[p].gap,
+                                    normal_force,
+                                    is_active);
       }
     add_stress_pressure(solution, stress_evaluator, stress_state, sums);
     return reduce_summaries(sums, evaluator.communicator);

@@ -13,12 +13,11 @@ namespace Ricochet
    * through the contact points and asks the law; Coulomb's friction with a
    * tangential compliance comes beside it, with the mean slip rate of the step.
    *
-   * A stiff power law is a poor thing to linearise at a gap: from a predictor
-   * that is far too deep, Newton's method comes back by a constant factor per
-   * iteration. The pressure that the last linearisation predicts is in
-   * equilibrium with the body and nearly right; so invertible laws are
-   * linearised at the gap that belongs to that pressure (Newton's method for gap
-   * and pressure as two unknowns, the pressure eliminated).
+   * A stiff power law is a poor thing to linearise at a gap: from far too deep a
+   * penetration, or from contact at a point that leaves, Newton's method comes
+   * to the solution by a constant factor per iteration. So these laws are
+   * linearised where they meet the body's own line: the pressure that the last
+   * linearisation predicts at the new gap, and a stiffness r_0 / h_T.
    */
   class PointwiseContact : public ContactOperator
   {
@@ -28,8 +27,9 @@ namespace Ricochet
      * @param stress_points quadrature points at which the summary evaluates the
      * body's own stress; nodes know none.
      * @param friction none if its coefficient is 0.
-     * @param augmentation r_0 (Pa); a stiffness r_0 / h_T tells stick and slip
-     * apart on the way to the solution and leaves the solution alone.
+     * @param augmentation r_0 (Pa); a stiffness r_0 / h_T, the body's own in
+     * order of magnitude, tells stick and slip apart and chooses where power
+     * laws are linearised. It leaves the solution alone.
      */
     template <int dim>
     PointwiseContact(const Body<dim>            &body,
@@ -63,6 +63,21 @@ namespace Ricochet
 
     void
     complete_tangent(Matrix &tangent) const override;
+
+    void
+    complete_open_tangent(Matrix &tangent) const override;
+
+    std::vector<dealii::types::global_dof_index>
+    tangent_rows() const override
+    {
+      return evaluator.unknowns();
+    }
+
+    bool
+    has_symmetric_tangent() const override
+    {
+      return !law->traits().needs_multiplier;
+    }
 
     std::optional<std::uint64_t>
     tangent_signature() const override;
@@ -142,11 +157,6 @@ namespace Ricochet
     void
     choose_friction_branches();
 
-    /// Slip rate of point @p p (m/s) at the last complete_residual().
-    dealii::Tensor<1, 3>
-    slip_rate(const unsigned int p) const;
-
-
     const std::unique_ptr<ContactLaw> law;
     const CoulombFriction             friction;
     const double                      augmentation;
@@ -158,8 +168,10 @@ namespace Ricochet
     std::vector<ContactPointState<>>  state, old_state, stress_state;
     // Where the law is linearised: now, and at the last accepted iterate.
     std::vector<ContactPointState<>> linearisation, accepted_linearisation;
-    // Normal force (N) of each point over the last step, for the summary.
-    std::vector<double> step_force;
+    // Force of the law per area (Pa) and slip rate (m/s) at the last
+    // complete_residual().
+    std::vector<ContactPointForce<>>  point_force;
+    std::vector<dealii::Tensor<1, 3>> slip_rate;
     // The same as for the law, for friction.
     std::vector<CoulombFriction::Branch> friction_branch, accepted_branch;
     // Displacements of the points, for slip; empty without friction.

@@ -3,7 +3,7 @@
 #define ricochet_problems_impact_parameters_h
 
 #include <contact/contact_treatment.h>
-#include <solvers/direct_solver.h>
+#include <solvers/linear_solver.h>
 #include <solvers/newton.h>
 #include <problems/time_loop.h>
 #include <time_integration/time_scheme.h>
@@ -17,7 +17,7 @@ namespace Ricochet
     TimeScheme::Parameters   scheme;
     TimeLoop::Parameters     time;
     NewtonSolver::Parameters newton;
-    DirectSolver::Parameters linear_solver;
+    LinearSolver::Parameters linear_solver;
     /// "consistent" or "redistributed".
     std::string mass = "consistent";
 

@@ -2,6 +2,7 @@
 #include <base/exceptions.h>
 #include <solvers/newton.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -108,7 +109,21 @@ namespace Ricochet
           history.size() <= parameters.line_search_after &&
           norm < parameters.reuse_tangent_below *
               history[history.size() - 2].relative_residual;
-        problem.solve(residual, update, may_reuse);
+        // Iterative linear solvers need not be better than the linearisation,
+        // whose error falls as the square of the residual (Eisenstat and Walker,
+        // SIAM J. Sci. Comput. 17, 1996, choice 2).
+        double tolerance = 1e-2;
+        if (history.size() > 1)
+          {
+            const double ratio =
+              norm / history[history.size() - 2].relative_residual;
+            tolerance = std::clamp(ratio * ratio, 1e-8, 1e-2);
+            // The last iteration should not end just below the tolerance.
+            if (norm * tolerance < 100. * parameters.tolerance)
+              tolerance =
+                std::clamp(.01 * parameters.tolerance / norm, 1e-8, tolerance);
+          }
+        problem.solve(residual, update, may_reuse, tolerance);
         trial = solution;
         trial.add(-1., update);
         double     new_norm    = evaluate(trial);

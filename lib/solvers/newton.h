@@ -41,9 +41,12 @@ namespace Ricochet
       std::function<void(const Vector &solution, Vector &residual)> residual;
 
       /// Solve tangent * @p update = @p residual at the point of the last
-      /// residual(); if @p may_reuse, an older tangent of this problem will do.
-      std::function<
-        void(const Vector &residual, Vector &update, const bool may_reuse)>
+      /// residual(), iterative solvers to a relative @p tolerance; if @p
+      /// may_reuse, an older tangent of this problem will do.
+      std::function<void(const Vector &residual,
+                         Vector       &update,
+                         const bool    may_reuse,
+                         const double  tolerance)>
         solve;
 
       /// Norm of the residual with all its rows as forces (N).

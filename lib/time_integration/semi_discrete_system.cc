@@ -20,7 +20,7 @@ namespace Ricochet
     const IndexSet                 &multipliers,
     Load                            load,
     const NewtonSolver::Parameters &newton_parameters,
-    const DirectSolver::Parameters &solver_parameters)
+    const LinearSolver::Parameters &solver_parameters)
     : bulk(bulk)
     , contact(contact)
     , mass(mass)
@@ -31,7 +31,12 @@ namespace Ricochet
     , clamped_list(clamped.begin(), clamped.end())
     , load(std::move(load))
     , newton(newton_parameters)
-    , linear_solver(solver_parameters)
+    , linear_solver(solver_parameters,
+                    {contact.tangent_rows(),
+                     contact.has_symmetric_tangent(),
+                     mass.m(),
+                     static_cast<int>(Utilities::MPI::n_mpi_processes(
+                       mass.get_mpi_communicator()))})
     , work(contact.row_scaling())
     , constant_part(contact.row_scaling())
     , force(contact.row_scaling())
@@ -82,19 +87,19 @@ namespace Ricochet
                                  Vector       &acceleration)
   {
     // A key of its own: no stage has a negative weight of the bulk force.
-    const DirectSolver::Key key{1., -1., 0., 0};
-    linear_solver.solve(
-      key,
-      [&](Matrix &matrix) {
-        matrix.copy_from(invertible_mass);
-        matrix.clear_rows(clamped_list, 1.);
-        // Multipliers have no mass; give them an equation.
-        for (const auto i : multipliers)
-          matrix.set(i, i, 1.);
-        matrix.compress(VectorOperation::insert);
-      },
-      right_hand_side,
-      acceleration);
+    LinearSolver::Tangent tangent;
+    tangent.body          = LinearSolver::BodyKey{1., -1., 0.};
+    tangent.contact       = 0;
+    tangent.assemble_body = [&](Matrix &matrix) {
+      matrix.copy_from(invertible_mass);
+      matrix.clear_rows(clamped_list, 1.);
+      // Multipliers have no mass; give them an equation.
+      for (const auto i : multipliers)
+        matrix.set(i, i, 1.);
+      matrix.compress(VectorOperation::insert);
+    };
+    tangent.complete_open_contact = [](Matrix &) {};
+    linear_solver.solve(tangent, right_hand_side, acceleration, false, 1e-14);
   }
 
 
@@ -192,39 +197,45 @@ namespace Ricochet
     unsigned int n_iterations = 0;
     const auto   solve        = [&](const Vector &right_hand_side,
                            Vector       &update,
-                           const bool    may_reuse) {
+                           const bool    may_reuse,
+                           const double  tolerance) {
       ++n_iterations;
-      std::optional<DirectSolver::Key> key;
-      const auto signature = bulk.is_linear() ? contact.tangent_signature()
-                                                       : std::optional<std::uint64_t>();
-      if (signature)
-        key = DirectSolver::Key{stage.inertia,
-                                bulk_weight,
-                                stage.contact_weight_new,
-                                *signature};
+      LinearSolver::Tangent tangent;
+      if (bulk.is_linear())
+        {
+          tangent.body    = LinearSolver::BodyKey{stage.inertia,
+                                               bulk_weight,
+                                               stage.contact_weight_new};
+          tangent.contact = contact.tangent_signature();
+        }
+      tangent.assemble_body = [&](Matrix &matrix) {
+        const Stopwatch stopwatch(tangent_seconds);
+        matrix.copy_from(mass);
+        matrix *= stage.inertia;
+        if (stage.bulk_step_force)
+          bulk.add_step_tangent(old_state.solution,
+                                solution,
+                                stage.time_step,
+                                matrix);
+        else
+          bulk.add_tangent(bulk_weight, solution, matrix);
+      };
+      tangent.complete_contact = [&](Matrix &matrix) {
+        const Stopwatch stopwatch(tangent_seconds);
+        contact.complete_tangent(matrix);
+        matrix.clear_rows(clamped_list, 1.);
+      };
+      tangent.complete_open_contact = [&](Matrix &matrix) {
+        contact.complete_open_tangent(matrix);
+        matrix.clear_rows(clamped_list, 1.);
+      };
+      const bool          has_name   = tangent.body && tangent.contact;
       const std::uint64_t active_set = contact.active_set_signature();
-      const bool reuse = may_reuse && !key && factored_active_set == active_set;
-      if (!key)
+      const bool          reuse =
+        may_reuse && !has_name && factored_active_set == active_set;
+      if (!has_name)
         factored_active_set = active_set;
-      linear_solver.solve(
-        key,
-        [&](Matrix &tangent) {
-          const Stopwatch stopwatch(tangent_seconds);
-          tangent.copy_from(mass);
-          tangent *= stage.inertia;
-          if (stage.bulk_step_force)
-            bulk.add_step_tangent(old_state.solution,
-                                  solution,
-                                  stage.time_step,
-                                  tangent);
-          else
-            bulk.add_tangent(bulk_weight, solution, tangent);
-          contact.complete_tangent(tangent);
-          tangent.clear_rows(clamped_list, 1.);
-        },
-        right_hand_side,
-        update,
-        reuse);
+      linear_solver.solve(tangent, right_hand_side, update, reuse, tolerance);
     };
 
     const auto norm = [&](const Vector &result) {

@@ -5,7 +5,7 @@
 #include <base/types.h>
 #include <contact/contact_operator.h>
 #include <discretization/bulk_operator.h>
-#include <solvers/direct_solver.h>
+#include <solvers/linear_solver.h>
 #include <solvers/newton.h>
 
 #include <functional>
@@ -100,7 +100,7 @@ namespace Ricochet
                        const dealii::IndexSet         &multipliers,
                        Load                            load,
                        const NewtonSolver::Parameters &newton_parameters,
-                       const DirectSolver::Parameters &solver_parameters);
+                       const LinearSolver::Parameters &solver_parameters);
 
     /// A state with @p displacement and @p velocity (system vectors) at time
     /// @p time, with the contact force and the acceleration M^{-1}(load - bulk
@@ -196,7 +196,7 @@ namespace Ricochet
     std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type> clamped_list;
     const Load                                                     load;
     NewtonSolver                                                   newton;
-    DirectSolver linear_solver;
+    LinearSolver linear_solver;
     double       residual_seconds = 0., tangent_seconds = 0.;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, constant_part, force;

@@ -12,6 +12,8 @@ import tempfile
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
 # The contact treatments that every one-step collocation scheme takes.
 TREATMENTS = [
     "Nitsche",
@@ -90,7 +92,8 @@ class ProgramTest(unittest.TestCase):
     def attempt(self, *args, **kwargs):
         """Run; return exit code, standard output and error."""
         result = subprocess.run(self.command(*args, **kwargs),
-                                capture_output=True, text=True, timeout=600)
+                                capture_output=True, text=True, timeout=600,
+                                cwd=ROOT)
         return result.returncode, result.stdout, result.stderr
 
     def run_program(self, program, parameters=(), folder=None, **kwargs):

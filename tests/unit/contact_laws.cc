@@ -211,27 +211,6 @@ BOOST_AUTO_TEST_CASE(improved_compliance_is_continuous)
       }
 }
 
-// Newton's method asks at which gap a law has a pressure.
-BOOST_AUTO_TEST_CASE(compliance_is_inverted)
-{
-  for (const double alpha : {2., 2.5, 3., 5.})
-    for (const double pressure : {1e-6, .3, 40.})
-      {
-        const CompliancePotential compliance{7., alpha};
-        BOOST_CHECK_CLOSE(compliance.derivative(
-                            compliance.penetration_at(pressure)),
-                          pressure,
-                          1e-10);
-        for (const double old_value : {-.3, 0., 1e-6, .02, 3.})
-          BOOST_CHECK_CLOSE(compliance.discrete_derivative(
-                              old_value,
-                              compliance.new_penetration_at(pressure,
-                                                            old_value)),
-                            pressure,
-                            1e-9);
-      }
-}
-
 // Regularised friction against automatic differentiation in stick, slip and at
 // rest; its power is never negative and its traction never above mu p.
 BOOST_AUTO_TEST_CASE(friction_tangents_are_derivatives)

@@ -13,7 +13,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
-#include <random>
 
 using namespace Ricochet;
 using dealii::VectorOperation;
@@ -30,18 +29,6 @@ namespace
           CiarletGeymonat{.5, .005, .35}),
         state),
       viscosity);
-  }
-
-  void
-  randomise(Vector &vector, const double size, const unsigned int seed)
-  {
-    for (const auto i : vector.locally_owned_elements())
-      {
-        std::mt19937 generator(7919 * seed + static_cast<unsigned int>(i));
-        vector(i) =
-          size * std::uniform_real_distribution<double>(-1., 1.)(generator);
-      }
-    vector.compress(VectorOperation::insert);
   }
 
   template <int dim>

@@ -8,6 +8,8 @@
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/grid/grid_generator.h>
 
+#include <random>
+
 /// A unit cube above the plane x_dim = -gap, with the boundary id 1 on the face
 /// that looks at the plane and 2 on the opposite one. In parallel every rank
 /// owns a part.
@@ -51,5 +53,19 @@ struct CubeAbovePlane
 
   dealii::parallel::shared::Triangulation<dim> triangulation;
 };
+
+/// Fill the owned entries with numbers that depend on the index only, so that
+/// they are the same on any number of ranks.
+inline void
+randomise(Ricochet::Vector &vector, const double size, const unsigned int seed)
+{
+  for (const auto i : vector.locally_owned_elements())
+    {
+      std::mt19937 generator(7919 * seed + static_cast<unsigned int>(i));
+      vector(i) =
+        size * std::uniform_real_distribution<double>(-1., 1.)(generator);
+    }
+  vector.compress(dealii::VectorOperation::insert);
+}
 
 #endif

@@ -34,7 +34,7 @@ namespace
         residual(i) = f(y(i));
       residual.compress(dealii::VectorOperation::insert);
     };
-    problem.solve = [&](const Vector &residual, Vector &update, bool) {
+    problem.solve = [&](const Vector &residual, Vector &update, bool, double) {
       for (const auto i : residual.locally_owned_elements())
         update(i) = residual(i) / derivative(point(i));
       update.compress(dealii::VectorOperation::insert);

@@ -14,7 +14,6 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include <random>
 #include <set>
 
 using namespace Ricochet;
@@ -23,20 +22,6 @@ using dealii::VectorOperation;
 namespace
 {
   const std::optional<LinearElastic> material = LinearElastic{1.5, 1.};
-
-  /// Fill the owned entries with numbers that depend on the index only, so that
-  /// they are the same on any number of ranks.
-  void
-  randomise(Vector &vector, const double size, const unsigned int seed)
-  {
-    for (const auto i : vector.locally_owned_elements())
-      {
-        std::mt19937 generator(7919 * seed + static_cast<unsigned int>(i));
-        vector(i) =
-          size * std::uniform_real_distribution<double>(-1., 1.)(generator);
-      }
-    vector.compress(VectorOperation::insert);
-  }
 
   template <int dim>
   void

@@ -101,48 +101,6 @@ namespace Ricochet
         (new_value - old_value);
     }
 
-    /// The penetration at which derivative() is @p pressure > 0.
-    double
-    penetration_at(const double pressure) const
-    {
-      return std::pow(2. * pressure / (coefficient * exponent),
-                      1. / (exponent - 1.));
-    }
-
-    /// The new penetration at which discrete_derivative() from @p old_value is
-    /// @p pressure > 0: in closed form for a point that leaves, else by
-    /// bisection with Newton's steps.
-    double
-    new_penetration_at(const double pressure, const double old_value) const
-    {
-      double low = 0.;
-      if (old_value > 0.)
-        {
-          const double power = .5 * coefficient * std::pow(old_value, exponent);
-          if (pressure * old_value <= power)
-            return old_value - power / pressure;
-        }
-      double high = std::max(old_value, 0.) + penetration_at(pressure);
-      while (discrete_derivative(old_value, high) < pressure)
-        {
-          low = high;
-          high *= 2.;
-        }
-      double value = .5 * (low + high);
-      for (unsigned int k = 0; k < 200 && high - low > 1e-15 * high; ++k)
-        {
-          const double excess =
-            discrete_derivative(old_value, value) - pressure;
-          (excess > 0. ? high : low) = value;
-          const double next =
-            value - excess / discrete_derivative_tangent(old_value, value);
-          if (std::abs(next - value) <= 1e-15 * value)
-            break;
-          value = next > low && next < high ? next : .5 * (low + high);
-        }
-      return value;
-    }
-
   private:
     /// Both penetrate, and the relative difference is so small that the series
     /// of fourth order is better than the quotient.
@@ -174,7 +132,6 @@ namespace Ricochet
       traits.nodal            = true;
       traits.takes_friction   = true;
       traits.piecewise_linear = false;
-      traits.is_invertible    = true;
       return traits;
     }
 
@@ -219,13 +176,6 @@ namespace Ricochet
              const double /*cell_diameter*/) const
     {
       return compliance.derivative(-state.gap);
-    }
-
-    double
-    gap_at_pressure(const double pressure,
-                    const ContactPointState<> & /*old_state*/) const
-    {
-      return -compliance.penetration_at(pressure);
     }
   };
 
@@ -275,13 +225,6 @@ namespace Ricochet
            const double /*cell_diameter*/) const
     {
       return state.gap + old_state.gap < 0.;
-    }
-
-    double
-    gap_at_pressure(const double               pressure,
-                    const ContactPointState<> &old_state) const
-    {
-      return -2. * compliance.penetration_at(pressure) - old_state.gap;
     }
   };
 
@@ -338,13 +281,6 @@ namespace Ricochet
            const double /*cell_diameter*/) const
     {
       return state.gap < 0. || old_state.gap < 0.;
-    }
-
-    double
-    gap_at_pressure(const double               pressure,
-                    const ContactPointState<> &old_state) const
-    {
-      return -compliance.new_penetration_at(pressure, -old_state.gap);
     }
   };
 

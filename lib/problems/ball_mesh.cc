@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <problems/ball_mesh.h>
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_in.h>
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    void
+    mark_halves(const double center_height, Triangulation<3> &triangulation)
+    {
+      for (const auto &cell : triangulation.active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary())
+            face->set_boundary_id(face->center()[2] < center_height
+                                    ? BallBoundary::lower_half
+                                    : BallBoundary::upper_half);
+    }
+  } // namespace
+
+
+
+  void
+  read_ball(const std::string &file_name, Triangulation<3> &triangulation)
+  {
+    std::ifstream file(file_name);
+    if (!file || std::filesystem::is_directory(file_name))
+      throw InputError("The mesh file '" + file_name + "' cannot be read.");
+    try
+      {
+        GridIn<3> reader(triangulation);
+        reader.read_msh(file);
+      }
+    catch (const std::exception &exception)
+      {
+        throw InputError("The file '" + file_name +
+                         "' is not a mesh in three dimensions that deal.II can "
+                         "read (Gmsh's format 2.2 or 4.1, ASCII):\n" +
+                         exception.what());
+      }
+    const auto ids = triangulation.get_boundary_ids();
+    if (std::find(ids.begin(), ids.end(), BallBoundary::lower_half) ==
+        ids.end())
+      throw InputError("The mesh '" + file_name +
+                       "' has no physical surface 1, which must be the part of "
+                       "the boundary that can touch the foundation.");
+  }
+
+
+
+  void
+  make_ball_of_tetrahedra(const Point<3>   &center,
+                          const double      radius,
+                          const double      mesh_size,
+                          Triangulation<3> &triangulation)
+  {
+    std::vector<Point<3>>               points;
+    std::vector<CellData<3>>            cells;
+    std::map<std::size_t, unsigned int> number;
+    try
+      {
+        // Gmsh keeps quiet, and its random numbers begin the same each time.
+        gmsh::initialize();
+        gmsh::option::setNumber("General.Terminal", 0);
+        gmsh::option::setNumber("General.NumThreads", 1);
+        gmsh::option::setNumber("Mesh.MeshSizeMin", mesh_size);
+        gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
+        gmsh::model::add("ball");
+        gmsh::model::occ::addSphere(center[0], center[1], center[2], radius);
+        gmsh::model::occ::synchronize();
+        gmsh::model::mesh::generate(3);
+
+        std::vector<std::size_t> tags;
+        std::vector<double>      coordinates, parametric;
+        gmsh::model::mesh::getNodes(tags, coordinates, parametric);
+        std::map<std::size_t, std::size_t> place;
+        for (std::size_t k = 0; k < tags.size(); ++k)
+          place[tags[k]] = k;
+
+        constexpr int            tetrahedron = 4;
+        std::vector<std::size_t> elements, nodes;
+        gmsh::model::mesh::getElementsByType(tetrahedron, elements, nodes);
+        for (std::size_t e = 0; e < elements.size(); ++e)
+          {
+            CellData<3> cell(4);
+            for (unsigned int v = 0; v < 4; ++v)
+              {
+                // Nodes that no tetrahedron has stay out.
+                const auto [entry, is_new] =
+                  number.emplace(nodes[4 * e + v], points.size());
+                if (is_new)
+                  {
+                    const std::size_t k = 3 * place.at(entry->first);
+                    points.emplace_back(coordinates[k],
+                                        coordinates[k + 1],
+                                        coordinates[k + 2]);
+                  }
+                cell.vertices[v] = entry->second;
+              }
+            cells.push_back(cell);
+          }
+        gmsh::finalize();
+      }
+    catch (const std::exception &exception)
+      {
+        throw InputError(std::string("Gmsh cannot make the mesh: ") +
+                         exception.what());
+      }
+    catch (const std::string &message)
+      {
+        throw InputError("Gmsh cannot make the mesh: " + message);
+      }
+    triangulation.create_triangulation(points, cells, SubCellData());
+    mark_halves(center[2], triangulation);
+  }
+
+
+
+  void
+  make_ball_of_hexahedra(const Point<3>   &center,
+                         const double      radius,
+                         const double      mesh_size,
+                         Triangulation<3> &triangulation)
+  {
+    GridGenerator::hyper_ball_balanced(triangulation, center, radius);
+    const auto longest_edge = [&]() {
+      double length = 0.;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary())
+            for (const unsigned int line : face->line_indices())
+              length = std::max(length,
+                                face->line(line)->vertex(0).distance(
+                                  face->line(line)->vertex(1)));
+      return length;
+    };
+    while (longest_edge() > mesh_size)
+      triangulation.refine_global();
+    mark_halves(center[2], triangulation);
+  }
+} // namespace Ricochet

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_problems_ball_mesh_h
+#define ricochet_problems_ball_mesh_h
+
+#include <deal.II/grid/tria.h>
+
+#include <string>
+
+namespace Ricochet
+{
+  /// Boundary ids of balls: the lower half of the surface can touch something.
+  namespace BallBoundary
+  {
+    constexpr dealii::types::boundary_id lower_half = 1;
+    constexpr dealii::types::boundary_id upper_half = 2;
+  } // namespace BallBoundary
+
+  /**
+   * Read a mesh of tetrahedra or hexahedra from a file of Gmsh. Its physical
+   * surface 1 must be the lower half of the boundary.
+   *
+   * @throws InputError naming the file, when it cannot be read, is not a mesh in
+   * three dimensions, or has no boundary 1.
+   */
+  void
+  read_ball(const std::string        &file_name,
+            dealii::Triangulation<3> &triangulation);
+
+  /**
+   * Tetrahedra of a ball by Gmsh's API, with elements of about @p mesh_size (m).
+   *
+   * @throws InputError when Gmsh fails.
+   */
+  void
+  make_ball_of_tetrahedra(const dealii::Point<3>   &center,
+                          const double              radius,
+                          const double              mesh_size,
+                          dealii::Triangulation<3> &triangulation);
+
+  /// Hexahedra of a ball, refined until their edges on the surface are at most
+  /// @p mesh_size (m).
+  void
+  make_ball_of_hexahedra(const dealii::Point<3>   &center,
+                         const double              radius,
+                         const double              mesh_size,
+                         dealii::Triangulation<3> &triangulation);
+} // namespace Ricochet
+
+#endif

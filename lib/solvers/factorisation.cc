@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <solvers/factorisation.h>
+
+#include <Amesos.h>
+#include <Eigen/CholmodSupport>
+#include <Epetra_LinearProblem.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    class LUFactorisation : public Factorisation
+    {
+    public:
+      explicit LUFactorisation(const std::string &package)
+        : package(package)
+      {}
+
+      bool
+      factorise(const Matrix &matrix, const bool keep_pivots) override
+      {
+        int error = 0;
+        if (!solver || factored != &matrix)
+          {
+            factored = &matrix;
+            problem  = std::make_unique<Epetra_LinearProblem>();
+            problem->SetOperator(
+              const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
+            const std::string name = "Amesos_" + package;
+            solver.reset(Amesos().Create(name, *problem));
+            AssertThrow(solver,
+                        ExcMessage("Trilinos was built without " + name));
+            error = solver->SymbolicFactorization();
+          }
+        else if (package == "Mumps" && !keep_pivots)
+          // MUMPS looks at the values already when it orders the unknowns.
+          error = solver->SymbolicFactorization();
+        // KLU looks at its pivots and chooses others when they are no longer
+        // good.
+        Teuchos::ParameterList list;
+        list.set("Refactorize", keep_pivots);
+        solver->SetParameters(list);
+        if (error == 0)
+          error = solver->NumericFactorization();
+        if (error != 0)
+          solver.reset();
+        return error == 0;
+      }
+
+      void
+      solve(const Vector &right_hand_side, Vector &solution) override
+      {
+        problem->SetLHS(&solution.trilinos_vector());
+        problem->SetRHS(const_cast<Epetra_MultiVector *>(
+          static_cast<const Epetra_MultiVector *>(
+            &right_hand_side.trilinos_vector())));
+        if (solver->Solve() != 0)
+          throw NewtonFailure("The linear system cannot be solved.");
+      }
+
+      using Factorisation::solve;
+
+    private:
+      const std::string                     package;
+      const Matrix                         *factored = nullptr;
+      std::unique_ptr<Epetra_LinearProblem> problem;
+      std::unique_ptr<Amesos_BaseSolver>    solver;
+    };
+
+
+
+    /// A matrix is S + C, with S symmetric and C the couplings of one side.
+    /// With C = 0 in the unknowns that it leads to, (S + C) x = f is solved by
+    /// x = S^{-1} (f - C S^{-1} f).
+    class CholeskyFactorisation : public Factorisation
+    {
+    public:
+      explicit CholeskyFactorisation(const bool approximate)
+        : approximate(approximate)
+      {}
+
+      bool
+      factorise(const Matrix &matrix, const bool /*keep_pivots*/) override
+      {
+        int    *row_start = nullptr, *columns = nullptr;
+        double *values = nullptr;
+        if (matrix.trilinos_matrix().ExtractCrsDataPointers(row_start,
+                                                            columns,
+                                                            values) != 0)
+          throw ComputationError("The matrix is not stored in one piece.");
+        if (symmetric.rows() == 0)
+          find_pattern(matrix, row_start, columns);
+
+        // Rows of multipliers may be negative definite.
+        const int n = symmetric.rows();
+        for (int i = 0; i < n; ++i)
+          sign[i] = values[diagonal[i]] < 0. ? -1. : 1.;
+        one_sided.clear();
+        double *entry        = symmetric.valuePtr();
+        bool    is_symmetric = true;
+        for (std::size_t k = 0; k < places.size(); ++k)
+          {
+            const Place &place = places[k];
+            const double below = sign[place.row] * values[place.below];
+            const double above = sign[place.column] * values[place.above];
+            entry[k]           = .5 * (below + above);
+            // Round-off is no asymmetry.
+            if (std::abs(below - above) <= 1e-10 *
+                  std::sqrt(std::abs(values[diagonal[place.row]] *
+                                     values[diagonal[place.column]])))
+              continue;
+            if (below != 0. && above != 0.)
+              {
+                is_symmetric = false;
+                continue;
+              }
+            entry[k] = 0.;
+            one_sided.push_back(above == 0.
+                                  ? Coupling{place.row, place.column, below}
+                                  : Coupling{place.column, place.row, above});
+          }
+        if (!approximate && !is_symmetric)
+          return false;
+        if (!has_own_equations())
+          {
+            if (!approximate)
+              return false;
+            for (std::size_t k = 0; k < places.size(); ++k)
+              entry[k] = .5 *
+                (sign[places[k].row] * values[places[k].below] +
+                 sign[places[k].column] * values[places[k].above]);
+            one_sided.clear();
+          }
+        cholesky.factorize(symmetric);
+        return cholesky.info() == Eigen::Success;
+      }
+
+      void
+      solve(const Vector &right_hand_side, Vector &solution) override
+      {
+        const int n = symmetric.rows();
+        right       = sign.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(
+          right_hand_side.trilinos_vector()[0],
+          n));
+        Eigen::Map<Eigen::VectorXd> result(solution.trilinos_vector()[0], n);
+        result          = cholesky.solve(right);
+        bool is_coupled = false;
+        for (const Coupling &coupling : one_sided)
+          if (result[coupling.column] != 0.)
+            {
+              right[coupling.row] -= coupling.value * result[coupling.column];
+              is_coupled = true;
+            }
+        if (is_coupled)
+          result = cholesky.solve(right);
+      }
+
+      void
+      solve(const std::vector<Vector> &right_hand_sides,
+            std::vector<Vector>       &solutions) override
+      {
+        const int n = symmetric.rows(), n_columns = right_hand_sides.size();
+        Eigen::MatrixXd from(n, n_columns);
+        for (int c = 0; c < n_columns; ++c)
+          from.col(c) = sign.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(
+            right_hand_sides[c].trilinos_vector()[0],
+            n));
+        Eigen::MatrixXd to = cholesky.solve(from);
+        // Again for the columns that have couplings of one side.
+        std::vector<int> coupled;
+        for (int c = 0; c < n_columns; ++c)
+          {
+            bool is_coupled = false;
+            for (const Coupling &coupling : one_sided)
+              if (to(coupling.column, c) != 0.)
+                {
+                  from(coupling.row, c) -=
+                    coupling.value * to(coupling.column, c);
+                  is_coupled = true;
+                }
+            if (is_coupled)
+              coupled.push_back(c);
+          }
+        if (!coupled.empty())
+          {
+            Eigen::MatrixXd again(n, coupled.size());
+            for (unsigned int k = 0; k < coupled.size(); ++k)
+              again.col(k) = from.col(coupled[k]);
+            again = cholesky.solve(again).eval();
+            for (unsigned int k = 0; k < coupled.size(); ++k)
+              to.col(coupled[k]) = again.col(k);
+          }
+        for (int c = 0; c < n_columns; ++c)
+          Eigen::Map<Eigen::VectorXd>(solutions[c].trilinos_vector()[0], n) =
+            to.col(c);
+      }
+
+    private:
+      /// Where an entry of the lower triangle and its mirror image are among
+      /// the values of the matrix.
+      struct Place
+      {
+        int row, column, below, above;
+      };
+
+      struct Coupling
+      {
+        int    row, column;
+        double value;
+      };
+
+      void
+      find_pattern(const Matrix &matrix,
+                   const int    *row_start,
+                   const int    *columns)
+      {
+        using EpetraIndex  = TrilinosWrappers::types::int_type;
+        const auto &epetra = matrix.trilinos_matrix();
+        AssertThrow(epetra.Comm().NumProc() == 1,
+                    ExcMessage("CHOLMOD works on one rank."));
+        const int n = epetra.NumMyRows();
+        // Columns have an order of their own, even on one rank. Places are
+        // counted from one, since zero is no entry.
+        std::vector<Eigen::Triplet<long>> entries;
+        for (int i = 0; i < n; ++i)
+          for (int k = row_start[i]; k < row_start[i + 1]; ++k)
+            entries.emplace_back(i,
+                                 epetra.LRID(static_cast<EpetraIndex>(
+                                   epetra.GCID64(columns[k]))),
+                                 k + 1);
+        Eigen::SparseMatrix<long> place(n, n);
+        place.setFromTriplets(entries.begin(), entries.end());
+        const Eigen::SparseMatrix<long> mirror = place.transpose();
+
+        std::vector<Eigen::Triplet<double>> pattern;
+        diagonal.resize(n);
+        for (int j = 0; j < n; ++j)
+          {
+            Eigen::SparseMatrix<long>::InnerIterator below(place, j);
+            Eigen::SparseMatrix<long>::InnerIterator above(mirror, j);
+            for (; below; ++below, ++above)
+              {
+                AssertThrow(above && above.row() == below.row(),
+                            ExcMessage("The pattern is not symmetric."));
+                const int i = below.row();
+                if (i < j)
+                  continue;
+                if (i == j)
+                  diagonal[i] = below.value() - 1;
+                pattern.emplace_back(i, j, 1.);
+                places.push_back({i,
+                                  j,
+                                  static_cast<int>(below.value() - 1),
+                                  static_cast<int>(above.value() - 1)});
+              }
+          }
+        symmetric.resize(n, n);
+        symmetric.setFromTriplets(pattern.begin(), pattern.end());
+        sign.resize(n);
+        // From so many operations per entry of the factor on, the supernodal
+        // factorisation is faster: never in the plane, always in 3D.
+        cholesky.cholmod().supernodal_switch = 200.;
+        cholesky.analyzePattern(symmetric);
+      }
+
+      /// Whether the unknowns from which couplings of one side lead are not
+      /// coupled to others in any other way.
+      bool
+      has_own_equations()
+      {
+        if (one_sided.empty())
+          return true;
+        std::vector<bool> leads(symmetric.rows(), false);
+        for (const Coupling &coupling : one_sided)
+          leads[coupling.column] = true;
+        for (const Coupling &coupling : one_sided)
+          if (leads[coupling.row])
+            return false;
+        const double *entry = symmetric.valuePtr();
+        for (std::size_t k = 0; k < places.size(); ++k)
+          if (entry[k] != 0. && leads[places[k].row] != leads[places[k].column])
+            return false;
+        return true;
+      }
+
+      const bool                  approximate;
+      Eigen::SparseMatrix<double> symmetric;
+      std::vector<Place>          places;
+      std::vector<int>            diagonal;
+      std::vector<Coupling>       one_sided;
+      Eigen::VectorXd             sign, right;
+      Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower>
+        cholesky;
+    };
+  } // namespace
+
+
+
+  void
+  Factorisation::solve(const std::vector<Vector> &right_hand_sides,
+                       std::vector<Vector>       &solutions)
+  {
+    for (unsigned int c = 0; c < right_hand_sides.size(); ++c)
+      solve(right_hand_sides[c], solutions[c]);
+  }
+
+
+
+  std::unique_ptr<Factorisation>
+  make_lu_factorisation(const std::string &package)
+  {
+    return std::make_unique<LUFactorisation>(package == "KLU" ? "Klu"
+                                                              : "Mumps");
+  }
+
+
+
+  std::unique_ptr<Factorisation>
+  make_cholesky_factorisation(const bool approximate)
+  {
+    return std::make_unique<CholeskyFactorisation>(approximate);
+  }
+} // namespace Ricochet

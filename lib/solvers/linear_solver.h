@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_linear_solver_h
+#define ricochet_solvers_linear_solver_h
+
+#include <base/types.h>
+#include <solvers/corrected_factorisation.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * Solves with the tangents of Newton's method, and keeps what it can.
+   *
+   * "direct" factors a tangent for each state of contact and keeps the last
+   * few; with nonlinear materials and laws it factors each tangent.
+   *
+   * "corrected" keeps one factorisation of the body and treats contact as a
+   * correction in a few rows: for a linear body one factorisation per length of
+   * the time step. With a nonlinear material the symmetric part of each new
+   * tangent is factored, which costs less than half of a factorisation with
+   * pivots, and GMRES does the rest.
+   */
+  class LinearSolver
+  {
+  public:
+    struct Parameters
+    {
+      /// "automatic", "direct" or "corrected".
+      std::string type = "automatic";
+      /// "automatic", "CHOLMOD", "KLU" or "MUMPS".
+      std::string  factorisation = "automatic";
+      unsigned int n_kept        = 8;
+
+      void
+      add_parameters(dealii::ParameterHandler &parameters);
+    };
+
+    /// What is constant in all tangents of a run.
+    struct Structure
+    {
+      /// Rows that contact may change, as CorrectedFactorisation wants them.
+      std::vector<dealii::types::global_dof_index> contact_rows;
+      /// What contact adds is symmetric, or nearly so, and may be factored
+      /// together with the body.
+      bool symmetric_contact = false;
+      /// Number of unknowns on all ranks.
+      std::size_t n_unknowns = 0;
+      int         n_ranks    = 1;
+    };
+
+    /// What names the body's part of a tangent.
+    struct BodyKey
+    {
+      double inertia;
+      double bulk_weight;
+      double contact_weight;
+
+      bool
+      operator==(const BodyKey &other) const
+      {
+        return inertia == other.inertia && bulk_weight == other.bulk_weight &&
+          contact_weight == other.contact_weight;
+      }
+    };
+
+    /// A tangent: how it is made, and the names of what does not change with
+    /// every state.
+    struct Tangent
+    {
+      /// None if the body is not linear.
+      std::optional<BodyKey> body;
+      /// State of contact; none if the tangent changes with every state.
+      std::optional<std::uint64_t> contact;
+
+      /// Overwrite a matrix with the body's part.
+      std::function<void(Matrix &)> assemble_body;
+      /// Add contact.
+      std::function<void(Matrix &)> complete_contact;
+      /// Add what contact adds when all points are open.
+      std::function<void(Matrix &)> complete_open_contact;
+    };
+
+    LinearSolver(const Parameters &parameters, Structure structure);
+
+    ~LinearSolver();
+
+    /**
+     * Solve @p tangent * @p solution = @p right_hand_side.
+     *
+     * @param may_reuse the last tangent without a name will do, if there is one.
+     * @param tolerance of the residual, relative to @p right_hand_side, where
+     * the solution is iterative.
+     * @throws NewtonFailure when the matrix cannot be factored.
+     */
+    void
+    solve(const Tangent &tangent,
+          const Vector  &right_hand_side,
+          Vector        &solution,
+          const bool     may_reuse,
+          const double   tolerance);
+
+    /// Between two calls pivots are kept, which is faster; after one, results do
+    /// not depend on what came before, so that a resumed run repeats them digit
+    /// for digit.
+    void
+    begin_stage()
+    {
+      new_pivots = true;
+    }
+
+    /// Number of factorisations made so far.
+    unsigned int
+    n_factorisations() const
+    {
+      return factorisation_count;
+    }
+
+    /// Time spent in factoring and in solving for columns of corrections (s).
+    double
+    factorisation_seconds() const
+    {
+      return factorising;
+    }
+
+    /// Time spent in solving with factorisations (s).
+    double
+    back_substitution_seconds() const
+    {
+      return substituting;
+    }
+
+    /// What is used, in words: "corrected CHOLMOD".
+    std::string
+    description(const bool linear_body) const;
+
+  private:
+    struct Direct;
+    struct Corrected;
+
+    /// "direct" or "corrected".
+    std::string
+    chosen_type(const bool linear_body) const;
+
+    std::string
+    chosen_factorisation(const bool symmetric) const;
+
+    /// @param approximate the symmetric part of the matrix will do.
+    std::unique_ptr<Factorisation>
+    make_factorisation(const bool symmetric,
+                       const bool approximate = false) const;
+
+    void
+    solve_direct(const Tangent &tangent,
+                 const Vector  &right_hand_side,
+                 Vector        &solution,
+                 const bool     may_reuse);
+
+    void
+    solve_corrected(const Tangent &tangent,
+                    const Vector  &right_hand_side,
+                    Vector        &solution);
+
+    /// @return whether it converged.
+    bool
+    solve_iteratively(const Tangent &tangent,
+                      const Vector  &right_hand_side,
+                      Vector        &solution,
+                      const bool     may_reuse,
+                      const double   tolerance);
+
+    const Parameters           parameters;
+    const Structure            structure;
+    std::list<Direct>          kept_direct;
+    std::list<Corrected>       kept_corrected;
+    std::unique_ptr<Direct>    changing_direct;
+    std::unique_ptr<Corrected> changing_corrected;
+    bool                       new_pivots          = true;
+    unsigned int               factorisation_count = 0;
+    double                     factorising = 0., substituting = 0.;
+  };
+} // namespace Ricochet
+
+#endif

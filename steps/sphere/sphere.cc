@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// # The sphere
+//
+// An elastic ball of diameter 40 falls from a height of 2 on a rigid foundation,
+// the half space below x_3 = 0:
+//
+//     rho u_tt - div sigma(u) = rho g             in the ball,
+//     gap >= 0, p >= 0, p gap = 0                 on the lower half, with
+//     gap = x_3 + u_3, p the contact pressure,
+//     u = 0, u_t = 0                              at t = 0,
+//
+// with linear elasticity and g = (0, 0, -0.1). All numbers are without unit, as in
+// paper C, section 4.3, of which this is the benchmark in three dimensions.
+//
+// The soft sphere (lambda = mu = 20) is squashed to some two thirds of its height
+// and takes twenty units of time for its first bounce. The hard one (lambda = mu =
+// 30000, hard.prm) touches a spot of a few elements for one unit of time.
+//
+// Gravity makes a load, and what a scheme should keep is the energy (modified by
+// Nitsche's terms) less the work of the load: the columns `modified_energy` and
+// `external_work` of energy.csv.
+//
+// The body is linear, so that the matrix of its equation of motion is the same in
+// all steps: it is factored once, and contact is a correction in a few rows (see
+// lib/solvers/corrected_factorisation.h).
+//
+// Run it as
+//
+//     sphere parameter_files/sphere/default.prm
+//     sphere parameter_files/sphere/hard.prm --set "Time/Scheme=TR-BDF2"
+//     mpirun -n 2 sphere parameter_files/sphere/default.prm
+//     sphere --help
+
+#include <base/program.h>
+#include <output/node_probe.h>
+#include <output/vtu_series.h>
+#include <problems/ball_mesh.h>
+#include <problems/impact.h>
+
+#include <deal.II/base/function_signed_distance.h>
+#include <deal.II/distributed/shared_tria.h>
+
+using namespace dealii;
+using namespace Ricochet;
+
+class Sphere
+{
+public:
+  Sphere();
+
+  void
+  add_parameters(ParameterHandler &prm);
+
+  void
+  validate() const;
+
+  void
+  run(RunFolder &folder);
+
+private:
+  void
+  make_grid(Triangulation<3> &triangulation) const;
+
+  static constexpr double radius      = 20.;
+  static constexpr double initial_gap = 2.;
+
+  ImpactParameters impact;
+  std::string      mesh_file;
+  std::string      cell_shape = "tetrahedra";
+  double           mesh_size  = 4.;
+  unsigned int     degree     = 2;
+  double           lambda = 20., mu = 20., density = 1.;
+  Tensor<1, 3>     gravity, initial_velocity;
+};
+
+
+
+// ### Data
+//
+// The soft sphere with Nitsche's method and Crank-Nicolson.
+Sphere::Sphere()
+  : gravity({0., 0., -.1})
+{
+  impact.time.final_time       = 60.;
+  impact.time.time_step        = .25;
+  impact.time.fields_every     = 4;
+  impact.scheme.name           = "Crank-Nicolson";
+  impact.contact.treatment     = "Nitsche";
+  impact.contact.nitsche_theta = 1.;
+  // 100 mu, as the paper has it; the penalty parameter is its inverse.
+  impact.contact.nitsche_gamma_0        = 2000.;
+  impact.contact.augmentation           = 2000.;
+  impact.contact.penalty_epsilon_0      = 5e-4;
+  impact.contact.compliance_coefficient = 2000.;
+  impact.contact.tangential_compliance  = 2000.;
+}
+
+
+
+void
+Sphere::add_parameters(ParameterHandler &prm)
+{
+  impact.add_parameters(prm);
+  prm.enter_subsection("Mesh");
+  prm.add_parameter(
+    "File",
+    mesh_file,
+    "Mesh file of Gmsh (format 2.2 or 4.1, ASCII) whose physical "
+    "surface 1 is what can touch the foundation; empty to make a "
+    "mesh.");
+  prm.add_parameter("Cells",
+                    cell_shape,
+                    "Shape of the cells, when no file is given.",
+                    Patterns::Selection("tetrahedra|hexahedra"));
+  prm.add_parameter("Mesh size",
+                    mesh_size,
+                    "Length of an element, when no file is given.",
+                    Patterns::Double(.1, 20.));
+  prm.add_parameter("Degree",
+                    degree,
+                    "Polynomial degree of the displacement.",
+                    Patterns::Integer(1, 2));
+  prm.leave_subsection();
+  prm.enter_subsection("Material");
+  prm.add_parameter("Lame lambda",
+                    lambda,
+                    "First Lamé parameter (Pa).",
+                    Patterns::Double(0.));
+  prm.add_parameter("Lame mu",
+                    mu,
+                    "Shear modulus (Pa).",
+                    Patterns::Double(1e-30));
+  prm.add_parameter("Density",
+                    density,
+                    "Mass density (kg/m^3).",
+                    Patterns::Double(1e-30));
+  prm.leave_subsection();
+  prm.enter_subsection("Start");
+  prm.add_parameter("Gravity", gravity, "Acceleration of gravity (m/s^2).");
+  prm.add_parameter("Initial velocity",
+                    initial_velocity,
+                    "Velocity of the whole body at the start (m/s).");
+  prm.leave_subsection();
+}
+
+
+
+void
+Sphere::validate() const
+{
+  impact.validate();
+  if (!mesh_file.empty())
+    {
+      // Reading the mesh is the check of its file.
+      Triangulation<3> triangulation;
+      make_grid(triangulation);
+    }
+}
+
+
+
+// ### Mesh
+void
+Sphere::make_grid(Triangulation<3> &triangulation) const
+{
+  const Point<3> center(0., 0., radius + initial_gap);
+  if (!mesh_file.empty())
+    read_ball(mesh_file, triangulation);
+  else if (cell_shape == "tetrahedra")
+    make_ball_of_tetrahedra(center, radius, mesh_size, triangulation);
+  else
+    make_ball_of_hexahedra(center, radius, mesh_size, triangulation);
+}
+
+
+
+// ### The run
+void
+Sphere::run(RunFolder &folder)
+{
+  parallel::shared::Triangulation<3> triangulation(folder.communicator);
+  make_grid(triangulation);
+
+  // Gravity is a constant load: the mass matrix times the acceleration. It is
+  // assembled when the load is asked for the first time, at the initial state.
+  const Material<3>  material(LinearElastic{lambda, mu});
+  Ricochet::Vector   weight;
+  const Obstacles<3> foundation = {
+    {BallBoundary::lower_half,
+     std::make_shared<Functions::SignedDistance::Plane<3>>(Point<3>(),
+                                                           Tensor<1, 3>(
+                                                             {0., 0., 1.}))}};
+  Impact<3> sphere(
+    impact,
+    triangulation,
+    degree,
+    material,
+    density,
+    /* clamped */ {},
+    foundation,
+    [&](const double /*time*/, Ricochet::Vector &load) { load = weight; },
+    folder.communicator);
+  const auto uniform = [&](const Tensor<1, 3> &value) {
+    Ricochet::Vector vector;
+    sphere.body.interpolate(
+      Functions::ConstantFunction<3>(
+        std::vector<double>{value[0], value[1], value[2]}),
+      vector);
+    return vector;
+  };
+  weight.reinit(sphere.body.owned_indices(), folder.communicator);
+  sphere.consistent_mass.vmult(weight, uniform(gravity));
+
+  folder.log(std::to_string(triangulation.n_global_active_cells()) +
+             " cells, " + std::to_string(sphere.body.owned_indices().size()) +
+             " unknowns, " + impact.contact.treatment + ", " +
+             impact.scheme.name + ", " + impact.mass + " mass");
+
+  // It starts undeformed.
+  const State initial_state =
+    sphere.system.initial_state(uniform(Tensor<1, 3>()),
+                                uniform(initial_velocity),
+                                /* time */ 0.);
+
+  // The time loop writes energies and contact; the lowest point shows how the
+  // sphere vibrates.
+  TimeLoop           loop(impact.time,
+                folder,
+                sphere.system,
+                *sphere.scheme,
+                {{BallBoundary::lower_half, "foundation"}});
+  const NodeProbe<3> lowest(sphere.body, Point<3>(0., 0., initial_gap));
+  loop.add_column("lowest_displacement", "m", [&](const State &state) {
+    return lowest.value(state.solution, 2);
+  });
+  loop.add_column("lowest_velocity", "m/s", [&](const State &state) {
+    return lowest.value(state.velocity, 2);
+  });
+
+  VtuSeries<3> fields(sphere.body, material, folder);
+  loop.write_fields = [&](const State &state, const unsigned int step) {
+    fields.write(state, step);
+  };
+
+  loop.run(initial_state);
+}
+
+
+
+int
+main(int argc, char **argv)
+{
+  Sphere program;
+  return run_program(argc,
+                     argv,
+                     {"sphere",
+                      "An elastic sphere falls on a rigid foundation (paper C, "
+                      "section 4.3).",
+                      [&](ParameterHandler &prm) {
+                        program.add_parameters(prm);
+                      },
+                      [&]() { program.validate(); },
+                      [&](RunFolder &folder) { program.run(folder); }});
+}

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The sphere in three dimensions, on meshes that are much too coarse for its
+waves but not for its identities.
+
+The instant of the first contact is that of a free fall: 2 = 0.1/2 t^2.
+"""
+
+import math
+import re
+
+from common import *
+
+COARSE = ["Mesh/Mesh size=14", "Time/Final time=9"] + NO_FIELDS
+MESH = ROOT / "meshes" / "sphere_h4.msh"
+
+TREATMENTS = [
+    ["Contact/Treatment=Nitsche"],
+    ["Contact/Treatment=Nitsche", "Time/Scheme=TR-BDF2"],
+    ["Contact/Treatment=Nitsche", "Time/Scheme=HHT",
+     "Time/HHT alpha=0.05"],
+    ["Contact/Treatment=Nitsche", "Mesh/Cells=hexahedra", "Mesh/Degree=1"],
+    ["Contact/Treatment=penalty"],
+    ["Contact/Treatment=proximal augmented Lagrangian"],
+    ["Contact/Treatment=Nitsche-hybrid", "Time/Scheme=midpoint"],
+    ["Contact/Treatment=improved normal compliance", "Time/Scheme=midpoint",
+     "Mesh/Degree=1"],
+    ["Contact/Treatment=persistent contact", "Time/Scheme=midpoint",
+     "Mesh/Degree=1", "Contact/Friction coefficient=0.3",
+     "Start/Initial velocity=1, 0, 0"],
+]
+
+
+class Sphere(ProgramTest):
+
+    def test_first_contact_and_balance(self):
+        treatments = TREATMENTS[:1] if is_debug_build() else TREATMENTS
+        for name, ledger in self.run_many(
+                [(" ".join(t), "sphere", COARSE + t) for t in treatments]):
+            with self.subTest(name):
+                self.assertEqual(ledger["step_halvings"][-1], 0)
+                self.assertLess(max(map(abs, ledger["balance_residual"])),
+                                1e-10)
+                touching = [time for time, force in
+                            zip(ledger["time"],
+                                ledger["contact_force_foundation"])
+                            if force > 0]
+                # The lowest node touches first; quadrature points are higher,
+                # since a coarse sphere is a polyhedron.
+                fall = math.sqrt(2. * 2. / .1)
+                late = .5 if "midpoint Mesh/Degree=1" in name else 1.5
+                self.assertGreater(touching[0], fall - .25)
+                self.assertLess(touching[0], fall + late)
+
+    def test_one_and_two_ranks(self):
+        ledgers = [self.run_program("sphere", COARSE + ["Mesh/Degree=1"],
+                                    self.folder / f"{n}", n_ranks=n)
+                   for n in (1, 2)]
+        for name in ("energy", "contact_force_foundation",
+                     "lowest_displacement"):
+            scale = max(map(abs, ledgers[0][name]))
+            for a, b in zip(ledgers[0][name], ledgers[1][name]):
+                self.assertLess(abs(a - b), 1e-9 * scale)
+
+    def test_bad_meshes(self):
+        no_boundary = self.folder / "no_boundary.msh"
+        no_boundary.write_text(
+            re.sub(r"^(\d+ 2 2) 1 ", r"\1 3 ", MESH.read_text(),
+                   flags=re.MULTILINE))
+        no_mesh = self.folder / "text.msh"
+        no_mesh.write_text("not a mesh\n")
+        for file, words in ((self.folder / "missing.msh", "cannot be read"),
+                            (no_mesh, "not a mesh"),
+                            (no_boundary, "no physical surface 1")):
+            with self.subTest(file.name):
+                code, _, error = self.attempt("sphere", [f"Mesh/File={file}"])
+                self.assertEqual(code, 1)
+                self.assertIn(words, error)
+
+
+if __name__ == "__main__":
+    main()

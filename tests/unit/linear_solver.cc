@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Solutions of tangents with contact, by all ways of the linear solver, against
+// the tangent itself: the body factored once and contact as a correction, through
+// a sequence of states in which points open and close; and for nonlinear bodies
+// GMRES on the symmetric part. On any number of ranks.
+
+#include "meshes.h"
+
+#include <base/exceptions.h>
+#include <contact/contact_treatment.h>
+#include <discretization/hyperelastic_bulk.h>
+#include <discretization/linear_bulk.h>
+#include <materials/laws/ciarlet_geymonat.h>
+#include <solvers/linear_solver.h>
+
+#include <boost/test/unit_test.hpp>
+
+using namespace Ricochet;
+using dealii::VectorOperation;
+
+namespace
+{
+  const LinearElastic material{1.5, 1.};
+
+  struct Treatment
+  {
+    std::string  name, scheme;
+    double       theta     = 1.;
+    unsigned int degree    = 1;
+    bool         simplices = true;
+    double       friction  = 0.;
+  };
+
+  std::vector<Treatment>
+  all_treatments()
+  {
+    std::vector<Treatment> all;
+    for (const bool simplices : {true, false})
+      {
+        for (const double theta : {1., -1., 0.})
+          {
+            all.push_back({"Nitsche", "HHT", theta, 2, simplices});
+            all.push_back({"Nitsche-hybrid", "midpoint", theta, 1, simplices});
+          }
+        all.push_back(
+          {"proximal augmented Lagrangian", "HHT", 1., 2, simplices});
+        all.push_back({"Signorini multipliers", "midpoint", 1., 1, simplices});
+        for (const double friction : {0., .3})
+          {
+            all.push_back(
+              {"Signorini active set", "midpoint", 1., 1, simplices, friction});
+            all.push_back({"improved normal compliance",
+                           "midpoint",
+                           1.,
+                           1,
+                           simplices,
+                           friction});
+          }
+      }
+    return all;
+  }
+
+  /// Solve for random states with @p n_states states of contact; @return the
+  /// number of factorisations, or 0 if the combination was refused.
+  template <int dim>
+  unsigned int
+  check(const Treatment                &treatment,
+        const LinearSolver::Parameters &solver_parameters,
+        const bool                      linear_body,
+        const double                    tolerance)
+  {
+    const CubeAbovePlane<dim> cube(treatment.simplices, 3);
+    ContactParameters         parameters;
+    parameters.treatment              = treatment.name;
+    parameters.nitsche_theta          = treatment.theta;
+    parameters.nitsche_gamma_0        = 50.;
+    parameters.compliance_coefficient = 20.;
+    parameters.compliance_exponent    = 3.;
+    parameters.friction_coefficient   = treatment.friction;
+    parameters.tangential_compliance  = .5;
+    parameters.augmentation           = .5;
+    const Body<dim>             body(cube.triangulation,
+                         treatment.degree,
+                         {2},
+                         {1},
+                         multiplier_space(parameters),
+                         MPI_COMM_WORLD);
+    const auto                  contact = make_contact(parameters,
+                                      treatment.scheme,
+                                      body,
+                                      material,
+                                      cube.plane(.02));
+    const Matrix                mass    = assemble_mass_matrix(body, 1.);
+    const LinearBulk<dim>       linear_bulk(body, material);
+    const Material<dim>         nonlinear(std::make_shared<Hyperelastic<dim>>(
+      std::make_shared<HyperelasticLawImplementation<CiarletGeymonat>>(
+        CiarletGeymonat{.5, .005, .35}),
+      PlaneState::plane_strain));
+    const HyperelasticBulk<dim> nonlinear_bulk(body, nonlinear);
+    const BulkOperator         &bulk = linear_body
+              ? static_cast<const BulkOperator &>(linear_bulk)
+              : static_cast<const BulkOperator &>(nonlinear_bulk);
+
+    const std::vector<dealii::types::global_dof_index> clamped(
+      body.clamped_indices().begin(),
+      body.clamped_indices().end());
+    LinearSolver solver(solver_parameters,
+                        {contact->tangent_rows(),
+                         contact->has_symmetric_tangent(),
+                         mass.m(),
+                         static_cast<int>(
+                           dealii::Utilities::MPI::n_mpi_processes(
+                             MPI_COMM_WORLD))});
+
+    Vector zero = body.make_vector(), solution(zero), old_solution(zero);
+    Vector residual(zero), right_hand_side(zero), result(zero);
+    Vector old_force(zero), mean_velocity(zero);
+    const ContactStart start{old_solution, old_force, mean_velocity, .1};
+    const double       weight = .7;
+    for (unsigned int seed = 0; seed < 6; ++seed)
+      {
+        randomise(solution, .03, seed);
+        randomise(old_solution, .03, seed + 10);
+        randomise(right_hand_side, 1., seed + 20);
+        for (const auto i : clamped)
+          right_hand_side(i) = 0.;
+        right_hand_side.compress(VectorOperation::insert);
+        old_force = -.2;
+        contact->begin_stage(start, weight);
+        contact->complete_residual(solution, residual);
+        contact->accept_iterate();
+        contact->complete_residual(solution, residual);
+
+        LinearSolver::Tangent tangent;
+        if (linear_body)
+          {
+            tangent.body    = LinearSolver::BodyKey{3., .5, weight};
+            tangent.contact = contact->tangent_signature();
+          }
+        tangent.assemble_body = [&](Matrix &matrix) {
+          matrix.copy_from(mass);
+          matrix *= 3.;
+          bulk.add_step_tangent(old_solution, solution, .1, matrix);
+          matrix.clear_rows(clamped, 1.);
+        };
+        tangent.complete_contact = [&](Matrix &matrix) {
+          contact->complete_tangent(matrix);
+          matrix.clear_rows(clamped, 1.);
+        };
+        tangent.complete_open_contact = [&](Matrix &matrix) {
+          contact->complete_open_tangent(matrix);
+          matrix.clear_rows(clamped, 1.);
+        };
+        solver.solve(tangent, right_hand_side, result, false, 1e-11);
+
+        Matrix matrix;
+        tangent.assemble_body(matrix);
+        tangent.complete_contact(matrix);
+        matrix.vmult(residual, result);
+        residual -= right_hand_side;
+        BOOST_CHECK_MESSAGE(residual.l2_norm() <
+                              tolerance * right_hand_side.l2_norm(),
+                            treatment.name
+                              << ", theta " << treatment.theta << ", degree "
+                              << treatment.degree << ", friction "
+                              << treatment.friction << ", " << dim
+                              << "D: residual " << residual.l2_norm());
+      }
+    return solver.n_factorisations();
+  }
+} // namespace
+
+
+BOOST_AUTO_TEST_SUITE(linear_solver)
+
+BOOST_AUTO_TEST_CASE(corrected_solutions_solve)
+{
+  LinearSolver::Parameters parameters;
+  parameters.type = "corrected";
+  for (const std::string factorisation : {"automatic", "KLU", "MUMPS"})
+    {
+      parameters.factorisation = factorisation;
+      for (const Treatment &treatment : all_treatments())
+        {
+          // One factorisation, whatever contact does; or two, where the body is
+          // not positive definite.
+          const unsigned int n = check<2>(treatment, parameters, true, 1e-10);
+          BOOST_CHECK_GE(n, 1u);
+          BOOST_CHECK_LE(n, 2u);
+        }
+    }
+  parameters.factorisation = "automatic";
+  for (const Treatment &treatment : all_treatments())
+    BOOST_CHECK_LE(check<3>(treatment, parameters, true, 1e-10), 2u);
+}
+
+BOOST_AUTO_TEST_CASE(direct_solutions_solve)
+{
+  LinearSolver::Parameters parameters;
+  parameters.type = "direct";
+  for (const Treatment &treatment : all_treatments())
+    check<2>(treatment, parameters, true, 1e-10);
+}
+
+BOOST_AUTO_TEST_CASE(nonlinear_tangents_are_solved)
+{
+  LinearSolver::Parameters parameters;
+  parameters.type = "corrected";
+  for (const std::string factorisation : {"automatic", "KLU"})
+    {
+      parameters.factorisation = factorisation;
+      for (const Treatment &treatment : all_treatments())
+        if (treatment.scheme == "midpoint" &&
+            treatment.name != "Nitsche-hybrid")
+          check<2>(treatment, parameters, false, 1e-10);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(impossible_factorisations_are_refused)
+{
+  LinearSolver::Parameters parameters;
+  parameters.type          = "direct";
+  parameters.factorisation = "CHOLMOD";
+  BOOST_CHECK_THROW(LinearSolver(parameters, {{}, true, 10, 1}), InputError);
+  parameters.type = "corrected";
+  BOOST_CHECK_THROW(LinearSolver(parameters, {{}, true, 10, 2}), InputError);
+  BOOST_CHECK_NO_THROW(LinearSolver(parameters, {{}, true, 10, 1}));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
