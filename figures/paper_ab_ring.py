@@ -526,7 +526,6 @@ def checks_t3():
         T3_RUNS,
         1e-8,
         "< 1e-8: 1e-7 m, SNC's penetration at the largest c_nu, has eight digits beside 10 m",
-        HALVED,
     )
 
 

@@ -68,8 +68,8 @@ namespace Ricochet
       "few. corrected: factor the body only and treat contact as a correction "
       "in a few rows; for nonlinear materials factor the body's tangent (with "
       "CHOLMOD its symmetric part), with GMRES for the rest. automatic: "
-      "corrected above 1000 unknowns if the body is linear or CHOLMOD can be "
-      "used.",
+      "corrected above 1000 unknowns for linear bodies, above 5000 for "
+      "nonlinear ones if CHOLMOD can be used.",
       Patterns::Selection("automatic|direct|corrected"));
     parameters.add_parameter(
       "Factorisation",
@@ -95,9 +95,12 @@ namespace Ricochet
   {
     if (parameters.type != "automatic")
       return parameters.type;
-    // A nonlinear body gains by the symmetry only.
-    const bool gains = linear_body || chosen_factorisation(true) == "CHOLMOD";
-    return gains && structure.n_unknowns > 1000 ? "corrected" : "direct";
+    // A nonlinear body gains by the symmetry only, and where a factorisation
+    // costs more than the iterations that it saves.
+    const bool gains = linear_body
+      ? structure.n_unknowns > 1000
+      : structure.n_unknowns > 5000 && chosen_factorisation(true) == "CHOLMOD";
+    return gains ? "corrected" : "direct";
   }
 
 

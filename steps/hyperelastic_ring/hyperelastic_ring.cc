@@ -99,7 +99,7 @@ HyperelasticRing::HyperelasticRing()
   impact.contact.compliance_coefficient = 8e11;
   impact.contact.compliance_exponent    = 2.;
   impact.contact.tangential_compliance  = 1e9;
-  impact.contact.augmentation           = 1e7;
+  impact.contact.augmentation           = 3e6;
   impact.contact.penalty_epsilon_0      = 3e-8;
 }
 

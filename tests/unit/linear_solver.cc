@@ -183,6 +183,9 @@ BOOST_AUTO_TEST_CASE(corrected_solutions_solve)
       parameters.factorisation = factorisation;
       for (const Treatment &treatment : all_treatments())
         {
+          // Other factorisations meet each kind of contact once.
+          if (factorisation != "automatic" && !treatment.simplices)
+            continue;
           // One factorisation, whatever contact does; or two, where the body is
           // not positive definite.
           const unsigned int n = check<2>(treatment, parameters, true, 1e-10);
