@@ -89,16 +89,12 @@ namespace Ricochet
     complete_open_tangent(Matrix & /*tangent*/) const override
     {}
 
-    std::vector<dealii::types::global_dof_index>
-    tangent_rows() const override
+    ContactStructure
+    tangent_structure() const override
     {
-      return evaluator.unknowns();
-    }
-
-    bool
-    has_symmetric_tangent() const override
-    {
-      return false;
+      ContactStructure structure;
+      structure.rows = evaluator.unknowns();
+      return structure;
     }
 
     std::optional<std::uint64_t>

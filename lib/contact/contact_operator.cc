@@ -8,6 +8,15 @@
 namespace Ricochet
 {
   void
+  ContactOperator::tangent_change(
+    std::vector<LowRankCorrection::Row> & /*change*/) const
+  {
+    AssertThrow(false, dealii::ExcMessage("This contact has no functionals."));
+  }
+
+
+
+  void
   ContactPointEvaluator::find_local_indices()
   {
     unsigned int longest = 0;

@@ -5,12 +5,14 @@
 #include <base/types.h>
 #include <contact/contact_law.h>
 #include <contact/contact_points.h>
+#include <solvers/tangent.h>
 
 #include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace Ricochet
 {
@@ -103,15 +105,18 @@ namespace Ricochet
     virtual void
     complete_open_tangent(Matrix &tangent) const = 0;
 
-    /// All rows that complete_tangent() may change, on all ranks: by initial
-    /// gap, which is how contact spreads.
-    virtual std::vector<dealii::types::global_dof_index>
-    tangent_rows() const = 0;
-
-    /// Whether complete_tangent() keeps a symmetric tangent symmetric, but for
+    /// How complete_tangent() enters a tangent: contact spreads by initial gap.
+    /// It is symmetric if it keeps a symmetric tangent symmetric, but for
     /// friction.
-    virtual bool
-    has_symmetric_tangent() const = 0;
+    virtual ContactStructure
+    tangent_structure() const = 0;
+
+    /// Where the structure has functionals: the difference between
+    /// complete_tangent() and complete_open_tangent() in terms of them, see
+    /// LowRankCorrection::set_change(). @p change has an empty row for each
+    /// functional of this rank.
+    virtual void
+    tangent_change(std::vector<LowRankCorrection::Row> &change) const;
 
     /**
      * A number that is the same on all ranks and changes whenever the tangent

@@ -255,13 +255,176 @@ namespace Ricochet
   PointwiseContact::complete_open_tangent(Matrix &tangent) const
   {
     for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
-      {
-        const double        h = evaluator.contact_points()[p].cell_diameter;
-        ContactPointState<> open;
-        open.gap = h;
-        evaluator.add(p, weight, law->tangent(open, open, h), tangent);
-      }
+      evaluator.add(p,
+                    weight,
+                    open_tangent(evaluator.contact_points()[p].cell_diameter),
+                    tangent);
     tangent.compress(VectorOperation::add);
+  }
+
+
+
+  ContactPointTangent
+  PointwiseContact::open_tangent(const double cell_diameter) const
+  {
+    ContactPointState<> open;
+    open.gap = cell_diameter;
+    return law->tangent(open, open, cell_diameter);
+  }
+
+
+
+  std::optional<PointwiseContact::Closing>
+  PointwiseContact::closing_directions(const double cell_diameter) const
+  {
+    ContactPointState<> open, closed;
+    open.gap   = cell_diameter;
+    closed.gap = -cell_diameter;
+    const ContactPointTangent change =
+      law->tangent(closed, open, cell_diameter) - open_tangent(cell_diameter);
+    Closing closing;
+    while (closing.row < 2 && change[closing.row].norm() == 0.)
+      ++closing.row;
+    while (closing.column < 2 && change[closing.row][closing.column] == 0.)
+      ++closing.column;
+    const double entry = change[closing.row][closing.column];
+    if (entry == 0.)
+      return {};
+    closing.trial = change[closing.row] / entry;
+    for (unsigned int c = 0; c < 3; ++c)
+      closing.test[c] = change[c][closing.column] / entry;
+    for (unsigned int c = 0; c < 3; ++c)
+      for (unsigned int d = 0; d < 3; ++d)
+        if (std::abs(change[c][d] -
+                     entry * closing.test[c] * closing.trial[d]) >
+            1e-12 * std::abs(change[c][d]))
+          return {};
+    return closing;
+  }
+
+
+
+  void
+  PointwiseContact::find_directions()
+  {
+    // Whether the law is of that kind does not depend on h_T.
+    if (!closing_directions(1.) ||
+        (friction.coefficient > 0. && law->traits().uses_stress))
+      return;
+    acts_through.emplace();
+    Functionals         &functionals = acts_through->functionals;
+    const ContactPoints &points      = evaluator.coefficients();
+    for (const ContactPoint &point : points.points)
+      {
+        const auto add = [&](const auto &coefficient) {
+          for (unsigned int k = point.begin; k < point.end; ++k)
+            if (const double value = coefficient(k); value != 0.)
+              functionals.add(points.index[k], value);
+          functionals.end_functional();
+          acts_through->order.push_back(point.initial_gap);
+          return functionals.size() - 1;
+        };
+        const auto add_law = [&](const dealii::Tensor<1, 3> &direction) {
+          return add([&](const unsigned int k) {
+            return direction[0] * points.gap_coefficient[k] +
+              direction[1] * points.stress_pressure_coefficient[k] +
+              direction[2] * points.multiplier_coefficient[k];
+          });
+        };
+        PointDirections own;
+        own.closing          = *closing_directions(point.cell_diameter);
+        own.test             = add_law(own.closing.test);
+        own.trial            = own.closing.trial == own.closing.test
+                     ? own.test
+                     : add_law(own.closing.trial);
+        own.first_tangential = functionals.size();
+        if (friction.coefficient > 0.)
+          {
+            // Two directions across the normal, or one in the plane: the
+            // longest projections of the axes.
+            dealii::Tensor<2, 3> plane  = tangent_plane(point.obstacle_normal);
+            unsigned int         n_axes = 0;
+            for (unsigned int k = point.begin; k < point.end; ++k)
+              n_axes = std::max(n_axes, points.component[k] + 1);
+            for (unsigned int axis = 0; axis < n_axes; ++axis)
+              for (unsigned int c = n_axes; c < 3; ++c)
+                plane[axis][c] = plane[c][axis] = 0.;
+            for (unsigned int t = 0; t + 1 < n_axes; ++t)
+              {
+                unsigned int longest = 0;
+                for (unsigned int axis = 1; axis < n_axes; ++axis)
+                  if (plane[axis].norm() > plane[longest].norm())
+                    longest = axis;
+                const dealii::Tensor<1, 3> tangential =
+                  plane[longest] / plane[longest].norm();
+                add([&](const unsigned int k) {
+                  return tangential[points.component[k]] *
+                    points.shape_value[k];
+                });
+                own.tangential.push_back(tangential);
+                plane -= outer_product(tangential, tangential);
+              }
+          }
+        directions.push_back(own);
+      }
+  }
+
+
+
+  ContactStructure
+  PointwiseContact::tangent_structure() const
+  {
+    return {evaluator.unknowns(),
+            acts_through,
+            !law->traits().needs_multiplier};
+  }
+
+
+
+  void
+  PointwiseContact::tangent_change(
+    std::vector<LowRankCorrection::Row> &change) const
+  {
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const ContactPoint       &point = evaluator.contact_points()[p];
+        const PointDirections    &own   = directions[p];
+        const ContactPointTangent law_tangent =
+          law->tangent(linearisation[p], old_state[p], point.cell_diameter);
+        const double factor = weight * point.weight;
+        const double closing =
+          law_tangent[own.closing.row][own.closing.column] -
+          open_tangent(
+            point.cell_diameter)[own.closing.row][own.closing.column];
+        if (closing != 0.)
+          change[own.test].emplace_back(own.trial, factor * closing);
+
+        const double pressure =
+          friction.coefficient > 0. ? friction_pressure(p) : 0.;
+        if (pressure == 0.)
+          continue;
+        dealii::Tensor<2, 3> with_slip_rate;
+        dealii::Tensor<1, 3> with_pressure;
+        friction.derivatives(friction_branch[p],
+                             pressure,
+                             slip_rate[p],
+                             tangent_plane(point.obstacle_normal),
+                             with_slip_rate,
+                             with_pressure);
+        for (unsigned int t = 0; t < own.tangential.size(); ++t)
+          {
+            auto &row = change[own.first_tangential + t];
+            for (unsigned int s = 0; s < own.tangential.size(); ++s)
+              row.emplace_back(own.first_tangential + s,
+                               factor / time_step *
+                                 (own.tangential[t] * with_slip_rate *
+                                  own.tangential[s]));
+            if (const double with_gap =
+                  -law_tangent[0][0] * (own.tangential[t] * with_pressure);
+                with_gap != 0.)
+              row.emplace_back(own.trial, factor * with_gap);
+          }
+      }
   }
 
 

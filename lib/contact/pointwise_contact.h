@@ -50,6 +50,7 @@ namespace Ricochet
                               body.multiplier_indices().n_elements())
     {
       compute_row_scaling();
+      find_directions();
     }
 
     void
@@ -67,17 +68,11 @@ namespace Ricochet
     void
     complete_open_tangent(Matrix &tangent) const override;
 
-    std::vector<dealii::types::global_dof_index>
-    tangent_rows() const override
-    {
-      return evaluator.unknowns();
-    }
+    ContactStructure
+    tangent_structure() const override;
 
-    bool
-    has_symmetric_tangent() const override
-    {
-      return !law->traits().needs_multiplier;
-    }
+    void
+    tangent_change(std::vector<LowRankCorrection::Row> &change) const override;
 
     std::optional<std::uint64_t>
     tangent_signature() const override;
@@ -135,6 +130,29 @@ namespace Ricochet
     void
     compute_row_scaling();
 
+    /**
+     * How closing changes the tangent of the law in a point: by a number times
+     * test trial^T, where test and trial are directions in the space of gap,
+     * stress pressure and multiplier that depend on the law and h_T only. The
+     * number can be read off one entry.
+     */
+    struct Closing
+    {
+      unsigned int         row = 0, column = 0;
+      dealii::Tensor<1, 3> test, trial;
+    };
+
+    /// None if the law's tangent changes by more than one direction.
+    std::optional<Closing>
+    closing_directions(const double cell_diameter) const;
+
+    void
+    find_directions();
+
+    /// The law's tangent when a point with this h_T is open.
+    ContactPointTangent
+    open_tangent(const double cell_diameter) const;
+
     /// What is kept is a force on displacements; the equations of the
     /// multipliers hold at the end of a stage and are never averaged.
     void
@@ -178,6 +196,18 @@ namespace Ricochet
     std::vector<dealii::Tensor<1, 3>> displacement, old_displacement;
     Vector                            force, friction_part, scaling;
     const unsigned int                n_displacements_owned;
+
+    // The functionals of a point: of the law (test and trial, often the same),
+    // and of the displacement along the foundation, with friction.
+    struct PointDirections
+    {
+      Closing                           closing;
+      unsigned int                      test, trial, first_tangential;
+      std::vector<dealii::Tensor<1, 3>> tangential;
+    };
+    // Empty if the law is not of that kind.
+    std::vector<PointDirections>                 directions;
+    std::optional<ContactStructure::ActsThrough> acts_through;
   };
 
 

@@ -419,6 +419,7 @@ namespace Ricochet
                       shares.factorisation,
                       shares.back_substitution);
         folder.log(line);
+        folder.log("linear solver: " + system.linear_solver_description());
       }
     return state;
   }

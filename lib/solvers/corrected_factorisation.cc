@@ -5,7 +5,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 
@@ -13,30 +12,16 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  namespace
-  {
-    using EpetraIndex = TrilinosWrappers::types::int_type;
-
-    /// The entry @p index of @p vector, or null on other ranks.
-    double *
-    owned_entry(Ricochet::Vector &vector, const Factorisation::Index index)
-    {
-      auto     &epetra = vector.trilinos_vector();
-      const int local  = epetra.Map().LID(static_cast<EpetraIndex>(index));
-      return local < 0 ? nullptr : epetra[0] + local;
-    }
-  } // namespace
-
-
-
   CorrectedFactorisation::CorrectedFactorisation(
-    std::unique_ptr<Factorisation> factorisation,
-    const std::vector<Index>      &contact_rows,
-    const unsigned int             group_size,
-    double                        &factorising)
+    std::unique_ptr<Factorisation>    factorisation,
+    const Correction                  correction,
+    const ContactStructure           &contact,
+    const LowRankCorrection::Options &options,
+    double                           &factorising)
     : factorisation(std::move(factorisation))
-    , contact_rows(contact_rows)
-    , group_size(group_size)
+    , kind(correction)
+    , contact(contact)
+    , options(options)
     , factorising(factorising)
   {}
 
@@ -47,33 +32,51 @@ namespace Ricochet
 
 
   void
-  CorrectedFactorisation::set_body(
-    const std::function<void(Matrix &)> &assemble_body,
-    const std::function<void(Matrix &)> &complete_open)
+  CorrectedFactorisation::save_rows(std::vector<double> OwnedRow::*copy)
   {
-    assemble_body(body);
-    open.copy_from(body);
-    complete_open(open);
-    tangent.copy_from(open);
-    if (work.size() == 0)
-      {
-        work.reinit(open.locally_owned_range_indices(),
-                    open.get_mpi_communicator());
-        find_region();
-      }
-    const auto values = [](Matrix &matrix, const int row) {
-      int     n_entries = 0;
-      double *values    = nullptr;
-      matrix.trilinos_matrix().ExtractMyRowView(row, n_entries, values);
-      return values;
-    };
     for (OwnedRow &row : rows)
+      (row.*copy).assign(row.values, row.values + row.n_entries);
+  }
+
+
+
+  void
+  CorrectedFactorisation::restore_rows(
+    const std::vector<double> OwnedRow::*copy)
+  {
+    for (OwnedRow &row : rows)
+      std::copy((row.*copy).begin(), (row.*copy).end(), row.values);
+  }
+
+
+
+  void
+  CorrectedFactorisation::set_body(const Tangent &tangent)
+  {
+    tangent.assemble_body(tangent_matrix);
+    if (kind == Correction::none)
       {
-        row.body    = values(body, row.local);
-        row.open    = values(open, row.local);
-        row.tangent = values(tangent, row.local);
+        tangent.complete_contact(tangent_matrix);
+        return;
       }
-    changed.clear();
+    if (!correction && kind == Correction::rows)
+      make_row_correction();
+    // Assembly may have put the values elsewhere.
+    for (OwnedRow &row : rows)
+      tangent_matrix.trilinos_matrix().ExtractMyRowView(row.local,
+                                                        row.n_entries,
+                                                        row.values);
+    save_rows(&OwnedRow::body);
+    tangent.complete_open_contact(tangent_matrix);
+    save_rows(&OwnedRow::open);
+    if (!correction)
+      correction = std::make_unique<LowRankCorrection>(
+        tangent_matrix.locally_owned_range_indices(),
+        tangent_matrix.get_mpi_communicator(),
+        contact.functionals->functionals,
+        contact.functionals->order,
+        contact.functionals->functionals,
+        options);
   }
 
 
@@ -82,20 +85,19 @@ namespace Ricochet
   CorrectedFactorisation::factorise()
   {
     const Stopwatch stopwatch(factorising);
-    columns.assign(contact_rows.size(), {});
-    if (group_size == 0)
-      whole_columns.resize(contact_rows.size());
-    return factorisation->factorise(open, false);
+    restore_rows(&OwnedRow::open);
+    if (correction)
+      correction->forget_columns();
+    return factorisation->factorise(tangent_matrix, false);
   }
 
 
 
   void
-  CorrectedFactorisation::find_region()
+  CorrectedFactorisation::make_row_correction()
   {
-    const MPI_Comm communicator = open.get_mpi_communicator();
-    const auto    &epetra       = open.trilinos_matrix();
-    const auto     columns_of   = [&](const int row) {
+    const auto &epetra     = tangent_matrix.trilinos_matrix();
+    const auto  columns_of = [&](const int row) {
       int                n_entries = 0;
       double            *values    = nullptr;
       int               *indices   = nullptr;
@@ -105,189 +107,94 @@ namespace Ricochet
         result.push_back(epetra.GCID64(indices[k]));
       return result;
     };
+    const auto own_row = [&](const Index index) {
+      return epetra.LRID(static_cast<TrilinosWrappers::types::int_type>(index));
+    };
 
-    std::set<Index> my_columns;
-    for (unsigned int place = 0; place < contact_rows.size(); ++place)
+    // A direction for each row.
+    Functionals         directions;
+    std::vector<double> order;
+    std::set<Index>     my_columns;
+    for (unsigned int place = 0; place < contact.rows.size(); ++place)
       {
-        const int local =
-          epetra.LRID(static_cast<EpetraIndex>(contact_rows[place]));
-        if (local < 0)
+        OwnedRow row{};
+        row.local = own_row(contact.rows[place]);
+        if (row.local < 0)
           continue;
-        OwnedRow row;
-        row.place     = place;
-        row.local     = local;
-        row.n_entries = epetra.NumMyEntries(local);
         rows.push_back(row);
-        for (const Index column : columns_of(local))
+        directions.add(contact.rows[place], 1.);
+        directions.end_functional();
+        order.push_back(place);
+        for (const Index column : columns_of(row.local))
           my_columns.insert(column);
       }
 
-    std::map<Index, unsigned int> place_in_region;
+    // An observable for each unknown that these rows couple to.
+    const MPI_Comm  communicator = tangent_matrix.get_mpi_communicator();
+    std::set<Index> region;
     for (const auto &list :
          Utilities::MPI::all_gather(communicator,
                                     std::vector<Index>(my_columns.begin(),
                                                        my_columns.end())))
+      region.insert(list.begin(), list.end());
+    Functionals        observables;
+    std::vector<Index> mine;
+    for (const Index column : region)
+      if (own_row(column) >= 0)
+        {
+          observables.add(column, 1.);
+          observables.end_functional();
+          mine.push_back(column);
+        }
+    std::map<Index, unsigned int> place_of;
+    for (const auto &list : Utilities::MPI::all_gather(communicator, mine))
       for (const Index column : list)
-        place_in_region[column] = 0;
-    for (auto &[column, place] : place_in_region)
-      {
-        place           = region_size++;
-        const int local = epetra.LRID(static_cast<EpetraIndex>(column));
-        if (local >= 0)
-          owned_region.emplace_back(local, place);
-      }
-    region_values.resize(region_size);
+        place_of.emplace(column, place_of.size());
     for (OwnedRow &row : rows)
       for (const Index column : columns_of(row.local))
-        row.region.push_back(place_in_region.at(column));
+        row.observable.push_back(place_of.at(column));
+
+    LowRankCorrection::Options row_options = options;
+    row_options.is_symmetric               = false;
+    correction = std::make_unique<LowRankCorrection>(
+      tangent_matrix.locally_owned_range_indices(),
+      communicator,
+      directions,
+      order,
+      observables,
+      row_options);
   }
 
 
 
   void
-  CorrectedFactorisation::extract_region(const Vector &vector,
-                                         double       *values) const
+  CorrectedFactorisation::set_contact(const Tangent &tangent)
   {
-    std::fill(values, values + region_size, 0.);
-    const double *owned = vector.trilinos_vector()[0];
-    for (const auto &[local, place] : owned_region)
-      values[place] = owned[local];
-    const ArrayView<double> view(values, region_size);
-    Utilities::MPI::sum(ArrayView<const double>(values, region_size),
-                        open.get_mpi_communicator(),
-                        view);
-  }
-
-
-
-  void
-  CorrectedFactorisation::solve_columns(const std::vector<unsigned int> &places)
-  {
-    if (places.empty())
+    if (kind == Correction::none)
       return;
-    std::vector<Vector> units(places.size(), work),
-      solutions(places.size(), work);
-    for (unsigned int c = 0; c < places.size(); ++c)
+    if (kind == Correction::rows)
       {
-        units[c] = 0.;
-        if (double *entry = owned_entry(units[c], contact_rows[places[c]]))
-          *entry = 1.;
+        restore_rows(&OwnedRow::body);
+        tangent.complete_contact(tangent_matrix);
+        change.assign(rows.size(), {});
+        for (unsigned int r = 0; r < rows.size(); ++r)
+          for (int k = 0; k < rows[r].n_entries; ++k)
+            if (rows[r].values[k] != rows[r].open[k])
+              change[r].emplace_back(rows[r].observable[k],
+                                     rows[r].values[k] - rows[r].open[k]);
       }
-    factorisation->solve(units, solutions);
-    for (unsigned int c = 0; c < places.size(); ++c)
+    else
       {
-        columns[places[c]].resize(region_size);
-        extract_region(solutions[c], columns[places[c]].data());
-        if (group_size == 0)
-          whole_columns[places[c]].swap(solutions[c]);
+        change.resize(contact.functionals->functionals.size());
+        for (LowRankCorrection::Row &row : change)
+          row.clear();
+        tangent.contact_change(change);
+        for (LowRankCorrection::Row &row : change)
+          for (auto &entry : row)
+            entry.first += correction->first_observable();
       }
-  }
-
-
-
-  void
-  CorrectedFactorisation::solve_changed_columns()
-  {
-    if (group_size == 0)
-      {
-        std::vector<unsigned int> missing;
-        for (const unsigned int place : changed)
-          if (columns[place].empty())
-            missing.push_back(place);
-        solve_columns(missing);
-        return;
-      }
-    std::set<unsigned int> groups;
-    for (const unsigned int place : changed)
-      if (columns[place].empty())
-        groups.insert(place / group_size);
-    for (const unsigned int group : groups)
-      {
-        std::vector<unsigned int> places;
-        for (unsigned int place = group * group_size;
-             place < std::min<std::size_t>((group + 1) * group_size,
-                                           contact_rows.size());
-             ++place)
-          places.push_back(place);
-        solve_columns(places);
-      }
-  }
-
-
-
-  void
-  CorrectedFactorisation::set_contact(
-    const std::function<void(Matrix &)> &complete)
-  {
-    for (const OwnedRow &row : rows)
-      std::copy(row.body, row.body + row.n_entries, row.tangent);
-    complete(tangent);
-
-    // Which rows contact changes, and by what.
-    std::vector<unsigned int> my_changed;
-    changes.clear();
-    for (const OwnedRow &row : rows)
-      {
-        std::vector<std::pair<unsigned int, double>> change;
-        for (int k = 0; k < row.n_entries; ++k)
-          if (row.tangent[k] != row.open[k])
-            change.emplace_back(row.region[k], row.tangent[k] - row.open[k]);
-        if (!change.empty())
-          {
-            my_changed.push_back(row.place);
-            changes.push_back(std::move(change));
-          }
-      }
-    const MPI_Comm communicator = open.get_mpi_communicator();
-    changed.clear();
-    for (const auto &list :
-         Utilities::MPI::all_gather(communicator, my_changed))
-      changed.insert(changed.end(), list.begin(), list.end());
-    std::sort(changed.begin(), changed.end());
-    owned_changed.clear();
-    for (const unsigned int place : my_changed)
-      owned_changed.push_back(
-        std::lower_bound(changed.begin(), changed.end(), place) -
-        changed.begin());
-    if (changed.empty())
-      return;
     const Stopwatch stopwatch(factorising);
-    solve_changed_columns();
-
-    const unsigned int  n = changed.size();
-    std::vector<double> sums(n * n, 0.);
-    // In blocks of columns, packed so that the innermost loop runs over
-    // neighbours.
-    constexpr unsigned int width = 16;
-    std::vector<double>    block(region_size * width, 0.);
-    for (unsigned int begin = 0; begin < n; begin += width)
-      {
-        const unsigned int size = std::min(width, n - begin);
-        for (unsigned int j = 0; j < size; ++j)
-          {
-            const double *column = columns[changed[begin + j]].data();
-            for (unsigned int place = 0; place < region_size; ++place)
-              block[place * width + j] = column[place];
-          }
-        for (unsigned int i = 0; i < changes.size(); ++i)
-          {
-            std::array<double, width> row{};
-            for (const auto &[place, value] : changes[i])
-              for (unsigned int j = 0; j < width; ++j)
-                row[j] += value * block[place * width + j];
-            std::copy(row.begin(),
-                      row.begin() + size,
-                      &sums[owned_changed[i] * n + begin]);
-          }
-      }
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
-                        communicator,
-                        ArrayView<double>(sums.data(), sums.size()));
-    small = std::make_unique<LAPACKFullMatrix<double>>(n, n);
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        (*small)(i, j) = sums[i * n + j] + (i == j ? 1. : 0.);
-    small->compute_lu_factorization();
+    correction->set_change(change, *factorisation);
   }
 
 
@@ -295,40 +202,9 @@ namespace Ricochet
   void
   CorrectedFactorisation::solve(const Vector &right_hand_side, Vector &solution)
   {
-    factorisation->solve(right_hand_side, solution);
-    if (changed.empty())
-      return;
-    extract_region(solution, region_values.data());
-    dealii::Vector<double> y(changed.size());
-    for (unsigned int i = 0; i < changes.size(); ++i)
-      for (const auto &[place, value] : changes[i])
-        y[owned_changed[i]] += value * region_values[place];
-    Utilities::MPI::sum(ArrayView<const double>(y.begin(), y.size()),
-                        open.get_mpi_communicator(),
-                        ArrayView<double>(y.begin(), y.size()));
-    small->solve(y);
-    if (group_size == 0)
-      {
-        for (unsigned int i = 0; i < changed.size(); ++i)
-          solution.add(-y[i], whole_columns[changed[i]]);
-        return;
-      }
-    work = right_hand_side;
-    for (unsigned int i = 0; i < changed.size(); ++i)
-      if (double *entry = owned_entry(work, contact_rows[changed[i]]))
-        *entry -= y[i];
-    factorisation->solve(work, solution);
-  }
-
-
-
-  unsigned int
-  CorrectedFactorisation::n_columns() const
-  {
-    return std::count_if(columns.begin(),
-                         columns.end(),
-                         [](const std::vector<double> &column) {
-                           return !column.empty();
-                         });
+    if (correction)
+      correction->solve(right_hand_side, solution, *factorisation);
+    else
+      factorisation->solve(right_hand_side, solution);
   }
 } // namespace Ricochet

@@ -4,140 +4,113 @@
 
 #include <base/types.h>
 #include <solvers/factorisation.h>
+#include <solvers/low_rank_correction.h>
+#include <solvers/tangent.h>
 
-#include <deal.II/lac/lapack_full_matrix.h>
-
-#include <functional>
 #include <memory>
 #include <vector>
 
 namespace Ricochet
 {
   /**
-   * A tangent as one factored matrix, that of the body with all contact points
-   * open, plus a correction in the few rows where contact is closed.
+   * A factorisation of the matrix of a body, and solutions with that matrix
+   * after contact was added to it: a LowRankCorrection, either by the rows that
+   * contact changes or by the functionals through which it acts.
    *
-   * With B the matrix of the body, N the rows of (tangent - B) that are not
-   * zero, and P their places, the solution of tangent x = f is
-   *
-   *     x = B^{-1} (f - P y),   (I + N B^{-1} P) y = N B^{-1} f
-   *
-   * (Sherman, Morrison and Woodbury): two back-substitutions and a small dense
-   * system. The columns of B^{-1} P are solved for when a row changes for the
-   * first time and kept, restricted to the unknowns that rows of contact couple
-   * to; so neither opening nor closing nor a nonlinear contact law costs a
-   * factorisation. Where B is only nearly the matrix that was factored (the
-   * symmetric part of another), the same formulas give a preconditioner.
+   * The matrix of the body is that with open contact, which is the matrix of the
+   * body alone for most treatments.
    */
   class CorrectedFactorisation
   {
   public:
     using Index = Factorisation::Index;
 
+    /// How contact enters.
+    enum class Correction
+    {
+      /// Not at all: what is factored holds it.
+      none,
+      /// By the rows that it changes, whatever it does there.
+      rows,
+      /// By the functionals through which it acts: fewer, where points know many
+      /// unknowns.
+      functionals
+    };
+
     /**
      * @param factorisation of the body's matrix.
-     * @param contact_rows all rows that contact may change, the same list on all
-     * ranks, in the order in which contact is expected to spread.
-     * @param group_size columns that will serve for many states of contact are
-     * solved for in groups of this size along contact_rows. Which group a column
-     * belongs to does not depend on what happened before, so that a resumed run
-     * repeats its digits. 0: solve for the columns needed, all at once, and keep
-     * them whole, which saves the second back-substitution.
+     * @param contact rows and functionals.
+     * @param options of the correction.
      * @param factorising gets the time that it takes to factor and to solve for
      * columns added (s).
      */
-    CorrectedFactorisation(std::unique_ptr<Factorisation> factorisation,
-                           const std::vector<Index>      &contact_rows,
-                           const unsigned int             group_size,
-                           double                        &factorising);
+    CorrectedFactorisation(std::unique_ptr<Factorisation>    factorisation,
+                           const Correction                  correction,
+                           const ContactStructure           &contact,
+                           const LowRankCorrection::Options &options,
+                           double                           &factorising);
 
     ~CorrectedFactorisation();
 
     /**
-     * A new matrix of the body.
-     *
-     * @param assemble_body called with an empty matrix, or an old one to be
-     * overwritten.
-     * @param complete_open adds what contact adds when all points are open.
-     * It is not factored yet: until factorise() is called, an older
-     * factorisation serves as that of a nearby matrix.
+     * A new matrix of the body, that of @p tangent with open contact. It is not
+     * factored yet: until factorise() is called, an older factorisation serves
+     * as that of a nearby matrix.
      */
     void
-    set_body(const std::function<void(Matrix &)> &assemble_body,
-             const std::function<void(Matrix &)> &complete_open);
+    set_body(const Tangent &tangent);
 
     /// Factor the matrix of the body. @return whether it could be done.
     bool
     factorise();
 
-    /// A new state of contact. @param complete adds contact to the matrix of the
-    /// body.
+    /// A new state of contact, that of @p tangent.
     void
-    set_contact(const std::function<void(Matrix &)> &complete);
+    set_contact(const Tangent &tangent);
 
     void
     solve(const Vector &right_hand_side, Vector &solution);
 
-    /// The tangent of the last set_contact().
+    /// The tangent of the last set_contact(), unless contact enters by
+    /// functionals.
     const Matrix &
     matrix() const
     {
-      return tangent;
+      return tangent_matrix;
     }
 
-    /// Number of columns that were solved for since the last set_body().
-    unsigned int
-    n_columns() const;
-
   private:
+    /// A row that contact changes, in the order of the directions.
     struct OwnedRow
     {
-      /// Place in #contact_rows.
-      unsigned int place;
-      int          local;
-      int          n_entries;
-      /// Values in the three matrices.
-      double *body = nullptr, *open = nullptr, *tangent = nullptr;
-      /// Place in the region of each entry.
-      std::vector<unsigned int> region;
+      int     local;
+      int     n_entries;
+      double *values;
+      /// Of the body alone and with open contact.
+      std::vector<double> body, open;
+      /// Place among the observables of each entry.
+      std::vector<unsigned int> observable;
     };
 
     void
-    find_region();
-
-    /// Solve for the columns at these @p places of contact_rows.
-    void
-    solve_columns(const std::vector<unsigned int> &places);
+    make_row_correction();
 
     void
-    solve_changed_columns();
+    save_rows(std::vector<double> OwnedRow::*copy);
 
-    /// Values of @p vector in the region, on all ranks.
     void
-    extract_region(const Vector &vector, double *values) const;
+    restore_rows(const std::vector<double> OwnedRow::*copy);
 
-    // Body alone, with open contact (this one is factored), with contact. Before
-    // the factorisation, which refers to it to its end.
-    Matrix                               body, open, tangent;
+    // Before the factorisation, which refers to it to its end.
+    Matrix                               tangent_matrix;
     const std::unique_ptr<Factorisation> factorisation;
-    const std::vector<Index>             contact_rows;
-    const unsigned int                   group_size;
+    const Correction                     kind;
+    const ContactStructure              &contact;
+    const LowRankCorrection::Options     options;
     double                              &factorising;
     std::vector<OwnedRow>                rows;
-    // The unknowns that contact rows couple to: number, and local index of the
-    // owned ones with their place.
-    unsigned int                              region_size = 0;
-    std::vector<std::pair<int, unsigned int>> owned_region;
-    // Solved columns by place in contact_rows; empty if not solved for. Whole
-    // ones are only kept when they serve for one state.
-    std::vector<Vector>                                       whole_columns;
-    std::vector<std::vector<double>>                          columns;
-    std::vector<unsigned int>                                 changed;
-    std::unique_ptr<dealii::LAPACKFullMatrix<double>>         small;
-    std::vector<std::vector<std::pair<unsigned int, double>>> changes;
-    std::vector<unsigned int>                                 owned_changed;
-    Vector                                                    work;
-    mutable std::vector<double>                               region_values;
+    std::vector<LowRankCorrection::Row>  change;
+    std::unique_ptr<LowRankCorrection>   correction;
   };
 } // namespace Ricochet
 

@@ -121,9 +121,9 @@ namespace Ricochet
                 continue;
               }
             entry[k] = 0.;
-            one_sided.push_back(above == 0.
-                                  ? Coupling{place.row, place.column, below}
-                                  : Coupling{place.column, place.row, above});
+            one_sided.push_back(
+              above == 0. ? Coupling{place.row, place.column, k, below}
+                          : Coupling{place.column, place.row, k, above});
           }
         if (!approximate && !is_symmetric)
           return false;
@@ -131,10 +131,8 @@ namespace Ricochet
           {
             if (!approximate)
               return false;
-            for (std::size_t k = 0; k < places.size(); ++k)
-              entry[k] = .5 *
-                (sign[places[k].row] * values[places[k].below] +
-                 sign[places[k].column] * values[places[k].above]);
+            for (const Coupling &coupling : one_sided)
+              entry[coupling.entry] = .5 * coupling.value;
             one_sided.clear();
           }
         cholesky.factorize(symmetric);
@@ -145,60 +143,25 @@ namespace Ricochet
       solve(const Vector &right_hand_side, Vector &solution) override
       {
         const int n = symmetric.rows();
-        right       = sign.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(
-          right_hand_side.trilinos_vector()[0],
-          n));
-        Eigen::Map<Eigen::VectorXd> result(solution.trilinos_vector()[0], n);
-        result          = cholesky.solve(right);
-        bool is_coupled = false;
-        for (const Coupling &coupling : one_sided)
-          if (result[coupling.column] != 0.)
-            {
-              right[coupling.row] -= coupling.value * result[coupling.column];
-              is_coupled = true;
-            }
-        if (is_coupled)
-          result = cholesky.solve(right);
+        right.resize(n, 1);
+        right.col(0) = entries_of(right_hand_side);
+        back_substitute();
+        Eigen::Map<Eigen::VectorXd>(solution.trilinos_vector()[0], n) =
+          result.col(0);
       }
 
       void
       solve(const std::vector<Vector> &right_hand_sides,
             std::vector<Vector>       &solutions) override
       {
-        const int n = symmetric.rows(), n_columns = right_hand_sides.size();
-        Eigen::MatrixXd from(n, n_columns);
-        for (int c = 0; c < n_columns; ++c)
-          from.col(c) = sign.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(
-            right_hand_sides[c].trilinos_vector()[0],
-            n));
-        Eigen::MatrixXd to = cholesky.solve(from);
-        // Again for the columns that have couplings of one side.
-        std::vector<int> coupled;
-        for (int c = 0; c < n_columns; ++c)
-          {
-            bool is_coupled = false;
-            for (const Coupling &coupling : one_sided)
-              if (to(coupling.column, c) != 0.)
-                {
-                  from(coupling.row, c) -=
-                    coupling.value * to(coupling.column, c);
-                  is_coupled = true;
-                }
-            if (is_coupled)
-              coupled.push_back(c);
-          }
-        if (!coupled.empty())
-          {
-            Eigen::MatrixXd again(n, coupled.size());
-            for (unsigned int k = 0; k < coupled.size(); ++k)
-              again.col(k) = from.col(coupled[k]);
-            again = cholesky.solve(again).eval();
-            for (unsigned int k = 0; k < coupled.size(); ++k)
-              to.col(coupled[k]) = again.col(k);
-          }
-        for (int c = 0; c < n_columns; ++c)
+        const int n = symmetric.rows();
+        right.resize(n, right_hand_sides.size());
+        for (unsigned int c = 0; c < right_hand_sides.size(); ++c)
+          right.col(c) = entries_of(right_hand_sides[c]);
+        back_substitute();
+        for (unsigned int c = 0; c < right_hand_sides.size(); ++c)
           Eigen::Map<Eigen::VectorXd>(solutions[c].trilinos_vector()[0], n) =
-            to.col(c);
+            result.col(c);
       }
 
     private:
@@ -211,9 +174,49 @@ namespace Ricochet
 
       struct Coupling
       {
-        int    row, column;
-        double value;
+        int row, column;
+        /// Place among the values of #symmetric.
+        std::size_t entry;
+        double      value;
       };
+
+      static Eigen::Map<const Eigen::VectorXd>
+      entries_of(const Vector &vector)
+      {
+        return {vector.trilinos_vector()[0],
+                static_cast<Eigen::Index>(vector.size())};
+      }
+
+      /// From all columns of #right to those of #result.
+      void
+      back_substitute()
+      {
+        right  = sign.asDiagonal() * right;
+        result = cholesky.solve(right);
+        // Again for the columns that have couplings of one side.
+        std::vector<int> coupled;
+        for (int c = 0; c < right.cols(); ++c)
+          {
+            bool is_coupled = false;
+            for (const Coupling &coupling : one_sided)
+              if (result(coupling.column, c) != 0.)
+                {
+                  right(coupling.row, c) -=
+                    coupling.value * result(coupling.column, c);
+                  is_coupled = true;
+                }
+            if (is_coupled)
+              coupled.push_back(c);
+          }
+        if (coupled.empty())
+          return;
+        Eigen::MatrixXd again(right.rows(), coupled.size());
+        for (unsigned int k = 0; k < coupled.size(); ++k)
+          again.col(k) = right.col(coupled[k]);
+        again = cholesky.solve(again).eval();
+        for (unsigned int k = 0; k < coupled.size(); ++k)
+          result.col(coupled[k]) = again.col(k);
+      }
 
       void
       find_pattern(const Matrix &matrix,
@@ -294,7 +297,8 @@ namespace Ricochet
       std::vector<Place>          places;
       std::vector<int>            diagonal;
       std::vector<Coupling>       one_sided;
-      Eigen::VectorXd             sign, right;
+      Eigen::VectorXd             sign;
+      Eigen::MatrixXd             right, result;
       Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower>
         cholesky;
     };

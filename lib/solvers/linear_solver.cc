@@ -24,31 +24,76 @@ namespace Ricochet
 
 
 
-  /// A factored body and its name.
+  /// A factored body, its name, and that of the contact last put to it.
   struct LinearSolver::Corrected
   {
     std::optional<BodyKey>                  body;
+    std::optional<std::uint64_t>            contact;
     std::unique_ptr<CorrectedFactorisation> factorisation;
   };
 
 
 
-  LinearSolver::LinearSolver(const Parameters &parameters, Structure structure)
+  namespace
+  {
+    /**
+     * The entry of @p kept that @p is_wanted, moved to the front; or a new one,
+     * made by @p make, in the place of the one not used for longest if there
+     * are @p n_kept. If it cannot be made, nothing is kept of it.
+     */
+    template <typename Entry, typename Predicate, typename Make>
+    Entry &
+    find_or_make(std::list<Entry>  &kept,
+                 const unsigned int n_kept,
+                 const Predicate   &is_wanted,
+                 const Make        &make)
+    {
+      const auto known = std::find_if(kept.begin(), kept.end(), is_wanted);
+      if (known != kept.end())
+        kept.splice(kept.begin(), kept, known);
+      else
+        {
+          while (kept.size() >= n_kept)
+            kept.pop_back();
+          kept.emplace_front(make());
+        }
+      return kept.front();
+    }
+  } // namespace
+
+
+
+  LinearSolver::LinearSolver(const Parameters       &parameters,
+                             const ContactStructure &contact,
+                             const bool              linear_body,
+                             const std::size_t       n_unknowns,
+                             const unsigned int      n_ranks)
     : parameters(parameters)
-    , structure(std::move(structure))
+    , contact(contact)
+    , linear_body(linear_body)
+    , n_unknowns(n_unknowns)
+    , n_ranks(n_ranks)
+    , type(parameters.type)
     , changing_direct(std::make_unique<Direct>())
-    , changing_corrected(std::make_unique<Corrected>())
   {
     if (parameters.factorisation == "CHOLMOD" && parameters.type == "direct")
       throw InputError(
         "CHOLMOD factors symmetric matrices only: with Linear "
         "solver/Type = direct choose KLU, MUMPS or automatic.");
-    if (parameters.factorisation == "CHOLMOD" && this->structure.n_ranks > 1)
+    if (parameters.factorisation == "CHOLMOD" && n_ranks > 1)
       throw InputError(
         "The factorisation CHOLMOD works on one MPI rank only, "
         "not on " +
-        std::to_string(this->structure.n_ranks) +
-        "; choose automatic, KLU or MUMPS.");
+        std::to_string(n_ranks) + "; choose automatic, KLU or MUMPS.");
+    // A nonlinear body gains by the symmetry only, and where a factorisation
+    // costs more than the iterations that it saves.
+    if (type == "automatic")
+      {
+        const bool gains = linear_body
+          ? n_unknowns > 1000
+          : n_unknowns > 5000 && chosen_factorisation(true) == "CHOLMOD";
+        type             = gains ? "corrected" : "direct";
+      }
   }
 
 
@@ -91,31 +136,16 @@ namespace Ricochet
 
 
   std::string
-  LinearSolver::chosen_type(const bool linear_body) const
-  {
-    if (parameters.type != "automatic")
-      return parameters.type;
-    // A nonlinear body gains by the symmetry only, and where a factorisation
-    // costs more than the iterations that it saves.
-    const bool gains = linear_body
-      ? structure.n_unknowns > 1000
-      : structure.n_unknowns > 5000 && chosen_factorisation(true) == "CHOLMOD";
-    return gains ? "corrected" : "direct";
-  }
-
-
-
-  std::string
   LinearSolver::chosen_factorisation(const bool symmetric) const
   {
-    if (symmetric && structure.n_ranks == 1 &&
+    if (symmetric && n_ranks == 1 &&
         (parameters.factorisation == "automatic" ||
          parameters.factorisation == "CHOLMOD"))
       return "CHOLMOD";
     if (parameters.factorisation == "KLU" ||
         parameters.factorisation == "MUMPS")
       return parameters.factorisation;
-    return structure.n_unknowns < 20000 ? "KLU" : "MUMPS";
+    return n_unknowns < 20000 ? "KLU" : "MUMPS";
   }
 
 
@@ -132,10 +162,14 @@ namespace Ricochet
 
 
   std::string
-  LinearSolver::description(const bool linear_body) const
+  LinearSolver::description() const
   {
-    const std::string type = chosen_type(linear_body);
-    return chosen_factorisation(type == "corrected") + ", " + type;
+    const std::string name = chosen_factorisation(type == "corrected");
+    if (type == "direct")
+      return name + " for each state of contact";
+    return name +
+      (linear_body ? ", corrected for contact"
+                   : ", kept for several iterations of GMRES");
   }
 
 
@@ -147,10 +181,9 @@ namespace Ricochet
                       const bool     may_reuse,
                       const double   tolerance)
   {
-    const bool linear_body = tangent.body.has_value();
-    if (chosen_type(linear_body) == "direct")
+    if (type == "direct")
       solve_direct(tangent, right_hand_side, solution, may_reuse);
-    else if (linear_body)
+    else if (tangent.body)
       solve_corrected(tangent, right_hand_side, solution);
     // Where GMRES gives up, a factorisation with pivots will do.
     else if (!solve_iteratively(tangent,
@@ -188,26 +221,22 @@ namespace Ricochet
 
     Direct *entry = changing_direct.get();
     if (tangent.body && tangent.contact)
-      {
-        auto known = kept_direct.begin();
-        while (
-          known != kept_direct.end() &&
-          !(known->body == tangent.body && known->contact == *tangent.contact))
-          ++known;
-        if (known == kept_direct.end())
-          {
-            while (kept_direct.size() >= parameters.n_kept)
-              kept_direct.pop_back();
-            kept_direct.emplace_front();
-            factorise(kept_direct.front(), false);
-            // Only now: a matrix that cannot be factored is never found again.
-            kept_direct.front().body    = tangent.body;
-            kept_direct.front().contact = *tangent.contact;
-          }
-        else
-          kept_direct.splice(kept_direct.begin(), kept_direct, known);
-        entry = &kept_direct.front();
-      }
+      entry = find_or_make(
+                kept_direct,
+                parameters.n_kept,
+                [&](const std::unique_ptr<Direct> &direct) {
+                  return direct->body == tangent.body &&
+                    direct->contact == *tangent.contact;
+                },
+                [&]() {
+                  // LU refers to the matrix: it must not move.
+                  auto direct     = std::make_unique<Direct>();
+                  direct->body    = tangent.body;
+                  direct->contact = *tangent.contact;
+                  factorise(*direct, false);
+                  return direct;
+                })
+                .get();
     else if (!may_reuse || !entry->factorisation)
       {
         factorise(*entry, !new_pivots);
@@ -220,55 +249,60 @@ namespace Ricochet
 
 
 
+  LinearSolver::Corrected
+  LinearSolver::factorise_body(const Tangent &tangent)
+  {
+    // Should the body's matrix not be positive definite, LU will do.
+    for (const bool symmetric : {true, false})
+      {
+        if (!symmetric &&
+            chosen_factorisation(false) == chosen_factorisation(true))
+          break;
+        LowRankCorrection::Options options;
+        options.is_symmetric = symmetric && contact.is_symmetric;
+        Corrected entry{tangent.body,
+                        {},
+                        std::make_unique<CorrectedFactorisation>(
+                          make_factorisation(symmetric),
+                          contact.functionals
+                            ? CorrectedFactorisation::Correction::functionals
+                            : CorrectedFactorisation::Correction::rows,
+                          contact,
+                          options,
+                          factorising)};
+        entry.factorisation->set_body(tangent);
+        ++factorisation_count;
+        if (entry.factorisation->factorise())
+          return entry;
+      }
+    throw NewtonFailure(
+      "The matrix of the body cannot be factored: it is singular. Is "
+      "the body held, or does it have inertia?");
+  }
+
+
+
   void
   LinearSolver::solve_corrected(const Tangent &tangent,
                                 const Vector  &right_hand_side,
                                 Vector        &solution)
   {
-    auto known = kept_corrected.begin();
-    while (known != kept_corrected.end() && !(known->body == tangent.body))
-      ++known;
-    if (known == kept_corrected.end())
+    Corrected &entry = find_or_make(
+      kept_corrected,
+      parameters.n_kept,
+      [&](const Corrected &corrected) {
+        return corrected.body == tangent.body;
+      },
+      [&]() { return factorise_body(tangent); });
+    // A state of contact with a name need not be put again.
+    if (tangent.complete_contact &&
+        !(tangent.contact && entry.contact == tangent.contact))
       {
-        while (kept_corrected.size() >= parameters.n_kept)
-          kept_corrected.pop_back();
-        kept_corrected.emplace_front();
-        Corrected &entry = kept_corrected.front();
-        // Should the body's matrix not be positive definite, LU will do.
-        for (const bool symmetric : {true, false})
-          {
-            ++factorisation_count;
-            entry.factorisation =
-              std::make_unique<CorrectedFactorisation>(make_factorisation(
-                                                         symmetric),
-                                                       structure.contact_rows,
-                                                       8,
-                                                       factorising);
-            entry.factorisation->set_body(tangent.assemble_body,
-                                          tangent.complete_open_contact);
-            if (entry.factorisation->factorise())
-              {
-                entry.body = tangent.body;
-                break;
-              }
-          }
-        if (!entry.body)
-          {
-            kept_corrected.pop_front();
-            throw NewtonFailure(
-              "The matrix of the body cannot be factored: it is singular. Is "
-              "the body held, or does it have inertia?");
-          }
+        entry.factorisation->set_contact(tangent);
+        entry.contact = tangent.contact;
       }
-    else
-      kept_corrected.splice(kept_corrected.begin(), kept_corrected, known);
-
-    CorrectedFactorisation &factorisation =
-      *kept_corrected.front().factorisation;
-    if (tangent.complete_contact)
-      factorisation.set_contact(tangent.complete_contact);
     const Stopwatch stopwatch(substituting);
-    factorisation.solve(right_hand_side, solution);
+    entry.factorisation->solve(right_hand_side, solution);
   }
 
 
@@ -280,33 +314,23 @@ namespace Ricochet
                                   const bool     may_reuse,
                                   const double   tolerance)
   {
-    auto &factorisation = changing_corrected->factorisation;
+    auto &factorisation = changing_corrected;
     if (!factorisation)
       {
-        factorisation =
-          std::make_unique<CorrectedFactorisation>(make_factorisation(true,
-                                                                      true),
-                                                   structure.contact_rows,
-                                                   0,
-                                                   factorising);
+        // Symmetric contact is factored together with the body.
+        factorisation = std::make_unique<CorrectedFactorisation>(
+          make_factorisation(true, true),
+          contact.is_symmetric ? CorrectedFactorisation::Correction::none
+                               : CorrectedFactorisation::Correction::rows,
+          contact,
+          LowRankCorrection::Options{0, false},
+          factorising);
         new_pivots = true;
       }
     // An older tangent only serves after it was set up once in this stage.
     const bool new_tangent = new_pivots || !may_reuse;
     if (new_tangent)
-      {
-        // Symmetric contact is factored together with the body.
-        if (structure.symmetric_contact)
-          factorisation->set_body(
-            [&](Matrix &matrix) {
-              tangent.assemble_body(matrix);
-              tangent.complete_contact(matrix);
-            },
-            [](Matrix &) {});
-        else
-          factorisation->set_body(tangent.assemble_body,
-                                  tangent.complete_open_contact);
-      }
+      factorisation->set_body(tangent);
 
     struct Preconditioner
     {
@@ -333,8 +357,8 @@ namespace Ricochet
             if (!factorisation->factorise())
               break;
           }
-        if (!structure.symmetric_contact && (new_tangent || factorise))
-          factorisation->set_contact(tangent.complete_contact);
+        if (new_tangent || factorise)
+          factorisation->set_contact(tangent);
         const Stopwatch    stopwatch(substituting);
         const unsigned int max_iterations =
           factorise ? 60 : 2 + std::lround(-2.5 * std::log10(tolerance));

@@ -4,6 +4,7 @@
 
 #include <base/types.h>
 #include <solvers/corrected_factorisation.h>
+#include <solvers/tangent.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -44,52 +45,17 @@ namespace Ricochet
       add_parameters(dealii::ParameterHandler &parameters);
     };
 
-    /// What is constant in all tangents of a run.
-    struct Structure
-    {
-      /// Rows that contact may change, as CorrectedFactorisation wants them.
-      std::vector<dealii::types::global_dof_index> contact_rows;
-      /// What contact adds is symmetric, or nearly so, and may be factored
-      /// together with the body.
-      bool symmetric_contact = false;
-      /// Number of unknowns on all ranks.
-      std::size_t n_unknowns = 0;
-      int         n_ranks    = 1;
-    };
-
-    /// What names the body's part of a tangent.
-    struct BodyKey
-    {
-      double inertia;
-      double bulk_weight;
-      double contact_weight;
-
-      bool
-      operator==(const BodyKey &other) const
-      {
-        return inertia == other.inertia && bulk_weight == other.bulk_weight &&
-          contact_weight == other.contact_weight;
-      }
-    };
-
-    /// A tangent: how it is made, and the names of what does not change with
-    /// every state.
-    struct Tangent
-    {
-      /// None if the body is not linear.
-      std::optional<BodyKey> body;
-      /// State of contact; none if the tangent changes with every state.
-      std::optional<std::uint64_t> contact;
-
-      /// Overwrite a matrix with the body's part.
-      std::function<void(Matrix &)> assemble_body;
-      /// Add contact.
-      std::function<void(Matrix &)> complete_contact;
-      /// Add what contact adds when all points are open.
-      std::function<void(Matrix &)> complete_open_contact;
-    };
-
-    LinearSolver(const Parameters &parameters, Structure structure);
+    /**
+     * @param contact how contact enters the tangents.
+     * @param linear_body the body's part of a tangent has a name.
+     * @param n_unknowns number of unknowns on all ranks.
+     * @throws InputError when the parameters do not go together.
+     */
+    LinearSolver(const Parameters       &parameters,
+                 const ContactStructure &contact,
+                 const bool              linear_body,
+                 const std::size_t       n_unknowns,
+                 const unsigned int      n_ranks);
 
     ~LinearSolver();
 
@@ -138,18 +104,15 @@ namespace Ricochet
       return substituting;
     }
 
-    /// What is used, in words: "corrected CHOLMOD".
+    /// What is used, in words: "CHOLMOD, corrected for contact".
     std::string
-    description(const bool linear_body) const;
+    description() const;
 
   private:
     struct Direct;
     struct Corrected;
 
-    /// "direct" or "corrected".
-    std::string
-    chosen_type(const bool linear_body) const;
-
+    /// @param symmetric the matrix is, or its symmetric part will do.
     std::string
     chosen_factorisation(const bool symmetric) const;
 
@@ -157,6 +120,9 @@ namespace Ricochet
     std::unique_ptr<Factorisation>
     make_factorisation(const bool symmetric,
                        const bool approximate = false) const;
+
+    Corrected
+    factorise_body(const Tangent &tangent);
 
     void
     solve_direct(const Tangent &tangent,
@@ -177,15 +143,19 @@ namespace Ricochet
                       const bool     may_reuse,
                       const double   tolerance);
 
-    const Parameters           parameters;
-    const Structure            structure;
-    std::list<Direct>          kept_direct;
-    std::list<Corrected>       kept_corrected;
-    std::unique_ptr<Direct>    changing_direct;
-    std::unique_ptr<Corrected> changing_corrected;
-    bool                       new_pivots          = true;
-    unsigned int               factorisation_count = 0;
-    double                     factorising = 0., substituting = 0.;
+    const Parameters                        parameters;
+    const ContactStructure                  contact;
+    const bool                              linear_body;
+    const std::size_t                       n_unknowns;
+    const unsigned int                      n_ranks;
+    std::string                             type;
+    std::list<std::unique_ptr<Direct>>      kept_direct;
+    std::list<Corrected>                    kept_corrected;
+    std::unique_ptr<Direct>                 changing_direct;
+    std::unique_ptr<CorrectedFactorisation> changing_corrected;
+    bool                                    new_pivots          = true;
+    unsigned int                            factorisation_count = 0;
+    double                                  factorising = 0., substituting = 0.;
   };
 } // namespace Ricochet
 

@@ -10,6 +10,42 @@ namespace Ricochet
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Clamped unknowns (@p clamped of this rank) have equations of their own,
+    /// in which contact has no part.
+    ContactStructure
+    contact_structure(const ContactOperator &contact,
+                      const IndexSet        &my_clamped,
+                      const MPI_Comm         communicator)
+    {
+      ContactStructure structure = contact.tangent_structure();
+      if (structure.functionals)
+        {
+          IndexSet   clamped(my_clamped.size());
+          const auto lists = Utilities::MPI::all_gather(
+            communicator,
+            std::vector<types::global_dof_index>(my_clamped.begin(),
+                                                 my_clamped.end()));
+          for (const auto &list : lists)
+            clamped.add_indices(list.begin(), list.end());
+          const Functionals &all = structure.functionals->functionals;
+          Functionals        free;
+          for (unsigned int f = 0; f < all.size(); ++f)
+            {
+              for (std::size_t k = all.begin[f]; k < all.begin[f + 1]; ++k)
+                if (!clamped.is_element(all.index[k]))
+                  free.add(all.index[k], all.value[k]);
+              free.end_functional();
+            }
+          structure.functionals->functionals = std::move(free);
+        }
+      return structure;
+    }
+  } // namespace
+
+
+
   SemiDiscreteSystem::SemiDiscreteSystem(
     const Matrix                   &mass,
     const Matrix                   &invertible_mass,
@@ -31,12 +67,12 @@ namespace Ricochet
     , clamped_list(clamped.begin(), clamped.end())
     , load(std::move(load))
     , newton(newton_parameters)
-    , linear_solver(solver_parameters,
-                    {contact.tangent_rows(),
-                     contact.has_symmetric_tangent(),
-                     mass.m(),
-                     static_cast<int>(Utilities::MPI::n_mpi_processes(
-                       mass.get_mpi_communicator()))})
+    , linear_solver(
+        solver_parameters,
+        contact_structure(contact, clamped, mass.get_mpi_communicator()),
+        bulk.is_linear(),
+        mass.m(),
+        Utilities::MPI::n_mpi_processes(mass.get_mpi_communicator()))
     , work(contact.row_scaling())
     , constant_part(contact.row_scaling())
     , force(contact.row_scaling())
@@ -87,8 +123,8 @@ namespace Ricochet
                                  Vector       &acceleration)
   {
     // A key of its own: no stage has a negative weight of the bulk force.
-    LinearSolver::Tangent tangent;
-    tangent.body          = LinearSolver::BodyKey{1., -1., 0.};
+    Tangent tangent;
+    tangent.body          = BodyKey{1., -1., 0.};
     tangent.contact       = 0;
     tangent.assemble_body = [&](Matrix &matrix) {
       matrix.copy_from(invertible_mass);
@@ -200,12 +236,11 @@ namespace Ricochet
                            const bool    may_reuse,
                            const double  tolerance) {
       ++n_iterations;
-      LinearSolver::Tangent tangent;
+      Tangent tangent;
       if (bulk.is_linear())
         {
-          tangent.body    = LinearSolver::BodyKey{stage.inertia,
-                                               bulk_weight,
-                                               stage.contact_weight_new};
+          tangent.body =
+            BodyKey{stage.inertia, bulk_weight, stage.contact_weight_new};
           tangent.contact = contact.tangent_signature();
         }
       tangent.assemble_body = [&](Matrix &matrix) {
@@ -220,15 +255,21 @@ namespace Ricochet
         else
           bulk.add_tangent(bulk_weight, solution, matrix);
       };
-      tangent.complete_contact = [&](Matrix &matrix) {
-        const Stopwatch stopwatch(tangent_seconds);
-        contact.complete_tangent(matrix);
-        matrix.clear_rows(clamped_list, 1.);
+      const auto complete = [&](void (ContactOperator::*add)(Matrix &) const) {
+        return [this, add](Matrix &matrix) {
+          const Stopwatch stopwatch(tangent_seconds);
+          (contact.*add)(matrix);
+          matrix.clear_rows(clamped_list, 1.);
+        };
       };
-      tangent.complete_open_contact = [&](Matrix &matrix) {
-        contact.complete_open_tangent(matrix);
-        matrix.clear_rows(clamped_list, 1.);
-      };
+      tangent.complete_contact = complete(&ContactOperator::complete_tangent);
+      tangent.complete_open_contact =
+        complete(&ContactOperator::complete_open_tangent);
+      tangent.contact_change =
+        [&](std::vector<LowRankCorrection::Row> &change) {
+          const Stopwatch stopwatch(tangent_seconds);
+          contact.tangent_change(change);
+        };
       const bool          has_name   = tangent.body && tangent.contact;
       const std::uint64_t active_set = contact.active_set_signature();
       const bool          reuse =

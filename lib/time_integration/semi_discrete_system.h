@@ -160,6 +160,13 @@ namespace Ricochet
     const BulkOperator &bulk;
     ContactOperator    &contact;
 
+    /// What solves the linear systems, in words.
+    std::string
+    linear_solver_description() const
+    {
+      return linear_solver.description();
+    }
+
     /// Number of factorisations made so far.
     unsigned int
     n_factorisations() const

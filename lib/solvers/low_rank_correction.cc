@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <solvers/low_rank_correction.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/utility.hpp>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  LowRankCorrection::LowRankCorrection(const IndexSet            &owned,
+                                       const MPI_Comm             communicator,
+                                       Functionals                directions_,
+                                       const std::vector<double> &order,
+                                       Functionals                observables_,
+                                       const Options             &options)
+    : communicator(communicator)
+    , directions(std::move(directions_))
+    , observables(std::move(observables_))
+    , options(options)
+    , work(owned, communicator)
+  {
+    const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
+
+    // The observables of all ranks stand one behind the other.
+    const auto sizes =
+      Utilities::MPI::all_gather(communicator, observables.size());
+    my_first_observable =
+      std::accumulate(sizes.begin(), sizes.begin() + my_rank, 0u);
+    n_observables = std::accumulate(sizes.begin(), sizes.end(), 0u);
+    observed.resize(n_observables);
+
+    IndexSet relevant = owned;
+    relevant.add_indices(observables.index.begin(), observables.index.end());
+    ghosted.reinit(owned, relevant, communicator);
+    for (const Index index : observables.index)
+      local_index.push_back(ghosted.trilinos_vector().Map().LID(
+        static_cast<TrilinosWrappers::types::int_type>(index)));
+
+    // The directions of all ranks are sorted.
+    using Entry = std::tuple<double, unsigned int, unsigned int>;
+    std::vector<Entry> sorted;
+    const auto         orders = Utilities::MPI::all_gather(communicator, order);
+    for (unsigned int rank = 0; rank < orders.size(); ++rank)
+      for (unsigned int d = 0; d < orders[rank].size(); ++d)
+        sorted.emplace_back(orders[rank][d], rank, d);
+    std::sort(sorted.begin(), sorted.end());
+    place_of_direction.resize(directions.size());
+    direction_at_place.assign(sorted.size(), -1);
+    for (unsigned int place = 0; place < sorted.size(); ++place)
+      if (std::get<1>(sorted[place]) == my_rank)
+        {
+          place_of_direction[std::get<2>(sorted[place])] = place;
+          direction_at_place[place] = std::get<2>(sorted[place]);
+        }
+    forget_columns();
+  }
+
+
+
+  void
+  LowRankCorrection::forget_columns()
+  {
+    columns.assign(direction_at_place.size(), {});
+    if (options.group_size == 0)
+      whole_columns.resize(direction_at_place.size());
+    has_change = false;
+    changed.clear();
+  }
+
+
+
+  void
+  LowRankCorrection::observe(const Vector &vector, std::vector<double> &values)
+  {
+    ghosted             = vector;
+    const double *value = ghosted.trilinos_vector()[0];
+    values.assign(n_observables, 0.);
+    for (unsigned int o = 0; o < observables.size(); ++o)
+      {
+        double sum = 0.;
+        for (std::size_t k = observables.begin[o]; k < observables.begin[o + 1];
+             ++k)
+          sum += observables.value[k] * value[local_index[k]];
+        values[my_first_observable + o] = sum;
+      }
+    Utilities::MPI::sum(values, communicator, values);
+  }
+
+
+
+  void
+  LowRankCorrection::add_direction(const unsigned int place,
+                                   const double       factor,
+                                   Vector            &vector) const
+  {
+    const int d = direction_at_place[place];
+    if (d >= 0)
+      for (std::size_t k = directions.begin[d]; k < directions.begin[d + 1];
+           ++k)
+        vector(directions.index[k]) += factor * directions.value[k];
+  }
+
+
+
+  void
+  LowRankCorrection::solve_columns(const std::vector<unsigned int> &places,
+                                   Factorisation &factorisation)
+  {
+    if (places.empty())
+      return;
+    std::vector<Vector> units(places.size(), work),
+      solutions(places.size(), work);
+    for (unsigned int c = 0; c < places.size(); ++c)
+      {
+        units[c] = 0.;
+        add_direction(places[c], 1., units[c]);
+        units[c].compress(VectorOperation::add);
+      }
+    factorisation.solve(units, solutions);
+    for (unsigned int c = 0; c < places.size(); ++c)
+      {
+        observe(solutions[c], columns[places[c]]);
+        if (options.group_size == 0)
+          whole_columns[places[c]].swap(solutions[c]);
+      }
+  }
+
+
+
+  void
+  LowRankCorrection::solve_missing_columns(Factorisation &factorisation)
+  {
+    std::vector<unsigned int> missing;
+    for (const unsigned int place : changed)
+      if (columns[place].empty())
+        missing.push_back(place);
+    if (options.group_size == 0)
+      {
+        solve_columns(missing, factorisation);
+        return;
+      }
+    std::set<std::size_t> groups;
+    for (const unsigned int place : missing)
+      groups.insert(place / options.group_size);
+    for (const std::size_t group : groups)
+      {
+        std::vector<unsigned int> places(
+          std::min<std::size_t>((group + 1) * options.group_size,
+                                columns.size()) -
+          group * options.group_size);
+        std::iota(places.begin(), places.end(), group * options.group_size);
+        solve_columns(places, factorisation);
+      }
+  }
+
+
+
+  bool
+  LowRankCorrection::is_positive() const
+  {
+    if (!options.is_symmetric)
+      return false;
+    for (unsigned int i = 0; i < changed.size(); ++i)
+      if (rows[i].size() != 1 || !(rows[i][0].second > 0.))
+        return false;
+    // Each direction observes itself: then V^T A^{-1} U is symmetric.
+    for (unsigned int i = 0; i < changed.size(); ++i)
+      {
+        const int d = direction_at_place[changed[i]];
+        if (d >= 0 && rows[i][0].first != my_first_observable + d)
+          return false;
+      }
+    return true;
+  }
+
+
+
+  void
+  LowRankCorrection::set_change(const std::vector<Row> &my_rows,
+                                Factorisation          &factorisation)
+  {
+    const bool same = has_change && my_rows == my_last_rows;
+    if (Utilities::MPI::min(same ? 1 : 0, communicator) == 1)
+      return;
+    my_last_rows = my_rows;
+    has_change   = true;
+
+    // All ranks get all rows, by place.
+    std::vector<std::pair<unsigned int, Row>> all;
+    for (unsigned int d = 0; d < my_rows.size(); ++d)
+      if (!my_rows[d].empty())
+        all.emplace_back(place_of_direction[d], my_rows[d]);
+    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+      {
+        const auto lists = Utilities::MPI::all_gather(communicator, all);
+        all.clear();
+        for (const auto &list : lists)
+          all.insert(all.end(), list.begin(), list.end());
+      }
+    std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
+      return a.first < b.first;
+    });
+    changed.clear();
+    rows.clear();
+    for (auto &[place, row] : all)
+      {
+        changed.push_back(place);
+        rows.push_back(std::move(row));
+      }
+    if (changed.empty())
+      return;
+    solve_missing_columns(factorisation);
+    factorise_small();
+  }
+
+
+
+  void
+  LowRankCorrection::factorise_small()
+  {
+    const unsigned int n = changed.size();
+    small                = std::make_unique<LAPACKFullMatrix<double>>(n, n);
+    small_is_positive =
+      Utilities::MPI::min(is_positive() ? 1 : 0, communicator) == 1;
+    if (small_is_positive)
+      {
+        // Divided by C, the system is symmetric and positive definite.
+        for (unsigned int j = 0; j < n; ++j)
+          {
+            const std::vector<double> &column = columns[changed[j]];
+            for (unsigned int i = 0; i < n; ++i)
+              (*small)(i, j) = column[rows[i][0].first];
+            (*small)(j, j) += 1. / rows[j][0].second;
+          }
+        small->set_property(LAPACKSupport::symmetric);
+        small->compute_cholesky_factorization();
+        return;
+      }
+
+    // In blocks of columns, packed so that the innermost loop runs over
+    // neighbours.
+    constexpr unsigned int width = 16;
+    std::vector<double>    block(n_observables * width, 0.);
+    for (unsigned int begin = 0; begin < n; begin += width)
+      {
+        const unsigned int size = std::min(width, n - begin);
+        for (unsigned int j = 0; j < size; ++j)
+          {
+            const std::vector<double> &column = columns[changed[begin + j]];
+            for (unsigned int o = 0; o < n_observables; ++o)
+              block[o * width + j] = column[o];
+          }
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            std::array<double, width> sum{};
+            for (const auto &[o, value] : rows[i])
+              for (unsigned int j = 0; j < width; ++j)
+                sum[j] += value * block[o * width + j];
+            for (unsigned int j = 0; j < size; ++j)
+              (*small)(i, begin + j) = sum[j] + (i == begin + j ? 1. : 0.);
+          }
+      }
+    small->compute_lu_factorization();
+  }
+
+
+
+  void
+  LowRankCorrection::solve(const Vector  &right_hand_side,
+                           Vector        &solution,
+                           Factorisation &factorisation)
+  {
+    factorisation.solve(right_hand_side, solution);
+    if (changed.empty())
+      return;
+    observe(solution, observed);
+    dealii::Vector<double> y(changed.size());
+    for (unsigned int i = 0; i < changed.size(); ++i)
+      for (const auto &[o, value] : rows[i])
+        y[i] += (small_is_positive ? 1. : value) * observed[o];
+    small->solve(y);
+    if (options.group_size == 0)
+      {
+        for (unsigned int i = 0; i < changed.size(); ++i)
+          solution.add(-y[i], whole_columns[changed[i]]);
+        return;
+      }
+    // The sum of the directions first: it gathers entries from other ranks.
+    work = 0.;
+    for (unsigned int i = 0; i < changed.size(); ++i)
+      add_direction(changed[i], -y[i], work);
+    work.compress(VectorOperation::add);
+    work += right_hand_side;
+    factorisation.solve(work, solution);
+  }
+} // namespace Ricochet

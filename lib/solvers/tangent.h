@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_tangent_h
+#define ricochet_solvers_tangent_h
+
+#include <base/types.h>
+#include <solvers/low_rank_correction.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace Ricochet
+{
+  /// How contact enters tangents, the same in all of a run.
+  struct ContactStructure
+  {
+    /// All rows that contact may change, the same list on all ranks, in the
+    /// order in which contact is expected to spread.
+    std::vector<dealii::types::global_dof_index> rows;
+
+    /// The functionals through which contact acts, and the order in which it is
+    /// expected to spread; none if only the rows are known.
+    struct ActsThrough
+    {
+      Functionals         functionals;
+      std::vector<double> order;
+    };
+    std::optional<ActsThrough> functionals;
+
+    /// What contact adds is symmetric, or nearly so, and may be factored
+    /// together with the body.
+    bool is_symmetric = false;
+  };
+
+  /// What names the body's part of a tangent: the weights of its terms.
+  struct BodyKey
+  {
+    double inertia;
+    double bulk;
+    double contact;
+
+    bool
+    operator==(const BodyKey &other) const
+    {
+      return inertia == other.inertia && bulk == other.bulk &&
+        contact == other.contact;
+    }
+  };
+
+  /// The matrix of one Newton iteration: how it is made, and the names of what
+  /// does not change with every state.
+  struct Tangent
+  {
+    /// None if the body is not linear.
+    std::optional<BodyKey> body;
+    /// State of contact; none if the tangent changes with every state.
+    std::optional<std::uint64_t> contact;
+
+    /// Overwrite a matrix with the body's part.
+    std::function<void(Matrix &)> assemble_body;
+    /// Add contact.
+    std::function<void(Matrix &)> complete_contact;
+    /// Add what contact adds when all points are open.
+    std::function<void(Matrix &)> complete_open_contact;
+    /// The difference of the two as a change of the functionals' weights, see
+    /// LowRankCorrection::set_change() (with places that count from this rank's
+    /// first functional).
+    std::function<void(std::vector<LowRankCorrection::Row> &)> contact_change;
+  };
+} // namespace Ricochet
+
+#endif
