@@ -343,6 +343,23 @@ namespace Ricochet
 
 
 
+  Vector
+  ActiveSetContact::pressure_field(const Vector & /*solution*/,
+                                   const Vector &contact_force)
+  {
+    std::vector<double> pressures;
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      {
+        const ContactPoint &point = evaluator.contact_points()[p];
+        pressures.push_back(
+          -(point.obstacle_normal * evaluator.at_node(p, contact_force)) /
+          point.weight);
+      }
+    return evaluator.nodal_averages(pressures);
+  }
+
+
+
   std::map<dealii::types::boundary_id, ContactSummary>
   ActiveSetContact::summary(const Vector &solution, const Vector &contact_force)
   {

@@ -147,6 +147,10 @@ namespace Ricochet
     std::map<dealii::types::boundary_id, ContactSummary>
     summary(const Vector &solution, const Vector &contact_force) override;
 
+    Vector
+    pressure_field(const Vector &solution,
+                   const Vector &contact_force) override;
+
   private:
     enum class Status
     {

@@ -8,8 +8,7 @@
 namespace Ricochet
 {
   void
-  ContactOperator::tangent_change(
-    std::vector<LowRankCorrection::Row> & /*change*/) const
+  ContactOperator::tangent_change(std::vector<FunctionalRow> & /*change*/) const
   {
     AssertThrow(false, dealii::ExcMessage("This contact has no functionals."));
   }
@@ -199,6 +198,34 @@ namespace Ricochet
                    local_matrix.data(),
                    true);
       }
+  }
+
+
+
+  Vector
+  ContactPointEvaluator::nodal_averages(const std::vector<double> &values) const
+  {
+    Vector sums(ghosted.locally_owned_elements(), communicator);
+    Vector weights(sums);
+    for (unsigned int p = 0; p < points.points.size(); ++p)
+      for (unsigned int k = points.points[p].begin; k < points.points[p].end;
+           ++k)
+        if (points.component[k] == 0 && points.shape_value[k] != 0.)
+          {
+            const double weight = points.points[p].weight *
+              points.shape_value[k] * points.shape_value[k];
+            sums(points.index[k]) += weight * values[p];
+            weights(points.index[k]) += weight;
+          }
+    sums.compress(dealii::VectorOperation::add);
+    weights.compress(dealii::VectorOperation::add);
+    for (const auto i : sums.locally_owned_elements())
+      {
+        const double weight = weights(i), sum = sums(i);
+        sums(i) = weight > 0. ? sum / weight : 0.;
+      }
+    sums.compress(dealii::VectorOperation::insert);
+    return sums;
   }
 
 

@@ -113,10 +113,10 @@ namespace Ricochet
 
     /// Where the structure has functionals: the difference between
     /// complete_tangent() and complete_open_tangent() in terms of them, see
-    /// LowRankCorrection::set_change(). @p change has an empty row for each
-    /// functional of this rank.
+    /// Tangent::contact_change. @p change has an empty row for each functional
+    /// of this rank.
     virtual void
-    tangent_change(std::vector<LowRankCorrection::Row> &change) const;
+    tangent_change(std::vector<FunctionalRow> &change) const;
 
     /**
      * A number that is the same on all ranks and changes whenever the tangent
@@ -176,6 +176,12 @@ namespace Ricochet
     /// displacements, a stiffness for multipliers.
     virtual const Vector &
     row_scaling() const = 0;
+
+    /// Contact pressure (Pa) at a solved state, as a field for pictures: the
+    /// average around each node of the contact boundary, in the place of the
+    /// node's first displacement; zero elsewhere.
+    virtual Vector
+    pressure_field(const Vector &solution, const Vector &contact_force) = 0;
 
     /// Whether the summary has the pressure of the body's own stress.
     virtual bool
@@ -239,6 +245,12 @@ namespace Ricochet
         const dealii::Tensor<2, 3>                &with_displacement,
         const std::array<dealii::Tensor<1, 3>, 3> &with_state,
         Matrix                                    &matrix) const;
+
+    /// Averages around each node of @p values in the points, in the place of the
+    /// node's first displacement: weighted by the square of the node's shape
+    /// function, which is never negative.
+    Vector
+    nodal_averages(const std::vector<double> &values) const;
 
     /// The displacement or force of @p vector at @p p, which must be a node of
     /// this rank.

@@ -374,16 +374,21 @@ namespace Ricochet
   ContactStructure
   PointwiseContact::tangent_structure() const
   {
-    return {evaluator.unknowns(),
-            acts_through,
-            !law->traits().needs_multiplier};
+    ContactStructure structure;
+    structure.rows                = evaluator.unknowns();
+    structure.functionals         = acts_through;
+    structure.has_multipliers     = law->traits().needs_multiplier;
+    structure.is_nearly_symmetric = !structure.has_multipliers;
+    const auto closing            = closing_directions(1.);
+    structure.is_symmetric        = structure.is_nearly_symmetric && closing &&
+      closing->test == closing->trial && friction.coefficient == 0.;
+    return structure;
   }
 
 
 
   void
-  PointwiseContact::tangent_change(
-    std::vector<LowRankCorrection::Row> &change) const
+  PointwiseContact::tangent_change(std::vector<FunctionalRow> &change) const
   {
     for (unsigned int p = 0; p < state.size(); ++p)
       {
@@ -564,32 +569,52 @@ namespace Ricochet
 
 
 
-  std::map<dealii::types::boundary_id, ContactSummary>
-  PointwiseContact::summary(const Vector &solution, const Vector &contact_force)
+  double
+  PointwiseContact::normal_force(const unsigned int p,
+                                 const Vector      &contact_force) const
   {
     // A two-point law has no force at an instant, only over the last step. In
     // nodes every force can be read off the vector.
+    const ContactPoint    &point  = evaluator.contact_points()[p];
     const ContactLawTraits traits = law->traits();
-    const bool             over_step =
-      traits.is_two_point && !traits.uses_stress && point_force.size() > 0;
+    if (traits.nodal)
+      return -(point.obstacle_normal * evaluator.at_node(p, contact_force));
+    if (traits.is_two_point && !traits.uses_stress && point_force.size() > 0)
+      return -point.weight * point_force[p].gap;
+    return point.weight * law->pressure(state[p], point.cell_diameter);
+  }
+
+
+
+  Vector
+  PointwiseContact::pressure_field(const Vector &solution,
+                                   const Vector &contact_force)
+  {
+    evaluator.evaluate(solution, state);
+    std::vector<double> pressures(state.size());
+    for (unsigned int p = 0; p < state.size(); ++p)
+      pressures[p] =
+        normal_force(p, contact_force) / evaluator.contact_points()[p].weight;
+    return evaluator.nodal_averages(pressures);
+  }
+
+
+
+  std::map<dealii::types::boundary_id, ContactSummary>
+  PointwiseContact::summary(const Vector &solution, const Vector &contact_force)
+  {
+    const ContactLawTraits traits = law->traits();
     evaluator.evaluate(solution, state);
     std::map<dealii::types::boundary_id, ContactSummary> sums;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
-        const ContactPoint &point        = evaluator.contact_points()[p];
-        const double        normal_force = traits.nodal
-                 ? -(point.obstacle_normal * evaluator.at_node(p, contact_force))
-                 : over_step
-                 ? -point.weight * point_force[p].gap
-                 : point.weight * law->pressure(state[p], point.cell_diameter);
+        const ContactPoint &point = evaluator.contact_points()[p];
+        const double        force = normal_force(p, contact_force);
         // Two-point laws are active over a step, the others at an instant.
         const bool is_active = traits.is_two_point && !traits.uses_stress
-          ? normal_force > 0.
+          ? force > 0.
           : law->branch(state[p], state[p], point.cell_diameter) != 0;
-        sums[point.boundary_id].add(point,
-                                    state[p].gap,
-                                    normal_force,
-                                    is_active);
+        sums[point.boundary_id].add(point, state[p].gap, force, is_active);
       }
     add_stress_pressure(solution, stress_evaluator, stress_state, sums);
     return reduce_summaries(sums, evaluator.communicator);

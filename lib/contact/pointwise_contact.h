@@ -72,7 +72,7 @@ namespace Ricochet
     tangent_structure() const override;
 
     void
-    tangent_change(std::vector<LowRankCorrection::Row> &change) const override;
+    tangent_change(std::vector<FunctionalRow> &change) const override;
 
     std::optional<std::uint64_t>
     tangent_signature() const override;
@@ -122,7 +122,15 @@ namespace Ricochet
     std::map<dealii::types::boundary_id, ContactSummary>
     summary(const Vector &solution, const Vector &contact_force) override;
 
+    Vector
+    pressure_field(const Vector &solution,
+                   const Vector &contact_force) override;
+
   private:
+    /// The normal force (N) in a point, at #state.
+    double
+    normal_force(const unsigned int p, const Vector &contact_force) const;
+
     /// The law's branch in each point at the last complete_residual().
     std::vector<int>
     branches() const;

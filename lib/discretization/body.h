@@ -85,6 +85,19 @@ namespace Ricochet
     Vector
     make_ghosted_vector() const;
 
+    /**
+     * For each owned unknown, in the order of their indices, its place in an
+     * order of all unknowns that does not depend on the number of ranks: by the
+     * first cell that has it, and its number there. For files. Collective.
+     */
+    std::vector<dealii::types::global_dof_index>
+    canonical_positions() const;
+
+    /// Displacements that move the body without deforming it, to first order:
+    /// translations, then rotations about the origin. Zero in multipliers.
+    std::vector<Vector>
+    rigid_body_modes() const;
+
     /// The sparsity pattern of all system matrices.
     const dealii::TrilinosWrappers::SparsityPattern &
     sparsity_pattern() const

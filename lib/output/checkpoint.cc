@@ -19,7 +19,7 @@ namespace Ricochet
 
   namespace
   {
-    const std::string magic     = "Ricochet checkpoint, format 2\n";
+    const std::string magic     = "Ricochet checkpoint, format 3\n";
     const std::string file_name = "checkpoint.bin";
 
     /// The vectors of a state, in the order in which they are stored.
@@ -38,17 +38,18 @@ namespace Ricochet
     /// What is in the file, apart from magic, size and checksum.
     struct Payload
     {
-      std::string                      parameters;
-      unsigned int                     step = 0;
-      double                           time = 0.;
-      std::vector<double>              sums;
-      std::vector<std::vector<double>> values_of_rank;
+      std::string         parameters;
+      unsigned int        step = 0;
+      double              time = 0.;
+      std::vector<double> sums;
+      /// The vectors, in the canonical order of the unknowns.
+      std::vector<std::vector<double>> values;
 
       template <typename Archive>
       void
       serialize(Archive &archive, const unsigned int /*version*/)
       {
-        archive &parameters &step &time &sums &values_of_rank;
+        archive &parameters &step &time &sums &values;
       }
     };
 
@@ -64,20 +65,23 @@ namespace Ricochet
 
 
   void
-  Checkpoint::write(const RunFolder &folder) const
+  Checkpoint::write(const RunFolder                            &folder,
+                    const std::vector<types::global_dof_index> &positions) const
   {
-    std::vector<double> my_values;
+    Payload payload{folder.parameters_that_matter, step, state.time, sums, {}};
+    const auto positions_of_rank =
+      Utilities::MPI::gather(folder.communicator, positions);
     for_each_vector(state, [&](const Vector &vector) {
-      const double *values = vector.trilinos_vector()[0];
-      my_values.insert(my_values.end(),
-                       values,
-                       values + vector.locally_owned_size());
+      const double *mine           = vector.trilinos_vector()[0];
+      const auto    values_of_rank = Utilities::MPI::gather(
+        folder.communicator,
+        std::vector<double>(mine, mine + vector.locally_owned_size()));
+      std::vector<double> &values =
+        payload.values.emplace_back(folder.is_root ? vector.size() : 0);
+      for (unsigned int rank = 0; rank < values_of_rank.size(); ++rank)
+        for (std::size_t k = 0; k < values_of_rank[rank].size(); ++k)
+          values[positions_of_rank[rank][k]] = values_of_rank[rank][k];
     });
-    Payload payload{folder.parameters_that_matter,
-                    step,
-                    state.time,
-                    sums,
-                    Utilities::MPI::gather(folder.communicator, my_values, 0)};
 
     bool written = true;
     if (folder.is_root)
@@ -110,7 +114,9 @@ namespace Ricochet
 
 
   Checkpoint
-  Checkpoint::read(const RunFolder &folder, const Vector &empty_vector)
+  Checkpoint::read(const RunFolder                            &folder,
+                   const Vector                               &empty_vector,
+                   const std::vector<types::global_dof_index> &positions)
   {
     const std::string file = folder.file(file_name);
     const auto        fail = [&](const std::string &why) {
@@ -145,11 +151,6 @@ namespace Ricochet
       boost::archive::binary_iarchive archive(data);
       archive >> payload;
     }
-    const unsigned int n_ranks =
-      Utilities::MPI::n_mpi_processes(folder.communicator);
-    if (payload.values_of_rank.size() != n_ranks)
-      fail("was written by " + std::to_string(payload.values_of_rank.size()) +
-           " MPI rank(s) and this run has " + std::to_string(n_ranks));
     if (payload.parameters != folder.parameters_that_matter)
       {
         // Name the first line that differs.
@@ -167,20 +168,16 @@ namespace Ricochet
     checkpoint.step       = payload.step;
     checkpoint.sums       = payload.sums;
     checkpoint.state.time = payload.time;
-    const std::vector<double> &my_values =
-      payload
-        .values_of_rank[Utilities::MPI::this_mpi_process(folder.communicator)];
-    std::size_t position = 0;
+    auto stored           = payload.values.begin();
     for_each_vector(checkpoint.state, [&](Vector &vector) {
       vector.reinit(empty_vector);
-      double            *values = vector.trilinos_vector()[0];
-      const unsigned int n      = vector.locally_owned_size();
-      AssertThrow(position + n <= my_values.size(),
+      AssertThrow(stored != payload.values.end() &&
+                    stored->size() == vector.size(),
                   ExcMessage("The checkpoint has another number of unknowns."));
-      std::copy(my_values.begin() + position,
-                my_values.begin() + position + n,
-                values);
-      position += n;
+      double *values = vector.trilinos_vector()[0];
+      for (std::size_t k = 0; k < positions.size(); ++k)
+        values[k] = (*stored)[positions[k]];
+      ++stored;
     });
     return checkpoint;
   }

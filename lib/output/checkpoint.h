@@ -20,20 +20,25 @@ namespace Ricochet
      * Write to @p folder / checkpoint.bin: first to a second file that then
      * takes the place of the first, so that there is a whole checkpoint at any
      * time.
+     *
+     * @param positions Body::canonical_positions().
      */
     void
-    write(const RunFolder &folder) const;
+    write(const RunFolder                                    &folder,
+          const std::vector<dealii::types::global_dof_index> &positions) const;
 
     /**
-     * Read what write() has written, on the same number of ranks and with the
-     * same parameters (but for final time and output).
+     * Read what write() has written, on any number of ranks and with the same
+     * parameters (but for final time and output).
      *
      * @param empty_vector a system vector, for the layout.
-     * @throws InputError no checkpoint, truncated or damaged, other parameters,
-     * other number of ranks.
+     * @param positions Body::canonical_positions().
+     * @throws InputError no checkpoint, truncated or damaged, other parameters.
      */
     static Checkpoint
-    read(const RunFolder &folder, const Vector &empty_vector);
+    read(const RunFolder                                    &folder,
+         const Vector                                       &empty_vector,
+         const std::vector<dealii::types::global_dof_index> &positions);
   };
 } // namespace Ricochet
 

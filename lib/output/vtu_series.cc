@@ -4,7 +4,9 @@
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
 
+#include <cmath>
 #include <filesystem>
+#include <memory>
 #include <regex>
 
 namespace Ricochet
@@ -59,6 +61,61 @@ namespace Ricochet
       const Material<dim> material;
     };
 
+    class VonMises : public DataPostprocessorScalar<3>
+    {
+    public:
+      explicit VonMises(const Material<3> &material)
+        : DataPostprocessorScalar<3>("von_mises", update_gradients)
+        , material(material)
+      {}
+
+      void
+      evaluate_vector_field(
+        const DataPostprocessorInputs::Vector<3> &inputs,
+        std::vector<dealii::Vector<double>>      &values) const override
+      {
+        for (unsigned int p = 0; p < values.size(); ++p)
+          {
+            Tensor<2, 3> gradient;
+            for (unsigned int i = 0; i < 3; ++i)
+              gradient[i] = inputs.solution_gradients[p][i];
+            values[p][0] = std::sqrt(1.5) *
+              deviator(material.cauchy_stress(gradient)).norm();
+          }
+      }
+
+    private:
+      const Material<3> material;
+    };
+
+    /// Hands out a scalar that stands in the first component of a vector field.
+    template <int dim>
+    class FirstComponent : public DataPostprocessorScalar<dim>
+    {
+    public:
+      explicit FirstComponent(const std::string &name)
+        : DataPostprocessorScalar<dim>(name, update_values)
+      {}
+
+      void
+      evaluate_vector_field(
+        const DataPostprocessorInputs::Vector<dim> &inputs,
+        std::vector<dealii::Vector<double>>        &values) const override
+      {
+        for (unsigned int p = 0; p < values.size(); ++p)
+          values[p][0] = inputs.solution_values[p][0];
+      }
+
+      void
+      evaluate_scalar_field(
+        const DataPostprocessorInputs::Scalar<dim> &inputs,
+        std::vector<dealii::Vector<double>>        &values) const override
+      {
+        for (unsigned int p = 0; p < values.size(); ++p)
+          values[p][0] = inputs.solution_values[p];
+      }
+    };
+
     /// In 1D a field of one component is a scalar to VTU files.
     template <int dim>
     std::vector<DataComponentInterpretation::DataComponentInterpretation>
@@ -76,9 +133,11 @@ namespace Ricochet
   template <int dim>
   VtuSeries<dim>::VtuSeries(const Body<dim>     &body,
                             const Material<dim> &material,
+                            ContactOperator     &contact,
                             RunFolder           &folder)
     : body(body)
     , material(material)
+    , contact(contact)
     , folder(folder)
   {
     if (!folder.is_root)
@@ -110,8 +169,15 @@ namespace Ricochet
     contact_force *= -1.;
     const Vector force_on_body = body.displacement_part(contact_force);
 
+    const Vector pressure = body.displacement_part(
+      contact.pressure_field(state.solution, state.contact_force));
+
     const StressPostprocessor<dim> stress(material);
-    DataOut<dim>                   data_out;
+    const FirstComponent<dim>      contact_pressure("contact_pressure");
+    std::unique_ptr<DataPostprocessor<dim>> von_mises;
+    if constexpr (dim == 3)
+      von_mises = std::make_unique<VonMises>(material);
+    DataOut<dim> data_out;
     data_out.attach_dof_handler(body.dof_handler());
     const auto add = [&](const Vector &vector, const std::string &name) {
       data_out.add_data_vector(body.dof_handler(),
@@ -124,6 +190,9 @@ namespace Ricochet
     add(acceleration, "acceleration");
     add(force_on_body, "contact_force");
     data_out.add_data_vector(body.dof_handler(), displacement, stress);
+    if (von_mises)
+      data_out.add_data_vector(body.dof_handler(), displacement, *von_mises);
+    data_out.add_data_vector(body.dof_handler(), pressure, contact_pressure);
     data_out.build_patches(body.mapping(), body.dof_handler().get_fe().degree);
 
     const std::string name =

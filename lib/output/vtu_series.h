@@ -11,8 +11,8 @@ namespace Ricochet
 {
   /**
    * The fields of a body for ParaView: displacement, velocity, acceleration,
-   * elastic Cauchy stress, and the contact force of each node (N, on the body),
-   * as `solution/step-NNNNNN.vtu`, and `solution.pvd` that ties them to their
+   * elastic Cauchy stress (in 3D its von Mises stress too), the contact force of
+   * each node (N, on the body) and the contact pressure (Pa), as `solution/step-NNNNNN.vtu`, and `solution.pvd` that ties them to their
    * times.
    */
   template <int dim>
@@ -21,6 +21,7 @@ namespace Ricochet
   public:
     VtuSeries(const Body<dim>     &body,
               const Material<dim> &material,
+              ContactOperator     &contact,
               RunFolder           &folder);
 
     /// Write @p state as step number @p step. A step that is written again,
@@ -31,6 +32,7 @@ namespace Ricochet
   private:
     const Body<dim>    &body;
     const Material<dim> material;
+    ContactOperator    &contact;
     RunFolder          &folder;
     // Time and file name of each step written, by step.
     std::map<unsigned int, std::pair<double, std::string>> written;

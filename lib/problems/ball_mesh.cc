@@ -2,6 +2,7 @@
 #include <base/exceptions.h>
 #include <problems/ball_mesh.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
 
@@ -18,6 +19,23 @@ namespace Ricochet
 
   namespace
   {
+    /// Gmsh's library is open while this lives.
+    struct GmshSession
+    {
+      GmshSession()
+      {
+        gmsh::initialize();
+        // Gmsh keeps quiet, and its random numbers begin the same each time.
+        gmsh::option::setNumber("General.Terminal", 0);
+        gmsh::option::setNumber("General.NumThreads", 1);
+      }
+
+      ~GmshSession()
+      {
+        gmsh::finalize();
+      }
+    };
+
     void
     mark_halves(const double center_height, Triangulation<3> &triangulation)
     {
@@ -71,10 +89,7 @@ namespace Ricochet
     std::map<std::size_t, unsigned int> number;
     try
       {
-        // Gmsh keeps quiet, and its random numbers begin the same each time.
-        gmsh::initialize();
-        gmsh::option::setNumber("General.Terminal", 0);
-        gmsh::option::setNumber("General.NumThreads", 1);
+        const GmshSession session;
         gmsh::option::setNumber("Mesh.MeshSizeMin", mesh_size);
         gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
         gmsh::model::add("ball");
@@ -111,7 +126,6 @@ namespace Ricochet
               }
             cells.push_back(cell);
           }
-        gmsh::finalize();
       }
     catch (const std::exception &exception)
       {
@@ -139,12 +153,12 @@ namespace Ricochet
       double length = 0.;
       for (const auto &cell : triangulation.active_cell_iterators())
         for (const auto &face : cell->face_iterators())
-          if (face->at_boundary())
+          if (face->at_boundary() && !cell->is_artificial())
             for (const unsigned int line : face->line_indices())
               length = std::max(length,
                                 face->line(line)->vertex(0).distance(
                                   face->line(line)->vertex(1)));
-      return length;
+      return Utilities::MPI::max(length, triangulation.get_communicator());
     };
     while (longest_edge() > mesh_size)
       triangulation.refine_global();

@@ -38,7 +38,7 @@ namespace Ricochet
                           dealii::Triangulation<3> &triangulation);
 
   /// Hexahedra of a ball, refined until their edges on the surface are at most
-  /// @p mesh_size (m).
+  /// @p mesh_size (m). A distributed triangulation is refined in parts.
   void
   make_ball_of_hexahedra(const dealii::Point<3>   &center,
                          const double              radius,

@@ -31,19 +31,6 @@ namespace Ricochet
                                                *material.linear,
                                                material.viscosity);
     }
-
-    template <int dim>
-    Matrix
-    inertia(const bool       redistributed,
-            const Body<dim> &body,
-            const Matrix    &consistent_mass)
-    {
-      if (redistributed)
-        return redistribute_mass(body, consistent_mass);
-      Matrix copy;
-      copy.copy_from(consistent_mass);
-      return copy;
-    }
   } // namespace
 
 
@@ -66,21 +53,26 @@ namespace Ricochet
            communicator)
     , bulk(make_bulk(body, material))
     , consistent_mass(assemble_mass_matrix(body, density))
-    , mass(inertia(parameters.redistributed_mass(), body, consistent_mass))
+    , redistributed_mass(
+        parameters.redistributed_mass()
+          ? std::make_unique<Matrix>(redistribute_mass(body, consistent_mass))
+          : nullptr)
     , contact(make_contact(parameters.contact,
                            parameters.scheme.name,
                            body,
                            material.linear,
                            obstacles))
-    , system(mass,
+    , system(redistributed_mass ? *redistributed_mass : consistent_mass,
              consistent_mass,
              *bulk,
              *contact,
-             parameters.redistributed_mass()
-               ? body.contact_indices()
-               : IndexSet(body.contact_indices().size()),
-             body.clamped_indices(),
-             body.multiplier_indices(),
+             {parameters.redistributed_mass()
+                ? body.contact_indices()
+                : IndexSet(body.contact_indices().size()),
+              body.clamped_indices(),
+              body.multiplier_indices(),
+              [this]() { return body.canonical_positions(); },
+              [this]() { return body.rigid_body_modes(); }},
              load,
              parameters.newton,
              parameters.linear_solver)

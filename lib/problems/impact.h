@@ -34,10 +34,11 @@ namespace Ricochet
            const SemiDiscreteSystem::Load        &load,
            const MPI_Comm                         communicator);
 
-    const Body<dim>                        body;
-    const std::unique_ptr<BulkOperator>    bulk;
-    const Matrix                           consistent_mass;
-    const Matrix                           mass;
+    const Body<dim>                     body;
+    const std::unique_ptr<BulkOperator> bulk;
+    const Matrix                        consistent_mass;
+    /// Null with the consistent mass.
+    const std::unique_ptr<const Matrix>    redistributed_mass;
     const std::unique_ptr<ContactOperator> contact;
     SemiDiscreteSystem                     system;
     const std::unique_ptr<TimeScheme>      scheme;

@@ -248,8 +248,9 @@ namespace Ricochet
     const bool   fields = write_fields && parameters.fields_every > 0;
     if (folder.resume)
       {
+        positions = system.unknowns.canonical_positions();
         const Checkpoint checkpoint =
-          Checkpoint::read(folder, initial_state.solution);
+          Checkpoint::read(folder, initial_state.solution, *positions);
         state                 = checkpoint.state;
         step                  = checkpoint.step;
         external_work         = checkpoint.sums.at(0);
@@ -307,6 +308,8 @@ namespace Ricochet
                       TimerOutput::wall_times);
     State              new_state;
     const auto         write_checkpoint = [&]() {
+      if (!positions)
+        positions = system.unknowns.canonical_positions();
       Checkpoint{step,
                  {external_work,
                   contact_work,
@@ -317,7 +320,7 @@ namespace Ricochet
                   largest_energy,
                   static_cast<double>(n_halvings)},
                  state}
-        .write(folder);
+        .write(folder, *positions);
     };
     const Timer        stopwatch;
     const unsigned int first_step      = step;

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 
 namespace Ricochet
 {
@@ -125,6 +126,9 @@ namespace Ricochet
     double       initial_energy        = 0.;
     double       largest_energy        = 0.;
     unsigned int n_halvings            = 0;
+
+    // For checkpoints, known when first needed: Body::canonical_positions().
+    std::optional<std::vector<dealii::types::global_dof_index>> positions;
   };
 } // namespace Ricochet
 

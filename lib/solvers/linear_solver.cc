@@ -2,6 +2,7 @@
 #include <base/exceptions.h>
 #include <base/stopwatch.h>
 #include <solvers/linear_solver.h>
+#include <solvers/multigrid.h>
 
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
@@ -30,6 +31,39 @@ namespace Ricochet
     std::optional<BodyKey>                  body;
     std::optional<std::uint64_t>            contact;
     std::unique_ptr<CorrectedFactorisation> factorisation;
+  };
+
+
+
+  /// The matrix of the last solution and its preconditioner, with the names of
+  /// what they were made of.
+  struct LinearSolver::MultigridState
+  {
+    MultigridState(const std::vector<Vector> &rigid_body_modes,
+                   const bool                 is_symmetric)
+      : multigrid(rigid_body_modes, is_symmetric)
+    {}
+
+    struct Name
+    {
+      std::optional<BodyKey>       body;
+      std::optional<std::uint64_t> contact;
+
+      bool
+      operator==(const Name &other) const
+      {
+        return body && contact && body == other.body &&
+          contact == other.contact;
+      }
+    };
+
+    // ML smooths with this very matrix, even when its values have changed since
+    // the setup: two matrices would be too many for large bodies.
+    Matrix    matrix;
+    Multigrid multigrid;
+    Name      name, set_up_name;
+    // Iterations of the first solution after a setup, and their tolerance.
+    double first_iterations_per_decade = 0.;
   };
 
 
@@ -63,11 +97,13 @@ namespace Ricochet
 
 
 
-  LinearSolver::LinearSolver(const Parameters       &parameters,
-                             const ContactStructure &contact,
-                             const bool              linear_body,
-                             const std::size_t       n_unknowns,
-                             const unsigned int      n_ranks)
+  LinearSolver::LinearSolver(
+    const Parameters                           &parameters,
+    const ContactStructure                     &contact,
+    const bool                                  linear_body,
+    const std::function<std::vector<Vector>()> &rigid_body_modes,
+    const std::size_t                           n_unknowns,
+    const unsigned int                          n_ranks)
     : parameters(parameters)
     , contact(contact)
     , linear_body(linear_body)
@@ -93,7 +129,24 @@ namespace Ricochet
           ? n_unknowns > 1000
           : n_unknowns > 5000 && chosen_factorisation(true) == "CHOLMOD";
         type             = gains ? "corrected" : "direct";
+        // Where a factorisation in three dimensions no longer fits into memory.
+        if (n_unknowns > 400000 && !contact.has_multipliers && linear_body)
+          type = "multigrid";
       }
+    if (type != "multigrid")
+      return;
+    if (contact.has_multipliers)
+      throw InputError(
+        "Multigrid cannot solve for multipliers. With Linear solver/Type = "
+        "multigrid choose a treatment without: Nitsche, Nitsche-hybrid, "
+        "penalty, normal compliance or an active set.");
+    if (parameters.factorisation != "automatic")
+      throw InputError(
+        "Multigrid factors nothing: with Linear solver/Type = multigrid leave "
+        "Linear solver/Factorisation at automatic.");
+    multigrid =
+      std::make_unique<MultigridState>(rigid_body_modes(),
+                                       linear_body && contact.is_symmetric);
   }
 
 
@@ -112,10 +165,12 @@ namespace Ricochet
       "direct: factor the tangent for each state of contact and keep the last "
       "few. corrected: factor the body only and treat contact as a correction "
       "in a few rows; for nonlinear materials factor the body's tangent (with "
-      "CHOLMOD its symmetric part), with GMRES for the rest. automatic: "
+      "CHOLMOD its symmetric part), with GMRES for the rest. multigrid: "
+      "algebraic multigrid, not for treatments with multipliers. automatic: "
       "corrected above 1000 unknowns for linear bodies, above 5000 for "
-      "nonlinear ones if CHOLMOD can be used.",
-      Patterns::Selection("automatic|direct|corrected"));
+      "nonlinear ones if CHOLMOD can be used; multigrid above 400000 for linear "
+      "bodies.",
+      Patterns::Selection("automatic|direct|corrected|multigrid"));
     parameters.add_parameter(
       "Factorisation",
       factorisation,
@@ -164,6 +219,8 @@ namespace Ricochet
   std::string
   LinearSolver::description() const
   {
+    if (type == "multigrid")
+      return "multigrid (ML)";
     const std::string name = chosen_factorisation(type == "corrected");
     if (type == "direct")
       return name + " for each state of contact";
@@ -183,6 +240,12 @@ namespace Ricochet
   {
     if (type == "direct")
       solve_direct(tangent, right_hand_side, solution, may_reuse);
+    else if (type == "multigrid")
+      solve_by_multigrid(tangent,
+                         right_hand_side,
+                         solution,
+                         may_reuse,
+                         tolerance);
     else if (tangent.body)
       solve_corrected(tangent, right_hand_side, solution);
     // Where GMRES gives up, a factorisation with pivots will do.
@@ -320,8 +383,9 @@ namespace Ricochet
         // Symmetric contact is factored together with the body.
         factorisation = std::make_unique<CorrectedFactorisation>(
           make_factorisation(true, true),
-          contact.is_symmetric ? CorrectedFactorisation::Correction::none
-                               : CorrectedFactorisation::Correction::rows,
+          contact.is_nearly_symmetric
+            ? CorrectedFactorisation::Correction::none
+            : CorrectedFactorisation::Correction::rows,
           contact,
           LowRankCorrection::Options{0, false},
           factorising);
@@ -379,5 +443,67 @@ namespace Ricochet
       }
     factorisation.reset();
     return false;
+  }
+
+
+
+  void
+  LinearSolver::solve_by_multigrid(const Tangent &tangent,
+                                   const Vector  &right_hand_side,
+                                   Vector        &solution,
+                                   const bool     may_reuse,
+                                   const double   tolerance)
+  {
+    MultigridState            &state = *multigrid;
+    const MultigridState::Name name{tangent.body, tangent.contact};
+    // The matrix, unless it is the same as before.
+    if (!(state.name == name) && !(may_reuse && !new_pivots))
+      {
+        state.name = {};
+        tangent.assemble_body(state.matrix);
+        if (tangent.complete_contact)
+          tangent.complete_contact(state.matrix);
+        state.name = name;
+      }
+    const auto set_up = [&]() {
+      const Stopwatch stopwatch(factorising);
+      ++factorisation_count;
+      state.multigrid.setup(state.matrix);
+      state.set_up_name = name;
+    };
+    // A preconditioner serves in a stage, and beyond only for the same matrix:
+    // so results do not depend on what came before the stage.
+    bool is_new = false;
+    if (!(state.set_up_name == name) && new_pivots)
+      {
+        set_up();
+        is_new = true;
+      }
+    new_pivots           = false;
+    const double decades = -std::log10(tolerance);
+    const auto   solve   = [&]() {
+      const Stopwatch stopwatch(substituting);
+      return state.multigrid.solve(state.matrix,
+                                   right_hand_side,
+                                   solution,
+                                   tolerance);
+    };
+    int n_iterations = solve();
+    if (!is_new &&
+        (n_iterations < 0 ||
+         n_iterations > 5 + 2. * decades * state.first_iterations_per_decade))
+      {
+        // The next solution of this stage will have a better one.
+        set_up();
+        is_new = true;
+        if (n_iterations < 0)
+          n_iterations = solve();
+        else
+          is_new = false;
+      }
+    if (n_iterations < 0)
+      throw NewtonFailure("Multigrid does not converge.");
+    if (is_new)
+      state.first_iterations_per_decade = n_iterations / decades;
   }
 } // namespace Ricochet

@@ -29,13 +29,16 @@ namespace Ricochet
    * the time step. With a nonlinear material the symmetric part of each new
    * tangent is factored, which costs less than half of a factorisation with
    * pivots, and GMRES does the rest.
+   *
+   * "multigrid" solves each system iteratively, for bodies of which a
+   * factorisation would need too much memory.
    */
   class LinearSolver
   {
   public:
     struct Parameters
     {
-      /// "automatic", "direct" or "corrected".
+      /// "automatic", "direct", "corrected" or "multigrid".
       std::string type = "automatic";
       /// "automatic", "CHOLMOD", "KLU" or "MUMPS".
       std::string  factorisation = "automatic";
@@ -48,14 +51,17 @@ namespace Ricochet
     /**
      * @param contact how contact enters the tangents.
      * @param linear_body the body's part of a tangent has a name.
+     * @param rigid_body_modes Body::rigid_body_modes(), only called for
+     * multigrid.
      * @param n_unknowns number of unknowns on all ranks.
      * @throws InputError when the parameters do not go together.
      */
-    LinearSolver(const Parameters       &parameters,
-                 const ContactStructure &contact,
-                 const bool              linear_body,
-                 const std::size_t       n_unknowns,
-                 const unsigned int      n_ranks);
+    LinearSolver(const Parameters                           &parameters,
+                 const ContactStructure                     &contact,
+                 const bool                                  linear_body,
+                 const std::function<std::vector<Vector>()> &rigid_body_modes,
+                 const std::size_t                           n_unknowns,
+                 const unsigned int                          n_ranks);
 
     ~LinearSolver();
 
@@ -111,6 +117,7 @@ namespace Ricochet
   private:
     struct Direct;
     struct Corrected;
+    struct MultigridState;
 
     /// @param symmetric the matrix is, or its symmetric part will do.
     std::string
@@ -143,6 +150,13 @@ namespace Ricochet
                       const bool     may_reuse,
                       const double   tolerance);
 
+    void
+    solve_by_multigrid(const Tangent &tangent,
+                       const Vector  &right_hand_side,
+                       Vector        &solution,
+                       const bool     may_reuse,
+                       const double   tolerance);
+
     const Parameters                        parameters;
     const ContactStructure                  contact;
     const bool                              linear_body;
@@ -153,6 +167,7 @@ namespace Ricochet
     std::list<Corrected>                    kept_corrected;
     std::unique_ptr<Direct>                 changing_direct;
     std::unique_ptr<CorrectedFactorisation> changing_corrected;
+    std::unique_ptr<MultigridState>         multigrid;
     bool                                    new_pivots          = true;
     unsigned int                            factorisation_count = 0;
     double                                  factorising = 0., substituting = 0.;

@@ -4,45 +4,16 @@
 
 #include <base/types.h>
 #include <solvers/factorisation.h>
+#include <solvers/functionals.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace Ricochet
 {
-  /// Linear functionals of the unknowns, as far as this rank holds them: sparse
-  /// vectors, one behind the other.
-  struct Functionals
-  {
-    std::vector<std::size_t>                     begin = {0};
-    std::vector<dealii::types::global_dof_index> index;
-    std::vector<double>                          value;
-
-    unsigned int
-    size() const
-    {
-      return begin.size() - 1;
-    }
-
-    /// Append an entry to the functional that end_functional() will close.
-    void
-    add(const dealii::types::global_dof_index unknown, const double coefficient)
-    {
-      index.push_back(unknown);
-      value.push_back(coefficient);
-    }
-
-    void
-    end_functional()
-    {
-      begin.push_back(index.size());
-    }
-  };
-
   /**
    * Solves with a factored matrix A after a change of low rank: with the columns
    * u_i of U ("directions") and v_j of V ("observables"), both sparse and the
@@ -63,7 +34,7 @@ namespace Ricochet
   public:
     using Index = dealii::types::global_dof_index;
     /// A row of C: places of observables, see first_observable(), and values.
-    using Row = std::vector<std::pair<unsigned int, double>>;
+    using Row = FunctionalRow;
 
     struct Options
     {

@@ -3,7 +3,7 @@
 #define ricochet_solvers_tangent_h
 
 #include <base/types.h>
-#include <solvers/low_rank_correction.h>
+#include <solvers/functionals.h>
 
 #include <cstdint>
 #include <functional>
@@ -28,9 +28,13 @@ namespace Ricochet
     };
     std::optional<ActsThrough> functionals;
 
-    /// What contact adds is symmetric, or nearly so, and may be factored
-    /// together with the body.
+    /// What contact adds is symmetric, or nearly so (friction), and may be
+    /// factored together with the body.
+    bool is_nearly_symmetric = false;
+    /// It is symmetric.
     bool is_symmetric = false;
+    /// It brings unknowns of its own.
+    bool has_multipliers = false;
   };
 
   /// What names the body's part of a tangent: the weights of its terms.
@@ -63,10 +67,9 @@ namespace Ricochet
     std::function<void(Matrix &)> complete_contact;
     /// Add what contact adds when all points are open.
     std::function<void(Matrix &)> complete_open_contact;
-    /// The difference of the two as a change of the functionals' weights, see
-    /// LowRankCorrection::set_change() (with places that count from this rank's
-    /// first functional).
-    std::function<void(std::vector<LowRankCorrection::Row> &)> contact_change;
+    /// The difference of the two as the rows of a matrix C between this rank's
+    /// functionals f_i: the sum of C_ij f_i f_j^T.
+    std::function<void(std::vector<FunctionalRow> &)> contact_change;
   };
 } // namespace Ricochet
 

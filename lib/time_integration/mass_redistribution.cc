@@ -34,11 +34,14 @@ namespace Ricochet
       DoFTools::map_dofs_to_support_points(body.mapping(),
                                            body.dof_handler(),
                                            positions);
-      const IndexSet on_boundary = body.contact_boundary_ids().empty()
-        ? IndexSet(body.dof_handler().n_dofs())
-        : DoFTools::extract_boundary_dofs(body.dof_handler(),
-                                          ComponentMask(),
-                                          body.contact_boundary_ids());
+      // Ask the owners: the contact face of an unknown of a ghost cell may be
+      // that of a cell which this rank does not know.
+      Vector owned_flags = body.make_vector();
+      for (const auto i : body.contact_indices())
+        owned_flags(i) = 1.;
+      owned_flags.compress(VectorOperation::insert);
+      Vector on_boundary = body.make_ghosted_vector();
+      on_boundary        = owned_flags;
       std::map<types::global_dof_index, DoF<dim>> dofs;
       std::vector<types::global_dof_index>        indices(
         body.dof_handler().get_fe().n_dofs_per_cell());
@@ -51,7 +54,7 @@ namespace Ricochet
             dofs[body.system_index(indices[i])] = {
               body.dof_handler().get_fe().system_to_component_index(i).first,
               positions.at(indices[i]),
-              on_boundary.is_element(indices[i])};
+              on_boundary(body.system_index(indices[i])) == 1.};
         }
       return dofs;
     }

@@ -51,28 +51,27 @@ namespace Ricochet
     const Matrix                   &invertible_mass,
     const BulkOperator             &bulk,
     ContactOperator                &contact,
-    const IndexSet                 &massless,
-    const IndexSet                 &clamped,
-    const IndexSet                 &multipliers,
+    const Unknowns                 &unknowns,
     Load                            load,
     const NewtonSolver::Parameters &newton_parameters,
     const LinearSolver::Parameters &solver_parameters)
     : bulk(bulk)
     , contact(contact)
+    , unknowns(unknowns)
     , mass(mass)
     , invertible_mass(invertible_mass)
-    , massless(massless)
-    , clamped(clamped)
-    , multipliers(multipliers)
-    , clamped_list(clamped.begin(), clamped.end())
+    , clamped_list(unknowns.clamped.begin(), unknowns.clamped.end())
     , load(std::move(load))
     , newton(newton_parameters)
-    , linear_solver(
-        solver_parameters,
-        contact_structure(contact, clamped, mass.get_mpi_communicator()),
-        bulk.is_linear(),
-        mass.m(),
-        Utilities::MPI::n_mpi_processes(mass.get_mpi_communicator()))
+    , linear_solver(solver_parameters,
+                    contact_structure(contact,
+                                      unknowns.clamped,
+                                      mass.get_mpi_communicator()),
+                    bulk.is_linear(),
+                    unknowns.rigid_body_modes,
+                    mass.m(),
+                    Utilities::MPI::n_mpi_processes(
+                      mass.get_mpi_communicator()))
     , work(contact.row_scaling())
     , constant_part(contact.row_scaling())
     , force(contact.row_scaling())
@@ -83,7 +82,7 @@ namespace Ricochet
   void
   SemiDiscreteSystem::set_clamped_to_zero(Vector &vector) const
   {
-    for (const auto i : clamped)
+    for (const auto i : unknowns.clamped)
       vector(i) = 0.;
     vector.compress(VectorOperation::insert);
   }
@@ -130,7 +129,7 @@ namespace Ricochet
       matrix.copy_from(invertible_mass);
       matrix.clear_rows(clamped_list, 1.);
       // Multipliers have no mass; give them an equation.
-      for (const auto i : multipliers)
+      for (const auto i : unknowns.multipliers)
         matrix.set(i, i, 1.);
       matrix.compress(VectorOperation::insert);
     };
@@ -265,11 +264,10 @@ namespace Ricochet
       tangent.complete_contact = complete(&ContactOperator::complete_tangent);
       tangent.complete_open_contact =
         complete(&ContactOperator::complete_open_tangent);
-      tangent.contact_change =
-        [&](std::vector<LowRankCorrection::Row> &change) {
-          const Stopwatch stopwatch(tangent_seconds);
-          contact.tangent_change(change);
-        };
+      tangent.contact_change = [&](std::vector<FunctionalRow> &change) {
+        const Stopwatch stopwatch(tangent_seconds);
+        contact.tangent_change(change);
+      };
       const bool          has_name   = tangent.body && tangent.contact;
       const std::uint64_t active_set = contact.active_set_signature();
       const bool          reuse =
@@ -360,7 +358,7 @@ namespace Ricochet
                                            const double time_step,
                                            State       &new_state) const
   {
-    for (const auto i : massless)
+    for (const auto i : unknowns.massless)
       {
         const double velocity =
           (new_state.solution(i) - old_state.solution(i)) / time_step;
@@ -368,7 +366,7 @@ namespace Ricochet
         new_state.acceleration(i) =
           (velocity - old_state.velocity(i)) / time_step;
       }
-    for (const auto i : multipliers)
+    for (const auto i : unknowns.multipliers)
       new_state.velocity(i) = new_state.acceleration(i) = 0.;
     new_state.velocity.compress(VectorOperation::insert);
     new_state.acceleration.compress(VectorOperation::insert);

@@ -9,6 +9,8 @@
 #include <solvers/newton.h>
 
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace Ricochet
 {
@@ -82,22 +84,33 @@ namespace Ricochet
     /// External load (N) at a time (s); the argument comes in as zero.
     using Load = std::function<void(const double time, Vector &load)>;
 
+    /// What is known of the unknowns of this rank.
+    struct Unknowns
+    {
+      /// Without inertia.
+      dealii::IndexSet massless;
+      /// Of zero displacement.
+      dealii::IndexSet clamped;
+      /// Multipliers.
+      dealii::IndexSet multipliers;
+      /// Body::canonical_positions(), for checkpoints.
+      std::function<std::vector<dealii::types::global_dof_index>()>
+        canonical_positions;
+      /// Body::rigid_body_modes(), for multigrid.
+      std::function<std::vector<Vector>()> rigid_body_modes;
+    };
+
     /**
      * @param mass mass matrix of the equation of motion; with redistributed
      * mass its rows on the contact boundary are zero.
      * @param invertible_mass consistent mass matrix, for the initial
      * acceleration.
-     * @param massless owned indices without inertia.
-     * @param clamped owned indices of zero displacement.
-     * @param multipliers owned indices of multipliers.
      */
     SemiDiscreteSystem(const Matrix                   &mass,
                        const Matrix                   &invertible_mass,
                        const BulkOperator             &bulk,
                        ContactOperator                &contact,
-                       const dealii::IndexSet         &massless,
-                       const dealii::IndexSet         &clamped,
-                       const dealii::IndexSet         &multipliers,
+                       const Unknowns                 &unknowns,
                        Load                            load,
                        const NewtonSolver::Parameters &newton_parameters,
                        const LinearSolver::Parameters &solver_parameters);
@@ -159,6 +172,7 @@ namespace Ricochet
 
     const BulkOperator &bulk;
     ContactOperator    &contact;
+    const Unknowns      unknowns;
 
     /// What solves the linear systems, in words.
     std::string
@@ -195,11 +209,8 @@ namespace Ricochet
     void
     set_clamped_to_zero(Vector &vector) const;
 
-    const Matrix          &mass;
-    const Matrix          &invertible_mass;
-    const dealii::IndexSet massless;
-    const dealii::IndexSet clamped;
-    const dealii::IndexSet multipliers;
+    const Matrix &mass;
+    const Matrix &invertible_mass;
     std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type> clamped_list;
     const Load                                                     load;
     NewtonSolver                                                   newton;

@@ -114,7 +114,7 @@ BarSD::run(RunFolder &folder)
   add_bar_end_columns(BarEnds::left, bar.body, exact, loop);
   add_bar_error_column(bar.body, exact, loop);
 
-  VtuSeries<1> fields(bar.body, material, folder);
+  VtuSeries<1> fields(bar.body, material, *bar.contact, folder);
   loop.write_fields = [&](const State &state, const unsigned int step) {
     fields.write(state, step);
   };

@@ -198,11 +198,11 @@ ElasticBall::run(RunFolder &folder)
                 *ball.scheme,
                 {{outer_circle, "foundation"}});
   const Momenta<2> momenta(ball.body,
-                           ball.mass,
+                           ball.system.mass_matrix(),
                            /* small strains */ material.linear.has_value());
   add_momentum_columns(momenta, ball.body, loop);
 
-  VtuSeries<2> fields(ball.body, material, folder);
+  VtuSeries<2> fields(ball.body, material, *ball.contact, folder);
   loop.write_fields = [&](const State &state, const unsigned int step) {
     fields.write(state, step);
   };

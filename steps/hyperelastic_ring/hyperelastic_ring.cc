@@ -190,11 +190,11 @@ HyperelasticRing::run(RunFolder &folder)
                 *ring.scheme,
                 {{outer_circle, "foundation"}});
   const Momenta<2> momenta(ring.body,
-                           ring.mass,
+                           ring.system.mass_matrix(),
                            /* small strains */ material.linear.has_value());
   add_momentum_columns(momenta, ring.body, loop);
 
-  VtuSeries<2> fields(ring.body, material, folder);
+  VtuSeries<2> fields(ring.body, material, *ring.contact, folder);
   loop.write_fields = [&](const State &state, const unsigned int step) {
     fields.write(state, step);
   };

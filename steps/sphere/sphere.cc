@@ -33,16 +33,26 @@
 //     sphere --help
 
 #include <base/program.h>
+#include <discretization/distributed_mesh.h>
 #include <output/node_probe.h>
 #include <output/vtu_series.h>
 #include <problems/ball_mesh.h>
 #include <problems/impact.h>
 
 #include <deal.II/base/function_signed_distance.h>
-#include <deal.II/distributed/shared_tria.h>
+#include <deal.II/distributed/tria.h>
 
 using namespace dealii;
 using namespace Ricochet;
+
+namespace
+{
+  constexpr double radius      = 20.;
+  constexpr double initial_gap = 2.;
+  const Point<3>   center(0., 0., radius + initial_gap);
+} // namespace
+
+
 
 class Sphere
 {
@@ -60,10 +70,10 @@ public:
 
 private:
   void
-  make_grid(Triangulation<3> &triangulation) const;
+  make_tetrahedra(Triangulation<3> &mesh) const;
 
-  static constexpr double radius      = 20.;
-  static constexpr double initial_gap = 2.;
+  std::unique_ptr<Triangulation<3>>
+  make_mesh(const MPI_Comm communicator) const;
 
   ImpactParameters impact;
   std::string      mesh_file;
@@ -153,24 +163,40 @@ Sphere::validate() const
   if (!mesh_file.empty())
     {
       // Reading the mesh is the check of its file.
-      Triangulation<3> triangulation;
-      make_grid(triangulation);
+      Triangulation<3> mesh;
+      make_tetrahedra(mesh);
     }
 }
 
 
 
 // ### Mesh
+//
+// Each rank keeps its part of the mesh only. A mesh of tetrahedra is made or read
+// as a whole by the first rank, cut and handed out; hexahedra are refined where
+// they are.
 void
-Sphere::make_grid(Triangulation<3> &triangulation) const
+Sphere::make_tetrahedra(Triangulation<3> &mesh) const
 {
-  const Point<3> center(0., 0., radius + initial_gap);
   if (!mesh_file.empty())
-    read_ball(mesh_file, triangulation);
-  else if (cell_shape == "tetrahedra")
-    make_ball_of_tetrahedra(center, radius, mesh_size, triangulation);
+    read_ball(mesh_file, mesh);
   else
-    make_ball_of_hexahedra(center, radius, mesh_size, triangulation);
+    make_ball_of_tetrahedra(center, radius, mesh_size, mesh);
+}
+
+
+
+std::unique_ptr<Triangulation<3>>
+Sphere::make_mesh(const MPI_Comm communicator) const
+{
+  if (!mesh_file.empty() || cell_shape == "tetrahedra")
+    return distribute_mesh<3>(
+      [&](Triangulation<3> &mesh) { make_tetrahedra(mesh); },
+      communicator);
+  auto mesh =
+    std::make_unique<parallel::distributed::Triangulation<3>>(communicator);
+  make_ball_of_hexahedra(center, radius, mesh_size, *mesh);
+  return mesh;
 }
 
 
@@ -179,11 +205,10 @@ Sphere::make_grid(Triangulation<3> &triangulation) const
 void
 Sphere::run(RunFolder &folder)
 {
-  parallel::shared::Triangulation<3> triangulation(folder.communicator);
-  make_grid(triangulation);
+  const auto mesh = make_mesh(folder.communicator);
 
   // Gravity is a constant load: the mass matrix times the acceleration. It is
-  // assembled when the load is asked for the first time, at the initial state.
+  // there as soon as the mass matrix is, before anything asks for it.
   const Material<3>  material(LinearElastic{lambda, mu});
   Ricochet::Vector   weight;
   const Obstacles<3> foundation = {
@@ -193,7 +218,7 @@ Sphere::run(RunFolder &folder)
                                                              {0., 0., 1.}))}};
   Impact<3> sphere(
     impact,
-    triangulation,
+    *mesh,
     degree,
     material,
     density,
@@ -212,8 +237,8 @@ Sphere::run(RunFolder &folder)
   weight.reinit(sphere.body.owned_indices(), folder.communicator);
   sphere.consistent_mass.vmult(weight, uniform(gravity));
 
-  folder.log(std::to_string(triangulation.n_global_active_cells()) +
-             " cells, " + std::to_string(sphere.body.owned_indices().size()) +
+  folder.log(std::to_string(mesh->n_global_active_cells()) + " cells, " +
+             std::to_string(sphere.body.owned_indices().size()) +
              " unknowns, " + impact.contact.treatment + ", " +
              impact.scheme.name + ", " + impact.mass + " mass");
 
@@ -238,7 +263,7 @@ Sphere::run(RunFolder &folder)
     return lowest.value(state.velocity, 2);
   });
 
-  VtuSeries<3> fields(sphere.body, material, folder);
+  VtuSeries<3> fields(sphere.body, material, *sphere.contact, folder);
   loop.write_fields = [&](const State &state, const unsigned int step) {
     fields.write(state, step);
   };

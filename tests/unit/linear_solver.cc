@@ -105,12 +105,13 @@ namespace
     const std::vector<dealii::types::global_dof_index> clamped(
       body.clamped_indices().begin(),
       body.clamped_indices().end());
-    LinearSolver solver(solver_parameters,
-                        contact->tangent_structure(),
-                        linear_body,
-                        mass.m(),
-                        dealii::Utilities::MPI::n_mpi_processes(
-                          MPI_COMM_WORLD));
+    LinearSolver solver(
+      solver_parameters,
+      contact->tangent_structure(),
+      linear_body,
+      [&]() { return body.rigid_body_modes(); },
+      mass.m(),
+      dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
 
     Vector zero = body.make_vector(), solution(zero), old_solution(zero);
     Vector residual(zero), right_hand_side(zero), result(zero);
@@ -151,10 +152,9 @@ namespace
           contact->complete_open_tangent(matrix);
           matrix.clear_rows(clamped, 1.);
         };
-        tangent.contact_change =
-          [&](std::vector<LowRankCorrection::Row> &change) {
-            contact->tangent_change(change);
-          };
+        tangent.contact_change = [&](std::vector<FunctionalRow> &change) {
+          contact->tangent_change(change);
+        };
         solver.solve(tangent, right_hand_side, result, false, 1e-11);
 
         Matrix matrix;
@@ -228,10 +228,10 @@ BOOST_AUTO_TEST_CASE(impossible_factorisations_are_refused)
   LinearSolver::Parameters parameters;
   parameters.type          = "direct";
   parameters.factorisation = "CHOLMOD";
-  BOOST_CHECK_THROW(LinearSolver(parameters, {}, true, 10, 1), InputError);
+  BOOST_CHECK_THROW(LinearSolver(parameters, {}, true, {}, 10, 1), InputError);
   parameters.type = "corrected";
-  BOOST_CHECK_THROW(LinearSolver(parameters, {}, true, 10, 2), InputError);
-  BOOST_CHECK_NO_THROW(LinearSolver(parameters, {}, true, 10, 1));
+  BOOST_CHECK_THROW(LinearSolver(parameters, {}, true, {}, 10, 2), InputError);
+  BOOST_CHECK_NO_THROW(LinearSolver(parameters, {}, true, {}, 10, 1));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

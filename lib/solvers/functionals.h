@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_functionals_h
+#define ricochet_solvers_functionals_h
+
+#include <deal.II/base/types.h>
+
+#include <utility>
+#include <vector>
+
+namespace Ricochet
+{
+  /// Linear functionals of the unknowns, as far as this rank holds them: sparse
+  /// vectors, one behind the other.
+  struct Functionals
+  {
+    std::vector<std::size_t>                     begin = {0};
+    std::vector<dealii::types::global_dof_index> index;
+    std::vector<double>                          value;
+
+    unsigned int
+    size() const
+    {
+      return begin.size() - 1;
+    }
+
+    /// Append an entry to the functional that end_functional() will close.
+    void
+    add(const dealii::types::global_dof_index unknown, const double coefficient)
+    {
+      index.push_back(unknown);
+      value.push_back(coefficient);
+    }
+
+    void
+    end_functional()
+    {
+      begin.push_back(index.size());
+    }
+  };
+
+  /// A row of a sparse matrix between functionals: numbers of columns, and
+  /// values.
+  using FunctionalRow = std::vector<std::pair<unsigned int, double>>;
+} // namespace Ricochet
+
+#endif
