@@ -9,10 +9,13 @@
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/la_parallel_vector.h>
+#include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/numerics/vector_tools.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <string>
 #include <tuple>
@@ -139,7 +142,7 @@ namespace Ricochet
     clamped               = system_set(boundary_set(clamped_ids));
     contact_displacements = system_set(boundary_set(contact_ids));
 
-    make_sparsity_pattern();
+    make_sparsity_patterns();
   }
 
 
@@ -254,21 +257,37 @@ namespace Ricochet
 
   template <int dim>
   void
-  Body<dim>::make_sparsity_pattern()
+  Body<dim>::make_sparsity_patterns()
   {
-    pattern.reinit(owned, owned, relevant, communicator);
+    DynamicSparsityPattern all(owned.size(), owned.size(), relevant);
+    DynamicSparsityPattern by_component(owned.size(), owned.size(), relevant);
     std::vector<types::global_dof_index> cell_dofs(
       displacement_element->n_dofs_per_cell());
     std::vector<types::global_dof_index> multiplier_cell_dofs(
       multiplier_element->n_dofs_per_cell());
+    std::vector<types::global_dof_index>                  indices;
+    std::array<std::vector<types::global_dof_index>, dim> of_component;
 
     for (const auto &cell : displacement_dofs.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           cell->get_dof_indices(cell_dofs);
-          std::vector<types::global_dof_index> indices;
-          for (const types::global_dof_index i : cell_dofs)
-            indices.push_back(system_index(i));
+          indices.clear();
+          for (auto &list : of_component)
+            list.clear();
+          for (unsigned int i = 0; i < cell_dofs.size(); ++i)
+            {
+              indices.push_back(system_index(cell_dofs[i]));
+              of_component[displacement_element->system_to_component_index(i)
+                             .first]
+                .push_back(indices.back());
+            }
+          for (auto &list : of_component)
+            {
+              std::sort(list.begin(), list.end());
+              for (const types::global_dof_index i : list)
+                by_component.add_entries(i, list.begin(), list.end(), true);
+            }
           if (has_multipliers())
             {
               multiplier_cell(cell)->get_dof_indices(multiplier_cell_dofs);
@@ -277,14 +296,27 @@ namespace Ricochet
                   const types::global_dof_index index =
                     multiplier_system_index(i);
                   if (index != numbers::invalid_dof_index)
-                    indices.push_back(index);
+                    {
+                      indices.push_back(index);
+                      by_component.add(index, index);
+                    }
                 }
             }
           std::sort(indices.begin(), indices.end());
           for (const types::global_dof_index i : indices)
-            pattern.add_entries(i, indices.begin(), indices.end(), true);
+            all.add_entries(i, indices.begin(), indices.end(), true);
         }
-    pattern.compress();
+    // Rows of other ranks go to their owners.
+    SparsityTools::distribute_sparsity_pattern(all,
+                                               owned,
+                                               communicator,
+                                               relevant);
+    SparsityTools::distribute_sparsity_pattern(by_component,
+                                               owned,
+                                               communicator,
+                                               relevant);
+    pattern.reinit(owned, all, communicator);
+    component_pattern.reinit(owned, by_component, communicator);
   }
 
 

@@ -98,11 +98,19 @@ namespace Ricochet
     std::vector<Vector>
     rigid_body_modes() const;
 
-    /// The sparsity pattern of all system matrices.
+    /// The sparsity pattern of all tangents.
     const dealii::TrilinosWrappers::SparsityPattern &
     sparsity_pattern() const
     {
       return pattern;
+    }
+
+    /// The part of it that couples equal components only, and multipliers with
+    /// themselves only: that of mass matrices.
+    const dealii::TrilinosWrappers::SparsityPattern &
+    component_sparsity_pattern() const
+    {
+      return component_pattern;
     }
 
     const dealii::DoFHandler<dim> &
@@ -200,7 +208,7 @@ namespace Ricochet
     number_multipliers();
 
     void
-    make_sparsity_pattern();
+    make_sparsity_patterns();
 
     std::unique_ptr<dealii::FESystem<dim>>       displacement_element;
     std::unique_ptr<dealii::FiniteElement<dim>>  multiplier_element;
@@ -221,7 +229,7 @@ namespace Ricochet
 
     dealii::IndexSet owned, relevant, clamped, contact_displacements,
       owned_multipliers;
-    dealii::TrilinosWrappers::SparsityPattern pattern;
+    dealii::TrilinosWrappers::SparsityPattern pattern, component_pattern;
   };
 } // namespace Ricochet
 

@@ -15,16 +15,14 @@ namespace Ricochet
     /// The cell loop of all constant matrices. @p integrand gets the FEValues
     /// and a quadrature point and adds to the cell matrix.
     template <int dim>
-    Matrix
+    void
     assemble(const Body<dim>                                 &body,
              const UpdateFlags                                flags,
              const std::function<void(const FEValues<dim> &,
                                       const unsigned int,
-                                      FullMatrix<double> &)> &integrand)
+                                      FullMatrix<double> &)> &integrand,
+             Matrix                                          &matrix)
     {
-      Matrix matrix;
-      matrix.reinit(body.sparsity_pattern());
-
       FEValues<dim>                        fe_values(body.mapping(),
                               body.dof_handler().get_fe(),
                               body.cell_quadrature(),
@@ -42,21 +40,24 @@ namespace Ricochet
             cell->get_dof_indices(indices);
             for (types::global_dof_index &index : indices)
               index = body.system_index(index);
-            matrix.add(indices, cell_matrix);
+            // Zeros are not in every pattern.
+            matrix.add(indices, cell_matrix, /* elide_zero_values */ true);
           }
       matrix.compress(VectorOperation::add);
-      return matrix;
     }
 
     /// The matrix of stress(strain(u)) : strain(v).
     template <int dim>
-    Matrix
-    assemble_strain_matrix(const Body<dim> &body, const LinearElastic &law)
+    void
+    assemble_strain_matrix(const Body<dim>     &body,
+                           const LinearElastic &law,
+                           Matrix              &matrix)
     {
+      matrix.reinit(body.sparsity_pattern());
       const FEValuesExtractors::Vector     displacement(0);
       std::vector<SymmetricTensor<2, dim>> strains(
         body.dof_handler().get_fe().n_dofs_per_cell());
-      return assemble<dim>(
+      assemble<dim>(
         body,
         update_gradients,
         [&](const FEValues<dim> &fe_values,
@@ -70,7 +71,8 @@ namespace Ricochet
               for (const unsigned int i : fe_values.dof_indices())
                 cell_matrix(i, j) += stress * strains[i] * fe_values.JxW(q);
             }
-        });
+        },
+        matrix);
     }
   } // namespace
 
@@ -104,17 +106,14 @@ namespace Ricochet
             }
         }
 
-    stiffness.reinit(body.sparsity_pattern());
-    stiffness.copy_from(assemble_strain_matrix(body, material));
+    assemble_strain_matrix(body, material, stiffness);
     scale = stiffness.linfty_norm();
+    // W_v = eta/2 tr(strain_rate^2): the viscous stress is eta times the strain
+    // rate.
     if (has_viscosity)
-      {
-        // W_v = eta/2 tr(strain_rate^2): the viscous stress is eta times the
-        // strain rate.
-        viscosity_matrix.reinit(body.sparsity_pattern());
-        viscosity_matrix.copy_from(
-          assemble_strain_matrix(body, LinearElastic{0., .5 * viscosity.eta}));
-      }
+      assemble_strain_matrix(body,
+                             LinearElastic{0., .5 * viscosity.eta},
+                             viscosity_matrix);
   }
 
 
@@ -229,20 +228,25 @@ namespace Ricochet
   Matrix
   assemble_mass_matrix(const Body<dim> &body, const double density)
   {
-    const FEValuesExtractors::Vector displacement(0);
-    return assemble<dim>(body,
-                         update_values,
-                         [&](const FEValues<dim> &fe_values,
-                             const unsigned int   q,
-                             FullMatrix<double>  &cell_matrix) {
-                           for (const unsigned int i : fe_values.dof_indices())
-                             for (const unsigned int j :
-                                  fe_values.dof_indices())
-                               cell_matrix(i, j) += density *
-                                 (fe_values[displacement].value(i, q) *
-                                  fe_values[displacement].value(j, q)) *
-                                 fe_values.JxW(q);
-                         });
+    // Components do not couple.
+    const FiniteElement<dim> &element = body.dof_handler().get_fe();
+    Matrix                    matrix;
+    matrix.reinit(body.component_sparsity_pattern());
+    assemble<dim>(
+      body,
+      update_values,
+      [&](const FEValues<dim> &fe_values,
+          const unsigned int   q,
+          FullMatrix<double>  &cell_matrix) {
+        for (const unsigned int i : fe_values.dof_indices())
+          for (const unsigned int j : fe_values.dof_indices())
+            if (element.system_to_component_index(i).first ==
+                element.system_to_component_index(j).first)
+              cell_matrix(i, j) += density * fe_values.shape_value(i, q) *
+                fe_values.shape_value(j, q) * fe_values.JxW(q);
+      },
+      matrix);
+    return matrix;
   }
 
 

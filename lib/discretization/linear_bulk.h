@@ -82,7 +82,7 @@ namespace Ricochet
   };
 
   /// Consistent mass matrix (kg) of @p body with the constant @p density
-  /// (kg/m^dim).
+  /// (kg/m^dim), on Body::component_sparsity_pattern().
   template <int dim>
   Matrix
   assemble_mass_matrix(const Body<dim> &body, const double density);

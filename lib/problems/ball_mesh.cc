@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <problems/ball_mesh.h>
+#include <problems/gmsh_mesh.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_generator.h>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <map>
 
 namespace Ricochet
 {
@@ -19,23 +19,6 @@ namespace Ricochet
 
   namespace
   {
-    /// Gmsh's library is open while this lives.
-    struct GmshSession
-    {
-      GmshSession()
-      {
-        gmsh::initialize();
-        // Gmsh keeps quiet, and its random numbers begin the same each time.
-        gmsh::option::setNumber("General.Terminal", 0);
-        gmsh::option::setNumber("General.NumThreads", 1);
-      }
-
-      ~GmshSession()
-      {
-        gmsh::finalize();
-      }
-    };
-
     void
     mark_halves(const double center_height, Triangulation<3> &triangulation)
     {
@@ -84,59 +67,13 @@ namespace Ricochet
                           const double      mesh_size,
                           Triangulation<3> &triangulation)
   {
-    std::vector<Point<3>>               points;
-    std::vector<CellData<3>>            cells;
-    std::map<std::size_t, unsigned int> number;
-    try
-      {
-        const GmshSession session;
+    mesh_by_gmsh(
+      [&]() {
         gmsh::option::setNumber("Mesh.MeshSizeMin", mesh_size);
         gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
-        gmsh::model::add("ball");
         gmsh::model::occ::addSphere(center[0], center[1], center[2], radius);
-        gmsh::model::occ::synchronize();
-        gmsh::model::mesh::generate(3);
-
-        std::vector<std::size_t> tags;
-        std::vector<double>      coordinates, parametric;
-        gmsh::model::mesh::getNodes(tags, coordinates, parametric);
-        std::map<std::size_t, std::size_t> place;
-        for (std::size_t k = 0; k < tags.size(); ++k)
-          place[tags[k]] = k;
-
-        constexpr int            tetrahedron = 4;
-        std::vector<std::size_t> elements, nodes;
-        gmsh::model::mesh::getElementsByType(tetrahedron, elements, nodes);
-        for (std::size_t e = 0; e < elements.size(); ++e)
-          {
-            CellData<3> cell(4);
-            for (unsigned int v = 0; v < 4; ++v)
-              {
-                // Nodes that no tetrahedron has stay out.
-                const auto [entry, is_new] =
-                  number.emplace(nodes[4 * e + v], points.size());
-                if (is_new)
-                  {
-                    const std::size_t k = 3 * place.at(entry->first);
-                    points.emplace_back(coordinates[k],
-                                        coordinates[k + 1],
-                                        coordinates[k + 2]);
-                  }
-                cell.vertices[v] = entry->second;
-              }
-            cells.push_back(cell);
-          }
-      }
-    catch (const std::exception &exception)
-      {
-        throw InputError(std::string("Gmsh cannot make the mesh: ") +
-                         exception.what());
-      }
-    catch (const std::string &message)
-      {
-        throw InputError("Gmsh cannot make the mesh: " + message);
-      }
-    triangulation.create_triangulation(points, cells, SubCellData());
+      },
+      triangulation);
     mark_halves(center[2], triangulation);
   }
 

@@ -4,6 +4,8 @@
 #include <problems/impact.h>
 #include <time_integration/mass_redistribution.h>
 
+#include <deal.II/base/function_signed_distance.h>
+
 namespace Ricochet
 {
   using namespace dealii;
@@ -71,6 +73,8 @@ namespace Ricochet
                 : IndexSet(body.contact_indices().size()),
               body.clamped_indices(),
               body.multiplier_indices(),
+              dim,
+              &body.sparsity_pattern(),
               [this]() { return body.canonical_positions(); },
               [this]() { return body.rigid_body_modes(); }},
              load,
@@ -80,7 +84,48 @@ namespace Ricochet
   {}
 
 
+  template <int dim>
+  Vector
+  Impact<dim>::uniform(const Tensor<1, dim> &value) const
+  {
+    Vector vector;
+    body.interpolate(Functions::ConstantFunction<dim>(
+                       std::vector<double>(value.begin_raw(), value.end_raw())),
+                     vector);
+    return vector;
+  }
+
+
+
+  template <int dim>
+  State
+  Impact<dim>::state_in_flight(const Tensor<1, dim> &velocity)
+  {
+    return system.initial_state(uniform(Tensor<1, dim>()),
+                                uniform(velocity),
+                                /* time */ 0.);
+  }
+
+
+
+  template <int dim>
+  Obstacles<dim>
+  foundation_below(const types::boundary_id boundary_id)
+  {
+    Tensor<1, dim> up;
+    up[dim - 1] = 1.;
+    return {
+      {boundary_id,
+       std::make_shared<Functions::SignedDistance::Plane<dim>>(Point<dim>(),
+                                                               up)}};
+  }
+
+
   template struct Impact<1>;
   template struct Impact<2>;
   template struct Impact<3>;
+  template Obstacles<2>
+  foundation_below(const types::boundary_id);
+  template Obstacles<3>
+  foundation_below(const types::boundary_id);
 } // namespace Ricochet

@@ -42,7 +42,21 @@ namespace Ricochet
     const std::unique_ptr<ContactOperator> contact;
     SemiDiscreteSystem                     system;
     const std::unique_ptr<TimeScheme>      scheme;
+
+    /// A field that is @p value everywhere, zero in multipliers.
+    Vector
+    uniform(const dealii::Tensor<1, dim> &value) const;
+
+    /// The undeformed body in flight at time 0.
+    State
+    state_in_flight(const dealii::Tensor<1, dim> &velocity);
   };
+
+  /// The half space below x_dim = 0, as the obstacle of the boundary @p
+  /// boundary_id.
+  template <int dim>
+  Obstacles<dim>
+  foundation_below(const dealii::types::boundary_id boundary_id);
 } // namespace Ricochet
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <problems/thrown_body.h>
 
-#include <deal.II/base/function_signed_distance.h>
+#include <deal.II/base/function.h>
 
 namespace Ricochet
 {
@@ -46,31 +46,6 @@ namespace Ricochet
     impact.validate(material.law == "linear elastic",
                     material.viscosity != "none" &&
                       material.viscosity_eta > 0.);
-  }
-
-
-
-  Obstacles<2>
-  foundation_below(const types::boundary_id boundary_id)
-  {
-    return {{boundary_id,
-             std::make_shared<Functions::SignedDistance::Plane<2>>(
-               Point<2>(),
-               Tensor<1, 2>({0., 1.}))}};
-  }
-
-
-
-  State
-  state_in_flight(const ThrownBodyParameters &parameters, Impact<2> &body)
-  {
-    Vector displacement, velocity;
-    body.body.interpolate(Functions::ZeroFunction<2>(2), displacement);
-    body.body.interpolate(Functions::ConstantFunction<2>(std::vector<double>{
-                            parameters.initial_velocity[0],
-                            parameters.initial_velocity[1]}),
-                          velocity);
-    return body.system.initial_state(displacement, velocity, /* time */ 0.);
   }
 
 

@@ -43,15 +43,6 @@ namespace Ricochet
     }
   };
 
-  /// The foundation, as the obstacle of the boundary @p boundary_id.
-  Obstacles<2>
-  foundation_below(const dealii::types::boundary_id boundary_id);
-
-  /// The undeformed @p body in flight at time 0, with the velocity of @p
-  /// parameters.
-  State
-  state_in_flight(const ThrownBodyParameters &parameters, Impact<2> &body);
-
   /**
    * Add to the ledger of @p loop linear momentum, angular momentum about the
    * origin and the displacement of the mass centre. @p momenta must live as long

@@ -423,6 +423,13 @@ namespace Ricochet
                       shares.back_substitution);
         folder.log(line);
         folder.log("linear solver: " + system.linear_solver_description());
+        Utilities::System::MemoryStats memory;
+        Utilities::System::get_memory_stats(memory);
+        const std::uint64_t all_ranks =
+          Utilities::MPI::sum(static_cast<std::uint64_t>(memory.VmHWM),
+                              folder.communicator);
+        folder.log("memory at most: " + std::to_string(all_ranks / 1024) +
+                   " MB");
       }
     return state;
   }

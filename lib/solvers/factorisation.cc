@@ -26,9 +26,9 @@ namespace Ricochet
       factorise(const Matrix &matrix, const bool keep_pivots) override
       {
         int error = 0;
-        if (!solver || factored != &matrix)
+        if (!solver || factored != &matrix.trilinos_matrix())
           {
-            factored = &matrix;
+            factored = &matrix.trilinos_matrix();
             problem  = std::make_unique<Epetra_LinearProblem>();
             problem->SetOperator(
               const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
@@ -68,7 +68,7 @@ namespace Ricochet
 
     private:
       const std::string                     package;
-      const Matrix                         *factored = nullptr;
+      const Epetra_CrsMatrix               *factored = nullptr;
       std::unique_ptr<Epetra_LinearProblem> problem;
       std::unique_ptr<Amesos_BaseSolver>    solver;
     };

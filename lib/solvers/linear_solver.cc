@@ -102,11 +102,13 @@ namespace Ricochet
     const ContactStructure                     &contact,
     const bool                                  linear_body,
     const std::function<std::vector<Vector>()> &rigid_body_modes,
+    const unsigned int                          dim,
     const std::size_t                           n_unknowns,
     const unsigned int                          n_ranks)
     : parameters(parameters)
     , contact(contact)
     , linear_body(linear_body)
+    , dim(dim)
     , n_unknowns(n_unknowns)
     , n_ranks(n_ranks)
     , type(parameters.type)
@@ -176,7 +178,8 @@ namespace Ricochet
       factorisation,
       "CHOLMOD: Cholesky, for Type = corrected on one MPI rank. KLU: LU, fast "
       "for bars and plane meshes. MUMPS: LU, fast in 3D and parallel. automatic: "
-      "CHOLMOD where it can be; otherwise KLU below 20000 unknowns.",
+      "CHOLMOD where it can be; otherwise KLU for bars and plane meshes below "
+      "20000 unknowns.",
       Patterns::Selection("automatic|CHOLMOD|KLU|MUMPS"));
     parameters.add_parameter(
       "Kept factorisations",
@@ -200,7 +203,7 @@ namespace Ricochet
     if (parameters.factorisation == "KLU" ||
         parameters.factorisation == "MUMPS")
       return parameters.factorisation;
-    return n_unknowns < 20000 ? "KLU" : "MUMPS";
+    return dim < 3 && n_unknowns < 20000 ? "KLU" : "MUMPS";
   }
 
 

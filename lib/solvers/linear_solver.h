@@ -53,6 +53,8 @@ namespace Ricochet
      * @param linear_body the body's part of a tangent has a name.
      * @param rigid_body_modes Body::rigid_body_modes(), only called for
      * multigrid.
+     * @param dim dimension of the body, on which depends which factorisation is
+     * fast.
      * @param n_unknowns number of unknowns on all ranks.
      * @throws InputError when the parameters do not go together.
      */
@@ -60,6 +62,7 @@ namespace Ricochet
                  const ContactStructure                     &contact,
                  const bool                                  linear_body,
                  const std::function<std::vector<Vector>()> &rigid_body_modes,
+                 const unsigned int                          dim,
                  const std::size_t                           n_unknowns,
                  const unsigned int                          n_ranks);
 
@@ -160,6 +163,7 @@ namespace Ricochet
     const Parameters                        parameters;
     const ContactStructure                  contact;
     const bool                              linear_body;
+    const unsigned int                      dim;
     const std::size_t                       n_unknowns;
     const unsigned int                      n_ranks;
     std::string                             type;

@@ -12,8 +12,7 @@
 namespace Ricochet
 {
   /**
-   * Algebraic multigrid for elasticity: smoothed aggregation by Trilinos' ML,
-   * with the rigid body modes as what the coarse levels must be able to
+   * Algebraic multigrid for elasticity: aggregation by Trilinos' ML, with the rigid body modes as what the coarse levels must be able to
    * represent, as a preconditioner of conjugate gradients or GMRES.
    */
   class Multigrid

@@ -69,6 +69,7 @@ namespace Ricochet
                                       mass.get_mpi_communicator()),
                     bulk.is_linear(),
                     unknowns.rigid_body_modes,
+                    unknowns.dim,
                     mass.m(),
                     Utilities::MPI::n_mpi_processes(
                       mass.get_mpi_communicator()))
@@ -244,8 +245,12 @@ namespace Ricochet
         }
       tangent.assemble_body = [&](Matrix &matrix) {
         const Stopwatch stopwatch(tangent_seconds);
-        matrix.copy_from(mass);
-        matrix *= stage.inertia;
+        if (matrix.n_nonzero_elements() ==
+            unknowns.pattern->n_nonzero_elements())
+          matrix = 0.;
+        else
+          matrix.reinit(*unknowns.pattern);
+        matrix.add(stage.inertia, mass);
         if (stage.bulk_step_force)
           bulk.add_step_tangent(old_state.solution,
                                 solution,

@@ -93,6 +93,10 @@ namespace Ricochet
       dealii::IndexSet clamped;
       /// Multipliers.
       dealii::IndexSet multipliers;
+      /// Dimension of the body.
+      unsigned int dim = 0;
+      /// Sparsity pattern of the tangents.
+      const dealii::TrilinosWrappers::SparsityPattern *pattern = nullptr;
       /// Body::canonical_positions(), for checkpoints.
       std::function<std::vector<dealii::types::global_dof_index>()>
         canonical_positions;

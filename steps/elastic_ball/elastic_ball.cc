@@ -177,7 +177,7 @@ ElasticBall::run(RunFolder &folder)
                  material,
                  parameters.material.density,
                  /* clamped */ {},
-                 foundation_below(outer_circle),
+                 foundation_below<2>(outer_circle),
                  /* load */ {},
                  folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
@@ -187,7 +187,7 @@ ElasticBall::run(RunFolder &folder)
              impact.mass + " mass");
 
   // The ball flies, undeformed.
-  const State initial_state = state_in_flight(parameters, ball);
+  const State initial_state = ball.state_in_flight(parameters.initial_velocity);
 
   // The time loop writes energies and contact. Momenta tell whether a scheme
   // does more than keep the energy: without friction nothing pushes the ball

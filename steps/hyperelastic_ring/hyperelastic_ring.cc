@@ -169,7 +169,7 @@ HyperelasticRing::run(RunFolder &folder)
                  material,
                  parameters.material.density,
                  /* clamped */ {},
-                 foundation_below(outer_circle),
+                 foundation_below<2>(outer_circle),
                  /* load */ {},
                  folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
@@ -179,7 +179,7 @@ HyperelasticRing::run(RunFolder &folder)
              impact.mass + " mass");
 
   // The ring flies, undeformed.
-  const State initial_state = state_in_flight(parameters, ring);
+  const State initial_state = ring.state_in_flight(parameters.initial_velocity);
 
   // The time loop writes energies and contact. Without friction the momentum
   // along the foundation stays what it is; off contact so does the angular

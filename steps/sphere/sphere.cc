@@ -39,7 +39,6 @@
 #include <problems/ball_mesh.h>
 #include <problems/impact.h>
 
-#include <deal.II/base/function_signed_distance.h>
 #include <deal.II/distributed/tria.h>
 
 using namespace dealii;
@@ -209,33 +208,20 @@ Sphere::run(RunFolder &folder)
 
   // Gravity is a constant load: the mass matrix times the acceleration. It is
   // there as soon as the mass matrix is, before anything asks for it.
-  const Material<3>  material(LinearElastic{lambda, mu});
-  Ricochet::Vector   weight;
-  const Obstacles<3> foundation = {
-    {BallBoundary::lower_half,
-     std::make_shared<Functions::SignedDistance::Plane<3>>(Point<3>(),
-                                                           Tensor<1, 3>(
-                                                             {0., 0., 1.}))}};
-  Impact<3> sphere(
+  const Material<3> material(LinearElastic{lambda, mu});
+  Ricochet::Vector  weight;
+  Impact<3>         sphere(
     impact,
     *mesh,
     degree,
     material,
     density,
     /* clamped */ {},
-    foundation,
+    foundation_below<3>(BallBoundary::lower_half),
     [&](const double /*time*/, Ricochet::Vector &load) { load = weight; },
     folder.communicator);
-  const auto uniform = [&](const Tensor<1, 3> &value) {
-    Ricochet::Vector vector;
-    sphere.body.interpolate(
-      Functions::ConstantFunction<3>(
-        std::vector<double>{value[0], value[1], value[2]}),
-      vector);
-    return vector;
-  };
   weight.reinit(sphere.body.owned_indices(), folder.communicator);
-  sphere.consistent_mass.vmult(weight, uniform(gravity));
+  sphere.consistent_mass.vmult(weight, sphere.uniform(gravity));
 
   folder.log(std::to_string(mesh->n_global_active_cells()) + " cells, " +
              std::to_string(sphere.body.owned_indices().size()) +
@@ -243,10 +229,7 @@ Sphere::run(RunFolder &folder)
              impact.scheme.name + ", " + impact.mass + " mass");
 
   // It starts undeformed.
-  const State initial_state =
-    sphere.system.initial_state(uniform(Tensor<1, 3>()),
-                                uniform(initial_velocity),
-                                /* time */ 0.);
+  const State initial_state = sphere.state_in_flight(initial_velocity);
 
   // The time loop writes energies and contact; the lowest point shows how the
   // sphere vibrates.

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Bodies at rest on a plane, against solutions in closed form: a block under
+// uniform pressure (patch test), and Hertz's sphere.
+
+#include "meshes.h"
+
+#include <problems/gmsh_mesh.h>
+#include <problems/impact.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <boost/test/unit_test.hpp>
+#include <gmsh.h>
+
+#include <cmath>
+
+using namespace Ricochet;
+
+namespace
+{
+  /// A field whose last component is @p value, and the others zero.
+  template <int dim>
+  Vector
+  vertical(const Body<dim>                                          &body,
+           const std::function<double(const dealii::Point<dim> &x)> &value)
+  {
+    std::vector<std::function<double(const dealii::Point<dim> &)>> components(
+      dim,
+      [](const dealii::Point<dim> &) { return 0.; });
+    components.back() = value;
+    Vector vector;
+    body.interpolate(dealii::FunctionFromFunctionObjects<dim>(components),
+                     vector);
+    return vector;
+  }
+
+  /// Equilibrium of bulk and contact forces. @return displacement and contact
+  /// force.
+  template <int dim>
+  std::pair<Vector, Vector>
+  equilibrium(Impact<dim> &impact)
+  {
+    const Vector zero = impact.body.make_vector();
+    State        rest;
+    rest.solution = rest.velocity = rest.acceleration = rest.contact_force =
+      rest.mean_velocity = rest.scheme_force = zero;
+    Stage stage;
+    stage.inertia_origin = zero;
+    stage.load           = zero;
+    stage.time_step      = 1.;
+    std::pair<Vector, Vector> result(zero, zero);
+    impact.system.solve_stage(stage, rest, result.first, result.second);
+    return result;
+  }
+
+  /// A unit cube without lateral contraction, held at its top, on a plane that
+  /// has moved up by 1/20: strain, stress and contact pressure are uniform.
+  template <int dim>
+  void
+  check_patch(const std::string &treatment,
+              const double       theta,
+              const std::string &scheme,
+              const unsigned int degree,
+              const bool         simplices)
+  {
+    const double              rise = .05, mu = 3.;
+    const CubeAbovePlane<dim> cube(simplices);
+    ImpactParameters          parameters;
+    parameters.contact.treatment       = treatment;
+    parameters.contact.nitsche_theta   = theta;
+    parameters.contact.nitsche_gamma_0 = 100. * mu;
+    parameters.contact.augmentation    = 100. * mu;
+    parameters.scheme.name             = scheme;
+    Impact<dim> impact(parameters,
+                       cube.triangulation,
+                       degree,
+                       Material<dim>(LinearElastic{0., mu}),
+                       1.,
+                       {2},
+                       cube.plane(-rise),
+                       {},
+                       MPI_COMM_WORLD);
+    const auto [solution, force] = equilibrium(impact);
+
+    // u = (1 - x_dim) rise e_dim, contact pressure 2 mu rise.
+    Vector exact = vertical<dim>(impact.body, [&](const dealii::Point<dim> &x) {
+      return (1. - x[dim - 1]) * rise;
+    });
+    const double pressure = 2. * mu * rise;
+    for (const auto i : impact.body.multiplier_indices())
+      exact(i) = pressure;
+    exact.compress(dealii::VectorOperation::insert);
+    Vector difference(solution);
+    difference -= exact;
+    const std::string name = treatment + ", theta " + std::to_string(theta) +
+      ", degree " + std::to_string(degree) + ", " + std::to_string(dim) + "D";
+    BOOST_CHECK_MESSAGE(difference.linfty_norm() < 1e-10,
+                        name << ": error " << difference.linfty_norm());
+    const auto summary = impact.contact->summary(solution, force);
+    BOOST_CHECK_CLOSE(summary.at(1).force, pressure, 1e-8);
+    // And the pressure is uniform, not only in the mean.
+    const Vector field = impact.contact->pressure_field(solution, force);
+    double       worst = 0.;
+    for (const auto i : field.locally_owned_elements())
+      if (const double value = field(i); value != 0.)
+        worst = std::max(worst, std::abs(value - pressure));
+    BOOST_CHECK_LT(worst, 1e-10 * mu);
+  }
+
+  struct HertzErrors
+  {
+    double force, radius, peak;
+  };
+
+  /**
+   * The lower half of a ball of radius 1, held at its flat top, on a plane that
+   * has moved up by @p approach; elements of length contact radius / @p
+   * elements_per_radius around the pole.
+   */
+  HertzErrors
+  hertz(const double elements_per_radius)
+  {
+    const double  approach = .0025, contact_radius = std::sqrt(approach);
+    const double  finest = contact_radius / elements_per_radius;
+    LinearElastic material{1., 1.};
+
+    dealii::Triangulation<3> mesh;
+    mesh_by_gmsh(
+      [&]() {
+        const double pi = dealii::numbers::PI;
+        gmsh::model::occ::addSphere(0., 0., 1., 1., -1, -pi / 2., 0.);
+        // The length of an element grows with the distance from the contact.
+        const int         field    = gmsh::model::mesh::field::add("MathEval");
+        const std::string distance = "Sqrt(x*x+y*y+z*z)";
+        gmsh::model::mesh::field::setString(
+          field,
+          "F",
+          std::to_string(finest) + "+0.35*Max(0,(" + distance + "-" +
+            std::to_string(1.2 * contact_radius) + "))");
+        gmsh::model::mesh::field::setAsBackgroundMesh(field);
+        gmsh::option::setNumber("Mesh.MeshSizeMax", .3);
+        gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
+      },
+      mesh);
+    for (const auto &cell : mesh.active_cell_iterators())
+      for (const auto &face : cell->face_iterators())
+        if (face->at_boundary())
+          face->set_boundary_id(face->center()[2] > 1. - 1e-6  ? 2
+                                  : face->center().norm() < .3 ? 1
+                                                               : 0);
+
+    ImpactParameters parameters;
+    parameters.contact.treatment       = "Nitsche";
+    parameters.contact.nitsche_gamma_0 = 100. * material.mu;
+    parameters.scheme.name             = "Crank-Nicolson";
+    dealii::Point<3> plane(0., 0., approach);
+    Impact<3>        impact(
+      parameters,
+      mesh,
+      /* degree */ 2,
+      Material<3>(material),
+      /* density */ 1.,
+      {2},
+      {{1,
+               std::make_shared<dealii::Functions::SignedDistance::Plane<3>>(
+          plane,
+          dealii::Tensor<1, 3>({0., 0., 1.}))}},
+      {},
+      MPI_COMM_WORLD);
+    const auto [solution, force] = equilibrium(impact);
+
+    // Force; radius from the second moment, which for Hertz's pressure is
+    // 2/5 a^2 F; largest pressure.
+    const Vector square =
+      vertical<3>(impact.body, [](const dealii::Point<3> &x) {
+        return x[0] * x[0] + x[1] * x[1];
+      });
+    const double total  = impact.contact->summary(solution, force).at(1).force;
+    const double radius = std::sqrt(2.5 * std::abs(square * force) / total);
+    // The pressure is discontinuous and its largest value wherever it happens to
+    // be; so the mean over the nodes near the pole, where Hertz's is 0.984 of
+    // the peak.
+    const Vector field = impact.contact->pressure_field(solution, force);
+    std::map<dealii::types::global_dof_index, dealii::Point<3>> positions;
+    dealii::DoFTools::map_dofs_to_support_points(impact.body.mapping(),
+                                                 impact.body.dof_handler(),
+                                                 positions);
+    double       sum = 0.;
+    unsigned int n   = 0;
+    for (const auto &[i, x] : positions)
+      if (field(i) > 0. && x.norm() < .25 * contact_radius)
+        {
+          sum += field(i);
+          ++n;
+        }
+    const double peak = sum / n / .984;
+
+    // Hertz for that approach (K. L. Johnson, Contact Mechanics, 1985, section
+    // 4.2), with E / (1 - nu^2) for a rigid plane.
+    const double lambda = material.lambda, mu = material.mu;
+    const double modulus     = 4. * mu * (lambda + mu) / (lambda + 2. * mu);
+    const double exact_force = 4. / 3. * modulus * std::pow(approach, 1.5);
+    const double exact_peak =
+      2. * modulus / dealii::numbers::PI * contact_radius;
+    BOOST_TEST_MESSAGE(
+      "Hertz, " << elements_per_radius << " elements per radius, "
+                << impact.body.owned_indices().size() << " unknowns: force "
+                << total / exact_force << ", radius " << radius / contact_radius
+                << ", peak " << peak / exact_peak);
+    return {total / exact_force - 1.,
+            radius / contact_radius - 1.,
+            peak / exact_peak - 1.};
+  }
+} // namespace
+
+
+BOOST_AUTO_TEST_SUITE(patch_test)
+
+BOOST_AUTO_TEST_CASE(uniform_pressure_is_reproduced)
+{
+  for (const bool simplices : {true, false})
+    {
+      for (const unsigned int degree : {1u, 2u})
+        {
+          for (const double theta : {1., 0., -1.})
+            {
+              check_patch<2>("Nitsche", theta, "HHT", degree, simplices);
+              check_patch<3>("Nitsche", theta, "HHT", degree, simplices);
+            }
+          check_patch<3>("proximal augmented Lagrangian",
+                         1.,
+                         "HHT",
+                         degree,
+                         simplices);
+        }
+      check_patch<2>("Signorini multipliers", 1., "HHT", 1, simplices);
+      check_patch<3>("Signorini multipliers", 1., "HHT", 1, simplices);
+      check_patch<3>("Signorini active set", 1., "HHT", 1, simplices);
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+
+// Half a minute, in release builds only.
+BOOST_AUTO_TEST_SUITE(hertz_contact)
+
+BOOST_AUTO_TEST_CASE(hertz_is_approached)
+{
+  const HertzErrors coarse = hertz(1.5), fine = hertz(4.);
+  // Far from the contact the half sphere is not the half space of the theory: of
+  // the order of contact radius / radius, here 2 %.
+  for (const auto &error : {fine.force, fine.radius, fine.peak})
+    BOOST_CHECK_LT(std::abs(error), .05);
+  BOOST_CHECK_LT(std::abs(fine.peak), std::abs(coarse.peak));
+  BOOST_CHECK_LT(std::abs(fine.radius), std::abs(coarse.radius));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
