@@ -9,7 +9,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 packages="cmake ninja-build g++ ccache libdeal.ii-dev libeigen3-dev libsuitesparse-dev
   libgmsh-dev libboost-dev
   libhdf5-openmpi-dev libsundials-dev libopenblas0-pthread openmpi-bin numdiff
-  perl python3 python3-matplotlib python3-numpy python3-h5py"
+  perl python3 python3-matplotlib python3-numpy python3-h5py
+  python3-vtk9 xvfb xauth libgl1-mesa-dri"
 
 install_packages()
 {
