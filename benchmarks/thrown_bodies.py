@@ -9,12 +9,9 @@ the three largest meshes.
 """
 
 import argparse
-import math
-import os
 import pathlib
-import re
-import subprocess
-import tempfile
+
+from measuring import exponent, measure
 
 METHODS = [
     ("Signorini multipliers", ["Contact/Treatment=Signorini multipliers"]),
@@ -39,34 +36,6 @@ BODIES = {
         1., 10.),
 }
 
-SHARES = re.compile(r"residuals (\S+) s, tangents (\S+) s, (\d+) factorisations "
-                    r"(\S+) s, back-substitutions (\S+) s")
-
-
-def measure(program, parameters, final_time):
-    """Unknowns, steps, seconds in all steps, and the shares of a run."""
-    with tempfile.TemporaryDirectory() as folder:
-        command = [program, "--output-dir", folder]
-        for parameter in parameters + ["Output/Fields every=0",
-                                       "Output/Log every=0",
-                                       f"Time/Final time={final_time}"]:
-            command += ["--set", parameter]
-        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1",
-                       "DEAL_II_NUM_THREADS": "1"}
-        log = subprocess.run(command, check=True, capture_output=True,
-                             text=True, env=environment).stdout
-    unknowns = int(re.search(r"(\d+) unknowns", log).group(1))
-    steps, seconds = re.search(r"\| steps +\| +(\d+) \| +(\S+?)s \|",
-                               log).groups()
-    residual, tangent, count, factorisation, substitution = SHARES.search(
-        log).groups()
-    return {"unknowns": unknowns, "steps": int(steps),
-            "seconds": float(seconds), "residuals": float(residual),
-            "tangents": float(tangent), "factorisations": int(count),
-            "factorising": float(factorisation),
-            "substituting": float(substitution)}
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build-dir", default="build/release")
@@ -89,20 +58,16 @@ def main():
         for name, method in METHODS:
             points = []
             for mesh in meshes[-arguments.meshes:]:
-                run = min((measure(program, parameters + method + mesh,
-                                   whole if arguments.whole_run else final_time)
+                end = whole if arguments.whole_run else final_time
+                run = min((measure(program, parameters + method + mesh +
+                                   [f"Time/Final time={end}"])
                            for _ in range(arguments.repeat)),
                           key=lambda run: run["seconds"])
                 step = run["seconds"] / run["steps"]
-                points.append((math.log(run["unknowns"]), math.log(step)))
-                exponent = ""
+                points.append((run["unknowns"], step))
+                slope = ""
                 if mesh is meshes[-1] and len(points) >= 3:
-                    last = points[-3:]
-                    x = sum(p[0] for p in last) / 3
-                    y = sum(p[1] for p in last) / 3
-                    slope = (sum((p[0] - x) * (p[1] - y) for p in last) /
-                             sum((p[0] - x) ** 2 for p in last))
-                    exponent = f"{slope:.2f}"
+                    slope = f"{exponent(points[-3:]):.2f}"
 
                 def share(key):
                     return f"{100 * run[key] / run['seconds']:.0f} %"
@@ -111,7 +76,7 @@ def main():
                       f"| {1e3 * step:.2f} | {share('residuals')} "
                       f"| {share('tangents')} | {run['factorisations']}: "
                       f"{share('factorising')} | {share('substituting')} "
-                      f"| {exponent} |", flush=True)
+                      f"| {slope} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -206,86 +206,99 @@ namespace Ricochet
                                   Point<dim>(column.position - centre));
     };
 
-    // Moments that are lost with the contact boundary, and the Gram matrix of
-    // the constraints on the entries that are left.
-    const unsigned int n       = n_mass_moments<dim>;
-    Eigen::VectorXd    missing = Eigen::VectorXd::Zero(n);
-    Eigen::MatrixXd    gram    = Eigen::MatrixXd::Zero(n, n);
-    for_each_entry<dim>(mass,
-                        dofs,
-                        [&](const auto,
-                            const auto,
-                            const DoF<dim> &row,
-                            const DoF<dim> &column,
-                            const double    value) {
-                          if (row.component != 0)
-                            return;
-                          const Eigen::VectorXd products = pair(row, column);
-                          if (row.on_contact_boundary ||
-                              column.on_contact_boundary)
-                            missing += value * products;
-                          else
-                            gram += products * products.transpose();
-                        });
-    MPI_Allreduce(MPI_IN_PLACE,
-                  missing.data(),
-                  missing.size(),
-                  MPI_DOUBLE,
-                  MPI_SUM,
-                  body.communicator);
-    MPI_Allreduce(MPI_IN_PLACE,
-                  gram.data(),
-                  gram.size(),
-                  MPI_DOUBLE,
-                  MPI_SUM,
-                  body.communicator);
-
-    // Scale the constraints to unit diagonal before judging independence.
-    const Eigen::VectorXd scale =
-      gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd scaled =
-      scale.asDiagonal() * gram * scale.asDiagonal();
-    Eigen::FullPivLU<Eigen::MatrixXd> factorisation(scaled);
-    factorisation.setThreshold(1e-12);
-    if (!factorisation.isInvertible())
-      throw InputError(
-        "The mass cannot be redistributed: too few nodes lie "
-        "off the contact boundary to keep mass, centre of mass "
-        "and moments of inertia. Refine the mesh or take the "
-        "consistent mass.");
-    const Eigen::VectorXd multipliers = scale.asDiagonal() *
-      factorisation.solve(Eigen::VectorXd(scale.asDiagonal() * missing));
-
-    Matrix redistributed;
-    redistributed.copy_from(mass);
-    for_each_entry<dim>(
-      mass,
-      dofs,
-      [&](const types::global_dof_index row_index,
-          const types::global_dof_index column_index,
-          const DoF<dim>               &row,
-          const DoF<dim>               &column,
-          const double                  value) {
-        redistributed.set(row_index,
-                          column_index,
-                          row.on_contact_boundary || column.on_contact_boundary
-                            ? 0.
-                            : value + multipliers.dot(pair(row, column)));
-      });
-    redistributed.compress(VectorOperation::insert);
-
-    // The nearest matrix need not be positive: on coarse meshes, too much of
-    // the mass sits on the contact boundary.
+    // The nearest matrix changes all entries by like amounts, small ones too, and
+    // need not be positive where much of the mass sits on the contact boundary.
+    // Then the one that is nearest relative to the entries: each is multiplied by
+    // a polynomial of the positions, as if by another density.
     IndexSet no_inertia = body.contact_indices();
     no_inertia.add_indices(body.multiplier_indices());
-    if (!is_positive_definite(redistributed, no_inertia, body.make_vector()))
-      throw InputError(
-        "The mass cannot be redistributed: on this mesh so much "
-        "of it sits on the contact boundary that the matrix "
-        "that keeps mass, centre of mass and moments of inertia "
-        "is not positive. Refine the mesh or take the "
-        "consistent mass.");
-    return redistributed;
+    for (const bool in_proportion : {false, true})
+      {
+        // What an entry may change, by its own value.
+        const auto weight = [&](const double value) {
+          return in_proportion ? value : 1.;
+        };
+        // Moments that are lost with the contact boundary, and the Gram matrix of
+        // the constraints on the entries that are left.
+        const unsigned int n       = n_mass_moments<dim>;
+        Eigen::VectorXd    missing = Eigen::VectorXd::Zero(n);
+        Eigen::MatrixXd    gram    = Eigen::MatrixXd::Zero(n, n);
+        for_each_entry<dim>(mass,
+                            dofs,
+                            [&](const auto,
+                                const auto,
+                                const DoF<dim> &row,
+                                const DoF<dim> &column,
+                                const double    value) {
+                              if (row.component != 0)
+                                return;
+                              const Eigen::VectorXd products =
+                                pair(row, column);
+                              if (row.on_contact_boundary ||
+                                  column.on_contact_boundary)
+                                missing += value * products;
+                              else
+                                gram += weight(value) * products *
+                                  products.transpose();
+                            });
+        MPI_Allreduce(MPI_IN_PLACE,
+                      missing.data(),
+                      missing.size(),
+                      MPI_DOUBLE,
+                      MPI_SUM,
+                      body.communicator);
+        MPI_Allreduce(MPI_IN_PLACE,
+                      gram.data(),
+                      gram.size(),
+                      MPI_DOUBLE,
+                      MPI_SUM,
+                      body.communicator);
+
+        // Scale the constraints to unit diagonal before judging independence.
+        const Eigen::VectorXd scale =
+          gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+        const Eigen::MatrixXd scaled =
+          scale.asDiagonal() * gram * scale.asDiagonal();
+        Eigen::FullPivLU<Eigen::MatrixXd> factorisation(scaled);
+        factorisation.setThreshold(1e-12);
+        if (!factorisation.isInvertible())
+          throw InputError(
+            "The mass cannot be redistributed: too few nodes lie "
+            "off the contact boundary to keep mass, centre of mass "
+            "and moments of inertia. Refine the mesh or take the "
+            "consistent mass.");
+        const Eigen::VectorXd multipliers = scale.asDiagonal() *
+          factorisation.solve(Eigen::VectorXd(scale.asDiagonal() * missing));
+
+        Matrix redistributed;
+        redistributed.copy_from(mass);
+        for_each_entry<dim>(mass,
+                            dofs,
+                            [&](const types::global_dof_index row_index,
+                                const types::global_dof_index column_index,
+                                const DoF<dim>               &row,
+                                const DoF<dim>               &column,
+                                const double                  value) {
+                              redistributed.set(row_index,
+                                                column_index,
+                                                row.on_contact_boundary ||
+                                                    column.on_contact_boundary
+                                                  ? 0.
+                                                  : value +
+                                                    weight(value) *
+                                                      multipliers.dot(
+                                                        pair(row, column)));
+                            });
+        redistributed.compress(VectorOperation::insert);
+        if (is_positive_definite(redistributed, no_inertia, body.make_vector()))
+          return redistributed;
+      }
+    throw InputError(
+      "The mass cannot be redistributed: on this mesh so much "
+      "of it sits on the contact boundary that the matrix "
+      "that keeps mass, centre of mass and moments of inertia "
+      "is not positive. Refine the mesh or take the "
+      "consistent mass.");
   }
 
 

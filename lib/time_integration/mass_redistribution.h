@@ -19,9 +19,16 @@ namespace Ricochet
    * M_ij + sum_k l_k sym(a_k b_k^T)_ij on the entries off the contact boundary;
    * the l_k solve a dense system of size 1 + dim + dim (dim + 1)/2.
    *
+   * Where that matrix is not positive definite off the contact boundary (seen
+   * with 3 or 4 elements across a body, and on the sphere of paper C with degree
+   * 2, half of whose surface is the contact boundary), each entry is multiplied by
+   * 1 + sum_k l_k sym(a_k b_k^T)_ij instead: the nearest matrix relative to the
+   * entries. By Schur's product theorem it is positive whenever that polynomial
+   * is, as a matrix in (1, x).
+   *
    * @throws InputError when the mesh is too coarse: the moments are not
-   * independent on the nodes that are left, or the result is not positive
-   * definite on them (seen in 2D and 3D with 3 or 4 elements across the body).
+   * independent on the nodes that are left, or neither result is positive
+   * definite on them.
    */
   template <int dim>
   Matrix

@@ -13,8 +13,13 @@ from common import *
 COARSE = ["Mesh/Mesh size=14", "Time/Final time=9"] + NO_FIELDS
 MESH = ROOT / "meshes" / "sphere_h4.msh"
 
+MULTIGRID = "Linear solver/Type=multigrid"
+OBLIQUE = ["Contact/Friction coefficient=0.3",
+           "Start/Initial velocity=1, 0.4, 0"]
+
 TREATMENTS = [
     ["Contact/Treatment=Nitsche"],
+    ["Contact/Treatment=Nitsche", MULTIGRID],
     ["Contact/Treatment=Nitsche", "Time/Scheme=TR-BDF2"],
     ["Contact/Treatment=Nitsche", "Time/Scheme=HHT",
      "Time/HHT alpha=0.05"],
@@ -25,8 +30,13 @@ TREATMENTS = [
     ["Contact/Treatment=improved normal compliance", "Time/Scheme=midpoint",
      "Mesh/Degree=1"],
     ["Contact/Treatment=persistent contact", "Time/Scheme=midpoint",
-     "Mesh/Degree=1", "Contact/Friction coefficient=0.3",
-     "Start/Initial velocity=1, 0, 0"],
+     "Mesh/Degree=1"] + OBLIQUE,
+    ["Contact/Treatment=improved normal compliance", "Time/Scheme=midpoint",
+     "Mesh/Degree=1"] + OBLIQUE,
+    ["Contact/Treatment=Signorini active set", "Time/Scheme=midpoint",
+     "Mesh/Degree=1", MULTIGRID],
+    ["Contact/Treatment=Nitsche", "Time/Mass=redistributed",
+     "Time/Scheme=TR-BDF2", "Mesh/Mesh size=5"],
 ]
 
 
@@ -51,15 +61,72 @@ class Sphere(ProgramTest):
                 self.assertGreater(touching[0], fall - .25)
                 self.assertLess(touching[0], fall + late)
 
-    def test_one_and_two_ranks(self):
-        ledgers = [self.run_program("sphere", COARSE + ["Mesh/Degree=1"],
-                                    self.folder / f"{n}", n_ranks=n)
-                   for n in (1, 2)]
+    def compare(self, one, other, tolerance):
+        self.assertEqual(len(one["time"]), len(other["time"]))
         for name in ("energy", "contact_force_foundation",
                      "lowest_displacement"):
-            scale = max(map(abs, ledgers[0][name]))
-            for a, b in zip(ledgers[0][name], ledgers[1][name]):
-                self.assertLess(abs(a - b), 1e-9 * scale)
+            scale = max(map(abs, one[name]))
+            for a, b in zip(one[name], other[name]):
+                self.assertLess(abs(a - b), tolerance * scale)
+
+    def test_one_and_two_ranks(self):
+        # Each rank has a part of the mesh, of tetrahedra and of hexahedra.
+        for parameters in (["Mesh/Degree=1"],
+                           ["Mesh/Cells=hexahedra", "Mesh/Degree=1"],
+                           ["Contact/Treatment=proximal augmented Lagrangian"],
+                           [MULTIGRID],
+                           ["Contact/Treatment=improved normal compliance",
+                            "Time/Scheme=midpoint", "Mesh/Degree=1"] + OBLIQUE,
+                           ["Time/Mass=redistributed", "Mesh/Mesh size=5"]):
+            with self.subTest(" ".join(parameters)):
+                ledgers = [self.run_program("sphere", COARSE + parameters,
+                                            self.folder / f"{n}", n_ranks=n)
+                           for n in (1, 2)]
+                self.compare(*ledgers, 1e-9)
+            if is_debug_build():
+                break
+
+    def test_multigrid_and_factorisation(self):
+        ledgers = [self.run_program("sphere", COARSE + [f"Linear solver/{type}"],
+                                    self.folder / type.replace(" ", ""))
+                   for type in ("Type=direct", "Type=corrected",
+                                "Type=multigrid")]
+        self.compare(*ledgers[:2], 1e-9)
+        self.compare(ledgers[0], ledgers[2], 1e-9)
+
+    def test_resumed_on_two_ranks(self):
+        parameters = COARSE + ["Output/Checkpoint every=4", "Mesh/Degree=1"]
+        whole = self.run_program("sphere", parameters, self.folder / "whole")
+        parts = self.folder / "parts"
+        self.run_program("sphere", parameters + ["Time/Final time=8"], parts)
+        again = self.run_program("sphere", parameters, parts, n_ranks=2,
+                                 options=["--resume"])
+        self.compare(whole, again, 1e-9)
+
+    def test_resumed_on_one_rank(self):
+        for type in ("automatic", "multigrid"):
+            parameters = COARSE + ["Output/Checkpoint every=100",
+                                   f"Linear solver/Type={type}"]
+            whole = self.folder / f"whole-{type}"
+            parts = self.folder / f"parts-{type}"
+            self.run_program("sphere", parameters, whole)
+            self.run_program("sphere", parameters + ["Time/Final time=8"], parts)
+            self.run_program("sphere", parameters, parts, options=["--resume"])
+            self.assertEqual((whole / "energy.csv").read_text(),
+                             (parts / "energy.csv").read_text())
+            if is_debug_build():
+                break
+
+    def test_combinations_that_are_refused(self):
+        for parameters, words in (
+                ([MULTIGRID, "Contact/Treatment=proximal augmented Lagrangian"],
+                 "Multigrid cannot solve for multipliers"),
+                ([MULTIGRID, "Linear solver/Factorisation=KLU"],
+                 "Multigrid factors nothing")):
+            with self.subTest(words):
+                code, _, error = self.attempt("sphere", COARSE + parameters)
+                self.assertEqual(code, 1)
+                self.assertIn(words, " ".join(error.split()))
 
     def test_bad_meshes(self):
         no_boundary = self.folder / "no_boundary.msh"
