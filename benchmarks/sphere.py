@@ -3,8 +3,8 @@
 """Cost of the soft sphere (paper C, 4.3; Nitsche's method, Crank-Nicolson).
 
 First the whole run on the paper's mesh; then a fall and the first steps in contact
-on meshes of several sizes, on one and two ranks, with the solver that is chosen
-by itself; then the same with multigrid up to 300 000 unknowns, with exponent of the
+on meshes of several sizes, on one and two ranks, with the solver that the program
+chooses by itself (shares are those of the first rank); then the same with multigrid up to 300 000 unknowns, with exponent of the
 cost of a step, and memory (largest resident size of the process) per unknown.
 """
 
@@ -19,7 +19,7 @@ MULTIGRID = ["Linear solver/Type=multigrid"]
 
 def row(name, run, n_ranks):
     def share(key):
-        return f"{100 * run[key] / run['seconds'] / (1 if n_ranks == 1 else n_ranks):.0f} %"
+        return f"{100 * run[key] / run['seconds']:.0f} %"
 
     print(f"| {name} | {run['solver']} | {n_ranks} | {run['unknowns']} | {run['steps']} "
           f"| {1e3 * run['seconds'] / run['steps']:.0f} "

@@ -215,6 +215,26 @@ namespace Ricochet
 
 
 
+  std::optional<PointwiseContact::FrictionDerivatives>
+  PointwiseContact::friction_derivatives(const unsigned int p) const
+  {
+    const double pressure =
+      friction.coefficient > 0. ? friction_pressure(p) : 0.;
+    if (pressure == 0.)
+      return {};
+    FrictionDerivatives derivatives;
+    friction.derivatives(friction_branch[p],
+                         pressure,
+                         slip_rate[p],
+                         tangent_plane(
+                           evaluator.contact_points()[p].obstacle_normal),
+                         derivatives.with_slip_rate,
+                         derivatives.with_pressure);
+    return derivatives;
+  }
+
+
+
   void
   PointwiseContact::complete_tangent(Matrix &tangent) const
   {
@@ -225,24 +245,15 @@ namespace Ricochet
           law->tangent(linearisation[p], old_state[p], point.cell_diameter);
         evaluator.add(p, weight, law_tangent, tangent);
 
-        const double pressure =
-          friction.coefficient > 0. ? friction_pressure(p) : 0.;
-        if (pressure > 0.)
+        if (const auto derivatives = friction_derivatives(p))
           {
-            dealii::Tensor<2, 3> with_slip_rate;
-            dealii::Tensor<1, 3> with_pressure;
-            friction.derivatives(friction_branch[p],
-                                 pressure,
-                                 slip_rate[p],
-                                 tangent_plane(point.obstacle_normal),
-                                 with_slip_rate,
-                                 with_pressure);
+            const dealii::Tensor<1, 3> &slope = derivatives->with_pressure;
             evaluator.add(p,
                           weight,
-                          with_slip_rate / time_step,
-                          {{-law_tangent[0][0] * with_pressure,
-                            -law_tangent[0][1] * with_pressure,
-                            -law_tangent[0][2] * with_pressure}},
+                          derivatives->with_slip_rate / time_step,
+                          {{-law_tangent[0][0] * slope,
+                            -law_tangent[0][1] * slope,
+                            -law_tangent[0][2] * slope}},
                           tangent);
           }
       }
@@ -404,28 +415,20 @@ namespace Ricochet
         if (closing != 0.)
           change[own.test].emplace_back(own.trial, factor * closing);
 
-        const double pressure =
-          friction.coefficient > 0. ? friction_pressure(p) : 0.;
-        if (pressure == 0.)
+        const auto derivatives = friction_derivatives(p);
+        if (!derivatives)
           continue;
-        dealii::Tensor<2, 3> with_slip_rate;
-        dealii::Tensor<1, 3> with_pressure;
-        friction.derivatives(friction_branch[p],
-                             pressure,
-                             slip_rate[p],
-                             tangent_plane(point.obstacle_normal),
-                             with_slip_rate,
-                             with_pressure);
         for (unsigned int t = 0; t < own.tangential.size(); ++t)
           {
             auto &row = change[own.first_tangential + t];
             for (unsigned int s = 0; s < own.tangential.size(); ++s)
               row.emplace_back(own.first_tangential + s,
                                factor / time_step *
-                                 (own.tangential[t] * with_slip_rate *
+                                 (own.tangential[t] *
+                                  derivatives->with_slip_rate *
                                   own.tangential[s]));
-            if (const double with_gap =
-                  -law_tangent[0][0] * (own.tangential[t] * with_pressure);
+            if (const double with_gap = -law_tangent[0][0] *
+                  (own.tangential[t] * derivatives->with_pressure);
                 with_gap != 0.)
               row.emplace_back(own.trial, factor * with_gap);
           }

@@ -179,6 +179,18 @@ namespace Ricochet
     double
     friction_pressure(const unsigned int p) const;
 
+    /// Derivatives of the friction traction with respect to the slip rate and the
+    /// pressure.
+    struct FrictionDerivatives
+    {
+      dealii::Tensor<2, 3> with_slip_rate;
+      dealii::Tensor<1, 3> with_pressure;
+    };
+
+    /// None without pressure or friction.
+    std::optional<FrictionDerivatives>
+    friction_derivatives(const unsigned int p) const;
+
     /// Choose stick or slip for the residual at #state.
     void
     choose_friction_branches();

@@ -131,8 +131,10 @@ namespace Ricochet
           ? n_unknowns > 1000
           : n_unknowns > 5000 && chosen_factorisation(true) == "CHOLMOD";
         type             = gains ? "corrected" : "direct";
-        // Where a factorisation in three dimensions no longer fits into memory.
-        if (n_unknowns > 400000 && !contact.has_multipliers && linear_body)
+        // Factorisations in three dimensions grow faster than bodies do, and
+        // few ranks do not make up for it.
+        if (linear_body && dim == 3 && !contact.has_multipliers &&
+            n_unknowns > (n_ranks > 1 ? 10000 : 50000))
           type = "multigrid";
       }
     if (type != "multigrid")
@@ -170,8 +172,8 @@ namespace Ricochet
       "CHOLMOD its symmetric part), with GMRES for the rest. multigrid: "
       "algebraic multigrid, not for treatments with multipliers. automatic: "
       "corrected above 1000 unknowns for linear bodies, above 5000 for "
-      "nonlinear ones if CHOLMOD can be used; multigrid above 400000 for linear "
-      "bodies.",
+      "nonlinear ones if CHOLMOD can be used; multigrid for linear bodies in 3D "
+      "above 50000 unknowns, or 10000 on several ranks.",
       Patterns::Selection("automatic|direct|corrected|multigrid"));
     parameters.add_parameter(
       "Factorisation",
