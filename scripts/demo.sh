@@ -5,7 +5,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 build Release
 
-for program in bar_sd bar_ss elastic_ball hyperelastic_ring; do
+for program in bar_sd bar_ss elastic_ball hyperelastic_ring sphere; do
   build/release/$program parameter_files/$program/default.prm --quiet
 done
 figures/make.py all

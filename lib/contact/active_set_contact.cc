@@ -349,12 +349,8 @@ namespace Ricochet
   {
     std::vector<double> pressures;
     for (unsigned int p = 0; p < nodes.size(); ++p)
-      {
-        const ContactPoint &point = evaluator.contact_points()[p];
-        pressures.push_back(
-          -(point.obstacle_normal * evaluator.at_node(p, contact_force)) /
-          point.weight);
-      }
+      pressures.push_back(evaluator.nodal_normal_force(p, contact_force) /
+                          evaluator.contact_points()[p].weight);
     return evaluator.nodal_averages(pressures);
   }
 
@@ -369,7 +365,7 @@ namespace Ricochet
       {
         const ContactPoint &point = evaluator.contact_points()[p];
         const double        node_reaction =
-          -(point.obstacle_normal * evaluator.at_node(p, contact_force));
+          evaluator.nodal_normal_force(p, contact_force);
         sums[point.boundary_id].add(point,
                                     state[p].gap,
                                     node_reaction,

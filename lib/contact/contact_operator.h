@@ -257,6 +257,13 @@ namespace Ricochet
     dealii::Tensor<1, 3>
     at_node(const unsigned int p, const Vector &vector) const;
 
+    /// The normal force of @p force at the node @p p, positive in compression (N).
+    double
+    nodal_normal_force(const unsigned int p, const Vector &force) const
+    {
+      return -(points.points[p].obstacle_normal * at_node(p, force));
+    }
+
     const std::vector<ContactPoint> &
     contact_points() const
     {

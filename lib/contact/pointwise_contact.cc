@@ -320,7 +320,8 @@ namespace Ricochet
   {
     // Whether the law is of that kind does not depend on h_T.
     if (!closing_directions(1.) ||
-        (friction.coefficient > 0. && law->traits().uses_stress))
+        (friction.coefficient > 0. &&
+         (law->traits().uses_stress || law->traits().needs_multiplier)))
       return;
     acts_through.emplace();
     Functionals         &functionals = acts_through->functionals;
@@ -485,10 +486,13 @@ namespace Ricochet
     const std::vector<int> values = branches();
     if (!law->traits().piecewise_linear || friction.coefficient > 0.)
       {
-        const bool active =
-          std::any_of(values.begin(), values.end(), [](const int value) {
-            return value != 0;
-          });
+        bool active = std::any_of(values.begin(),
+                                  values.end(),
+                                  [](const int value) { return value != 0; });
+        // A multiplier presses until the stage is solved, whatever the branch.
+        if (friction.coefficient > 0.)
+          for (unsigned int p = 0; p < state.size(); ++p)
+            active = active || friction_pressure(p) > 0.;
         if (dealii::Utilities::MPI::max(active ? 1 : 0,
                                         evaluator.communicator) == 1)
           return {};
@@ -581,7 +585,7 @@ namespace Ricochet
     const ContactPoint    &point  = evaluator.contact_points()[p];
     const ContactLawTraits traits = law->traits();
     if (traits.nodal)
-      return -(point.obstacle_normal * evaluator.at_node(p, contact_force));
+      return evaluator.nodal_normal_force(p, contact_force);
     if (traits.is_two_point && !traits.uses_stress && point_force.size() > 0)
       return -point.weight * point_force[p].gap;
     return point.weight * law->pressure(state[p], point.cell_diameter);

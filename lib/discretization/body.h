@@ -194,13 +194,6 @@ namespace Ricochet
       return owned;
     }
 
-    /// Owned and ghost indices.
-    const dealii::IndexSet &
-    relevant_indices() const
-    {
-      return relevant;
-    }
-
     const MPI_Comm communicator;
 
   private:

@@ -10,7 +10,7 @@
 namespace Ricochet
 {
   /**
-   * A mesh of simplices in parts, one for each rank: the first rank makes the
+   * A mesh in parts, one for each rank: the first rank makes the
    * whole mesh, cuts it so that few unknowns are shared, and hands out the parts.
    *
    * @param make_mesh fills an empty triangulation; only called on the first

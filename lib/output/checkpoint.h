@@ -29,7 +29,7 @@ namespace Ricochet
 
     /**
      * Read what write() has written, on any number of ranks and with the same
-     * parameters (but for final time and output).
+     * parameters (but for final time, output and solvers).
      *
      * @param empty_vector a system vector, for the layout.
      * @param positions Body::canonical_positions().

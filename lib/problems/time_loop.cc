@@ -136,12 +136,42 @@ namespace Ricochet
             failure.what() +
             "All results up to then are in the output folder.");
       }
-    ++n_halvings;
+    ++sums.n_halvings;
     State      middle;
     StepReport report =
       advance(old_state, .5 * time_step, n_halvings_so_far + 1, middle);
     report += advance(middle, .5 * time_step, n_halvings_so_far + 1, new_state);
     return report;
+  }
+
+
+
+  std::vector<double>
+  TimeLoop::Sums::to_list() const
+  {
+    return {external_work,
+            contact_work,
+            friction_work,
+            viscous_dissipation,
+            numerical_dissipation,
+            initial_energy,
+            largest_energy,
+            static_cast<double>(n_halvings)};
+  }
+
+
+
+  TimeLoop::Sums
+  TimeLoop::Sums::from_list(const std::vector<double> &list)
+  {
+    return {list.at(0),
+            list.at(1),
+            list.at(2),
+            list.at(3),
+            list.at(4),
+            list.at(5),
+            list.at(6),
+            static_cast<unsigned int>(list.at(7))};
   }
 
 
@@ -167,15 +197,15 @@ namespace Ricochet
                                energies.total(),
                                energies.total() +
                                  system.contact.potential(state.solution),
-                               external_work,
-                               contact_work,
-                               friction_work,
-                               viscous_dissipation,
-                               numerical_dissipation,
+                               sums.external_work,
+                               sums.contact_work,
+                               sums.friction_work,
+                               sums.viscous_dissipation,
+                               sums.numerical_dissipation,
                                balance_residual,
                                static_cast<double>(report.newton_iterations),
                                static_cast<double>(report.linear_solves),
-                               static_cast<double>(n_halvings)};
+                               static_cast<double>(sums.n_halvings)};
     const auto          summaries =
       system.contact.summary(state.solution, state.contact_force);
     for (const auto &entry : contact_names)
@@ -251,16 +281,9 @@ namespace Ricochet
         positions = system.unknowns.canonical_positions();
         const Checkpoint checkpoint =
           Checkpoint::read(folder, initial_state.solution, *positions);
-        state                 = checkpoint.state;
-        step                  = checkpoint.step;
-        external_work         = checkpoint.sums.at(0);
-        contact_work          = checkpoint.sums.at(1);
-        friction_work         = checkpoint.sums.at(2);
-        viscous_dissipation   = checkpoint.sums.at(3);
-        numerical_dissipation = checkpoint.sums.at(4);
-        initial_energy        = checkpoint.sums.at(5);
-        largest_energy        = checkpoint.sums.at(6);
-        n_halvings = static_cast<unsigned int>(checkpoint.sums.at(7));
+        state = checkpoint.state;
+        step  = checkpoint.step;
+        sums  = Sums::from_list(checkpoint.sums);
         if (step > n_steps)
           throw InputError(
             "The run cannot be resumed: its checkpoint is at t "
@@ -275,7 +298,7 @@ namespace Ricochet
       {
         ledger.start();
         const Energies energies = energies_of(state);
-        initial_energy          = energies.total();
+        sums.initial_energy     = energies.total();
         add_row(state, energies, StepReport(), 0.);
         if (fields)
           write_fields(state, 0);
@@ -310,58 +333,49 @@ namespace Ricochet
     const auto         write_checkpoint = [&]() {
       if (!positions)
         positions = system.unknowns.canonical_positions();
-      Checkpoint{step,
-                 {external_work,
-                  contact_work,
-                  friction_work,
-                  viscous_dissipation,
-                  numerical_dissipation,
-                  initial_energy,
-                  largest_energy,
-                  static_cast<double>(n_halvings)},
-                 state}
-        .write(folder, *positions);
+      Checkpoint{step, sums.to_list(), state}.write(folder, *positions);
     };
     const Timer        stopwatch;
-    const unsigned int first_step      = step;
-    double             energy          = energies_of(state).total();
-    unsigned int       halvings_before = n_halvings;
+    const unsigned int first_step  = step;
+    double             energy      = energies_of(state).total();
+    Sums               sums_before = sums;
     try
       {
         while (step < n_steps)
           {
-            halvings_before = n_halvings;
+            sums_before = sums;
             timer.enter_subsection("steps");
             const StepReport report =
               advance(state, parameters.time_step, 0, new_state);
             timer.leave_subsection();
-            std::swap(state, new_state);
-            ++step;
             // Not a sum of many steps, so that no round-off piles up.
-            state.time = first_time + step * parameters.time_step;
+            new_state.time = first_time + (step + 1) * parameters.time_step;
 
             timer.enter_subsection("energy ledger");
-            external_work += report.external_work;
-            contact_work += report.contact_work;
-            friction_work += report.friction_work;
-            viscous_dissipation += report.viscous_dissipation;
-            numerical_dissipation += report.numerical_dissipation;
+            sums.external_work += report.external_work;
+            sums.contact_work += report.contact_work;
+            sums.friction_work += report.friction_work;
+            sums.viscous_dissipation += report.viscous_dissipation;
+            sums.numerical_dissipation += report.numerical_dissipation;
             const double   old_energy = energy;
-            const Energies energies   = energies_of(state);
+            const Energies energies   = energies_of(new_state);
             energy                    = energies.total();
             const double residual = energy - old_energy - report.external_work +
               report.contact_work + report.friction_work +
               report.viscous_dissipation + report.numerical_dissipation;
             // Relative to the initial energy; a body that starts at rest is
             // measured by the largest energy so far.
-            if (initial_energy == 0.)
-              largest_energy = std::max(largest_energy, energy);
-            const double scale =
-              initial_energy > 0. ? initial_energy : largest_energy;
-            add_row(state,
+            if (sums.initial_energy == 0.)
+              sums.largest_energy = std::max(sums.largest_energy, energy);
+            const double scale = sums.initial_energy > 0. ? sums.initial_energy
+                                                          : sums.largest_energy;
+            add_row(new_state,
                     energies,
                     report,
                     scale > 0. ? residual / scale : residual);
+            // Only now is the step complete.
+            std::swap(state, new_state);
+            ++step;
             timer.leave_subsection();
 
             if (parameters.log_every > 0 && step % parameters.log_every == 0)
@@ -390,7 +404,7 @@ namespace Ricochet
       {
         // Everything up to the last complete step is safe on disk. A step that
         // was not completed leaves no trace.
-        n_halvings = halvings_before;
+        sums = sums_before;
         ledger.write_hdf5();
         if (fields)
           write_fields(state, step);

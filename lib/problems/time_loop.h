@@ -117,15 +117,25 @@ namespace Ricochet
     std::vector<std::function<double(const State &)>> own_columns;
     EnergyLedger                                      ledger;
 
-    // Sums over the run, part of a checkpoint.
-    double       external_work         = 0.;
-    double       contact_work          = 0.;
-    double       friction_work         = 0.;
-    double       viscous_dissipation   = 0.;
-    double       numerical_dissipation = 0.;
-    double       initial_energy        = 0.;
-    double       largest_energy        = 0.;
-    unsigned int n_halvings            = 0;
+    /// Sums over the run (J), part of a checkpoint.
+    struct Sums
+    {
+      double       external_work         = 0.;
+      double       contact_work          = 0.;
+      double       friction_work         = 0.;
+      double       viscous_dissipation   = 0.;
+      double       numerical_dissipation = 0.;
+      double       initial_energy        = 0.;
+      double       largest_energy        = 0.;
+      unsigned int n_halvings            = 0;
+
+      std::vector<double>
+      to_list() const;
+
+      static Sums
+      from_list(const std::vector<double> &list);
+    };
+    Sums sums;
 
     // For checkpoints, known when first needed: Body::canonical_positions().
     std::optional<std::vector<dealii::types::global_dof_index>> positions;

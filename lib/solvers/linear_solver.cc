@@ -62,7 +62,8 @@ namespace Ricochet
     Matrix    matrix;
     Multigrid multigrid;
     Name      name, set_up_name;
-    // Iterations of the first solution after a setup, and their tolerance.
+    // Iterations for a decade of the residual, in the first solution of the
+    // stage.
     double first_iterations_per_decade = 0.;
   };
 
@@ -123,17 +124,19 @@ namespace Ricochet
         "The factorisation CHOLMOD works on one MPI rank only, "
         "not on " +
         std::to_string(n_ranks) + "; choose automatic, KLU or MUMPS.");
-    // A nonlinear body gains by the symmetry only, and where a factorisation
-    // costs more than the iterations that it saves.
     if (type == "automatic")
       {
+        // A nonlinear body gains by the symmetry only, and where a factorisation
+        // costs more than the iterations that it saves.
         const bool gains = linear_body
           ? n_unknowns > 1000
           : n_unknowns > 5000 && chosen_factorisation(true) == "CHOLMOD";
-        type             = gains ? "corrected" : "direct";
+        type = gains || parameters.factorisation == "CHOLMOD" ? "corrected"
+                                                              : "direct";
         // Factorisations in three dimensions grow faster than bodies do, and
         // few ranks do not make up for it.
-        if (linear_body && dim == 3 && !contact.has_multipliers &&
+        if (parameters.factorisation == "automatic" && linear_body &&
+            dim == 3 && !contact.has_multipliers &&
             n_unknowns > (n_ranks > 1 ? 10000 : 50000))
           type = "multigrid";
       }
@@ -168,7 +171,7 @@ namespace Ricochet
       type,
       "direct: factor the tangent for each state of contact and keep the last "
       "few. corrected: factor the body only and treat contact as a correction "
-      "in a few rows; for nonlinear materials factor the body's tangent (with "
+      "of low rank; for nonlinear materials factor the body's tangent (with "
       "CHOLMOD its symmetric part), with GMRES for the rest. multigrid: "
       "algebraic multigrid, not for treatments with multipliers. automatic: "
       "corrected above 1000 unknowns for linear bodies, above 5000 for "
@@ -307,8 +310,8 @@ namespace Ricochet
                 .get();
     else if (!may_reuse || !entry->factorisation)
       {
-        factorise(*entry, !new_pivots);
-        new_pivots = false;
+        factorise(*entry, !stage_begins);
+        stage_begins = false;
       }
 
     const Stopwatch stopwatch(substituting);
@@ -366,6 +369,7 @@ namespace Ricochet
     if (tangent.complete_contact &&
         !(tangent.contact && entry.contact == tangent.contact))
       {
+        entry.contact.reset();
         entry.factorisation->set_contact(tangent);
         entry.contact = tangent.contact;
       }
@@ -394,10 +398,10 @@ namespace Ricochet
           contact,
           LowRankCorrection::Options{0, false},
           factorising);
-        new_pivots = true;
+        stage_begins = true;
       }
     // An older tangent only serves after it was set up once in this stage.
-    const bool new_tangent = new_pivots || !may_reuse;
+    const bool new_tangent = stage_begins || !may_reuse;
     if (new_tangent)
       factorisation->set_body(tangent);
 
@@ -417,12 +421,12 @@ namespace Ricochet
     // than with a new one (some two for each decade).
     for (const bool factorise : {false, true})
       {
-        if (!factorise && new_pivots)
+        if (!factorise && stage_begins)
           continue;
         if (factorise)
           {
             ++factorisation_count;
-            new_pivots = false;
+            stage_begins = false;
             if (!factorisation->factorise())
               break;
           }
@@ -462,7 +466,8 @@ namespace Ricochet
     MultigridState            &state = *multigrid;
     const MultigridState::Name name{tangent.body, tangent.contact};
     // The matrix, unless it is the same as before.
-    if (!(state.name == name) && !(may_reuse && !new_pivots))
+    if (!(state.name == name) &&
+        !(may_reuse && !stage_begins && !state.name.contact))
       {
         state.name = {};
         tangent.assemble_body(state.matrix);
@@ -478,13 +483,10 @@ namespace Ricochet
     };
     // A preconditioner serves in a stage, and beyond only for the same matrix:
     // so results do not depend on what came before the stage.
-    bool is_new = false;
-    if (!(state.set_up_name == name) && new_pivots)
-      {
-        set_up();
-        is_new = true;
-      }
-    new_pivots           = false;
+    bool is_first = stage_begins;
+    if (stage_begins && !(state.set_up_name == name))
+      set_up();
+    stage_begins         = false;
     const double decades = -std::log10(tolerance);
     const auto   solve   = [&]() {
       const Stopwatch stopwatch(substituting);
@@ -494,21 +496,21 @@ namespace Ricochet
                                    tolerance);
     };
     int n_iterations = solve();
-    if (!is_new &&
+    if (!is_first && !(state.set_up_name == name) &&
         (n_iterations < 0 ||
          n_iterations > 5 + 2. * decades * state.first_iterations_per_decade))
       {
         // The next solution of this stage will have a better one.
         set_up();
-        is_new = true;
         if (n_iterations < 0)
-          n_iterations = solve();
-        else
-          is_new = false;
+          {
+            n_iterations = solve();
+            is_first     = true;
+          }
       }
     if (n_iterations < 0)
       throw NewtonFailure("Multigrid does not converge.");
-    if (is_new)
+    if (is_first)
       state.first_iterations_per_decade = n_iterations / decades;
   }
 } // namespace Ricochet

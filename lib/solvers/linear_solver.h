@@ -25,13 +25,13 @@ namespace Ricochet
    * few; with nonlinear materials and laws it factors each tangent.
    *
    * "corrected" keeps one factorisation of the body and treats contact as a
-   * correction in a few rows: for a linear body one factorisation per length of
+   * correction of low rank: for a linear body one factorisation per length of
    * the time step. With a nonlinear material the symmetric part of each new
    * tangent is factored, which costs less than half of a factorisation with
    * pivots, and GMRES does the rest.
    *
-   * "multigrid" solves each system iteratively, for bodies of which a
-   * factorisation would need too much memory.
+   * "multigrid" solves each system iteratively, for bodies in three dimensions
+   * whose factorisation takes too long or too much memory.
    */
   class LinearSolver
   {
@@ -89,24 +89,25 @@ namespace Ricochet
     void
     begin_stage()
     {
-      new_pivots = true;
+      stage_begins = true;
     }
 
-    /// Number of factorisations made so far.
+    /// Number of factorisations, or set-ups of multigrid, made so far.
     unsigned int
     n_factorisations() const
     {
       return factorisation_count;
     }
 
-    /// Time spent in factoring and in solving for columns of corrections (s).
+    /// Time spent in factoring, in solving for columns of corrections, and in
+    /// setting up multigrid (s).
     double
     factorisation_seconds() const
     {
       return factorising;
     }
 
-    /// Time spent in solving with factorisations (s).
+    /// Time spent in solving with factorisations or multigrid (s).
     double
     back_substitution_seconds() const
     {
@@ -172,7 +173,7 @@ namespace Ricochet
     std::unique_ptr<Direct>                 changing_direct;
     std::unique_ptr<CorrectedFactorisation> changing_corrected;
     std::unique_ptr<MultigridState>         multigrid;
-    bool                                    new_pivots          = true;
+    bool                                    stage_begins        = true;
     unsigned int                            factorisation_count = 0;
     double                                  factorising = 0., substituting = 0.;
   };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
 #include <solvers/low_rank_correction.h>
 
 #include <deal.II/base/mpi.h>
@@ -190,8 +191,8 @@ namespace Ricochet
     const bool same = has_change && my_rows == my_last_rows;
     if (Utilities::MPI::min(same ? 1 : 0, communicator) == 1)
       return;
+    has_change   = false;
     my_last_rows = my_rows;
-    has_change   = true;
 
     // All ranks get all rows, by place.
     std::vector<std::pair<unsigned int, Row>> all;
@@ -215,10 +216,12 @@ namespace Ricochet
         changed.push_back(place);
         rows.push_back(std::move(row));
       }
-    if (changed.empty())
-      return;
-    solve_missing_columns(factorisation);
-    factorise_small();
+    if (!changed.empty())
+      {
+        solve_missing_columns(factorisation);
+        factorise_small();
+      }
+    has_change = true;
   }
 
 
@@ -241,8 +244,17 @@ namespace Ricochet
             (*small)(j, j) += 1. / rows[j][0].second;
           }
         small->set_property(LAPACKSupport::symmetric);
-        small->compute_cholesky_factorization();
-        return;
+        try
+          {
+            small->compute_cholesky_factorization();
+            return;
+          }
+        catch (const LACExceptions::ExcSingular &)
+          {
+            // Not so if the body's own matrix is indefinite.
+            small_is_positive = false;
+            small = std::make_unique<LAPACKFullMatrix<double>>(n, n);
+          }
       }
 
     // In blocks of columns, packed so that the innermost loop runs over
@@ -268,7 +280,16 @@ namespace Ricochet
               (*small)(i, begin + j) = sum[j] + (i == begin + j ? 1. : 0.);
           }
       }
-    small->compute_lu_factorization();
+    try
+      {
+        small->compute_lu_factorization();
+      }
+    catch (const LACExceptions::ExcSingular &)
+      {
+        throw NewtonFailure(
+          "The tangent matrix cannot be factored: with this state of contact it "
+          "is singular.");
+      }
   }
 
 

@@ -208,8 +208,8 @@ namespace Ricochet
 
     // The nearest matrix changes all entries by like amounts, small ones too, and
     // need not be positive where much of the mass sits on the contact boundary.
-    // Then the one that is nearest relative to the entries: each is multiplied by
-    // a polynomial of the positions, as if by another density.
+    // Then each entry is multiplied by a polynomial of the positions, as if by
+    // another density.
     IndexSet no_inertia = body.contact_indices();
     no_inertia.add_indices(body.multiplier_indices());
     for (const bool in_proportion : {false, true})

@@ -40,6 +40,10 @@ namespace Ricochet
             }
           structure.functionals->functionals = std::move(free);
         }
+      // Rows of clamped unknowns are cleared, columns are not.
+      if (Utilities::MPI::max(my_clamped.n_elements() > 0 ? 1 : 0,
+                              communicator) == 1)
+        structure.is_symmetric = false;
       return structure;
     }
   } // namespace

@@ -22,8 +22,9 @@
 // `external_work` of energy.csv.
 //
 // The body is linear, so that the matrix of its equation of motion is the same in
-// all steps: it is factored once, and contact is a correction in a few rows (see
-// lib/solvers/corrected_factorisation.h).
+// all steps: it is factored once, and contact is a correction of low rank (see
+// lib/solvers/low_rank_correction.h). Large bodies, and those on several ranks, are
+// solved by multigrid; the end of the log says which.
 //
 // Run it as
 //
@@ -69,7 +70,7 @@ public:
 
 private:
   void
-  make_tetrahedra(Triangulation<3> &mesh) const;
+  make_whole_mesh(Triangulation<3> &mesh) const;
 
   std::unique_ptr<Triangulation<3>>
   make_mesh(const MPI_Comm communicator) const;
@@ -163,7 +164,7 @@ Sphere::validate() const
     {
       // Reading the mesh is the check of its file.
       Triangulation<3> mesh;
-      make_tetrahedra(mesh);
+      make_whole_mesh(mesh);
     }
 }
 
@@ -171,11 +172,11 @@ Sphere::validate() const
 
 // ### Mesh
 //
-// Each rank keeps its part of the mesh only. A mesh of tetrahedra is made or read
-// as a whole by the first rank, cut and handed out; hexahedra are refined where
-// they are.
+// Each rank keeps its part of the mesh only. A file, or tetrahedra by Gmsh, are
+// taken as a whole by the first rank, cut and handed out; hexahedra are refined
+// where they are.
 void
-Sphere::make_tetrahedra(Triangulation<3> &mesh) const
+Sphere::make_whole_mesh(Triangulation<3> &mesh) const
 {
   if (!mesh_file.empty())
     read_ball(mesh_file, mesh);
@@ -190,7 +191,7 @@ Sphere::make_mesh(const MPI_Comm communicator) const
 {
   if (!mesh_file.empty() || cell_shape == "tetrahedra")
     return distribute_mesh<3>(
-      [&](Triangulation<3> &mesh) { make_tetrahedra(mesh); },
+      [&](Triangulation<3> &mesh) { make_whole_mesh(mesh); },
       communicator);
   auto mesh =
     std::make_unique<parallel::distributed::Triangulation<3>>(communicator);

@@ -45,9 +45,14 @@ namespace
           }
         all.push_back(
           {"proximal augmented Lagrangian", "HHT", 1., 2, simplices});
-        all.push_back({"Signorini multipliers", "midpoint", 1., 1, simplices});
         for (const double friction : {0., .3})
           {
+            all.push_back({"Signorini multipliers",
+                           "midpoint",
+                           1.,
+                           1,
+                           simplices,
+                           friction});
             all.push_back(
               {"Signorini active set", "midpoint", 1., 1, simplices, friction});
             all.push_back({"improved normal compliance",

@@ -102,10 +102,16 @@ namespace
     // And the pressure is uniform, not only in the mean.
     const Vector field = impact.contact->pressure_field(solution, force);
     double       worst = 0.;
+    unsigned int n     = 0;
     for (const auto i : field.locally_owned_elements())
       if (const double value = field(i); value != 0.)
-        worst = std::max(worst, std::abs(value - pressure));
+        {
+          worst = std::max(worst, std::abs(value - pressure));
+          ++n;
+        }
     BOOST_CHECK_LT(worst, 1e-10 * mu);
+    // At all nodes of the contact boundary.
+    BOOST_CHECK_EQUAL(dim * n, impact.body.contact_indices().n_elements());
   }
 
   struct HertzErrors
@@ -115,7 +121,7 @@ namespace
 
   /**
    * The lower half of a ball of radius 1, held at its flat top, on a plane that
-   * has moved up by @p approach; elements of length contact radius / @p
+   * has moved up by 0.0025; elements of length contact radius / @p
    * elements_per_radius around the pole.
    */
   HertzErrors
