@@ -38,10 +38,8 @@ namespace Ricochet
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", static_cast<int>(n_modes));
     list.set("null space: vectors", modes.data());
-    // Aggregates that are not smoothed converge as well here, above all in
-    // W-cycles, are set up in a quarter of the time and need a fraction of the
-    // memory.
-    list.set("prec type", "MGW");
+    // Aggregates that are not smoothed converge as well here, are set up in a
+    // quarter of the time and need a fraction of the memory.
     list.set("aggregation: type", "Uncoupled");
     list.set("aggregation: damping factor", 0.);
     list.set("smoother: type", "Chebyshev");
