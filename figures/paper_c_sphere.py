@@ -298,10 +298,6 @@ def checks_18():
 # Figure 19 and table 1: iterations ------------------------------------------
 
 
-def iterations(sphere, scheme):
-    return sphere.runs[scheme.key].read()["newton_iterations"]
-
-
 def draw_19():
     figure, axes = plt.subplots(1, 2, figsize=(13, 4.6), sharey=True)
     for panel, (first, last) in zip(axes, ((0, 60), (6, 29))):
@@ -343,17 +339,22 @@ def checks_19():
     return rows
 
 
+def paper_ratio(scheme):
+    return scheme.iterations / NITSCHE[0].iterations
+
+
 def totals(sphere):
-    counts = {scheme.key: iterations(sphere, scheme).sum() for scheme in SCHEMES}
+    """Iterations of each run, and their ratio to those of Nitsche, Crank-Nicolson."""
+    counts = {key: run.read()["newton_iterations"].sum() for key, run in sphere.runs.items()}
     return counts, {key: count / counts["nitsche_cn"] for key, count in counts.items()}
 
 
 def draw_table_1():
     rows = []
+    of_spheres = [totals(sphere) for sphere in SPHERES]
     for scheme in SCHEMES:
-        row = [scheme.label, f"{scheme.iterations}", f"{scheme.iterations / NITSCHE[0].iterations:.2f}"]
-        for sphere in SPHERES:
-            counts, ratios = totals(sphere)
+        row = [scheme.label, f"{scheme.iterations}", f"{paper_ratio(scheme):.2f}"]
+        for counts, ratios in of_spheres:
             row += [f"{counts[scheme.key]:.0f}", f"{ratios[scheme.key]:.2f}"]
         rows.append(row)
     header = ["", "paper", "ratio", "soft", "ratio", "hard", "ratio"]
@@ -362,9 +363,10 @@ def draw_table_1():
 
 def checks_table_1():
     rows = []
+    ratios_of_spheres = [totals(sphere)[1] for sphere in SPHERES]
     for scheme in SCHEMES:
-        ours = [totals(sphere)[1][scheme.key] for sphere in SPHERES]
-        paper = scheme.iterations / NITSCHE[0].iterations
+        ours = [ratios[scheme.key] for ratios in ratios_of_spheres]
+        paper = paper_ratio(scheme)
         rows.append(
             check(
                 f"{scheme.label}: iterations over those of Nitsche, Crank-Nicolson, soft and hard",

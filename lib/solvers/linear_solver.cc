@@ -71,6 +71,17 @@ namespace Ricochet
 
   namespace
   {
+    /// Overwrite @p matrix with the whole @p tangent.
+    void
+    assemble(const Tangent &tangent, Matrix &matrix)
+    {
+      tangent.assemble_body(matrix);
+      if (tangent.complete_contact)
+        tangent.complete_contact(matrix);
+    }
+
+
+
     /**
      * The entry of @p kept that @p is_wanted, moved to the front; or a new one,
      * made by @p make, in the place of the one not used for longest if there
@@ -274,9 +285,7 @@ namespace Ricochet
                              const bool     may_reuse)
   {
     const auto factorise = [&](Direct &entry, const bool keep_pivots) {
-      tangent.assemble_body(entry.matrix);
-      if (tangent.complete_contact)
-        tangent.complete_contact(entry.matrix);
+      assemble(tangent, entry.matrix);
       if (!entry.factorisation)
         entry.factorisation = make_factorisation(false);
       const Stopwatch stopwatch(factorising);
@@ -470,9 +479,7 @@ namespace Ricochet
         !(may_reuse && !stage_begins && !state.name.contact))
       {
         state.name = {};
-        tangent.assemble_body(state.matrix);
-        if (tangent.complete_contact)
-          tangent.complete_contact(state.matrix);
+        assemble(tangent, state.matrix);
         state.name = name;
       }
     const auto set_up = [&]() {

@@ -12,8 +12,8 @@
 namespace Ricochet
 {
   /**
-   * Algebraic multigrid for elasticity: aggregation by Trilinos' ML, with the rigid body modes as what the coarse levels must be able to
-   * represent, as a preconditioner of conjugate gradients or GMRES.
+   * Algebraic multigrid for elasticity: aggregation by Trilinos' ML, with the
+   * rigid body modes as what the coarse levels must be able to represent, as a preconditioner of conjugate gradients or GMRES.
    */
   class Multigrid
   {

@@ -109,6 +109,15 @@ namespace Ricochet
         }
     }
 
+    /// Add up the entries of @p values over all ranks.
+    template <typename EigenType>
+    void
+    sum_over_ranks(EigenType &values, const MPI_Comm communicator)
+    {
+      const ArrayView<double> view(values.data(), values.size());
+      Utilities::MPI::sum(ArrayView<const double>(view), communicator, view);
+    }
+
     template <int dim>
     Eigen::VectorXd
     moments(const Matrix                                      &mass,
@@ -130,14 +139,94 @@ namespace Ricochet
                                         Point<dim>(row.position - origin),
                                         Point<dim>(column.position - origin));
                           });
-      MPI_Allreduce(MPI_IN_PLACE,
-                    sums.data(),
-                    sums.size(),
-                    MPI_DOUBLE,
-                    MPI_SUM,
-                    communicator);
+      sum_over_ranks(sums, communicator);
       return sums;
     }
+    /**
+     * The matrix without inertia on the contact boundary that keeps the moments of
+     * @p mass about @p centre: the nearest one, or, @p in_proportion, with each
+     * entry multiplied by a polynomial.
+     */
+    template <int dim>
+    Matrix
+    with_moments_kept(const Matrix                                      &mass,
+                      const std::map<types::global_dof_index, DoF<dim>> &dofs,
+                      const Point<dim>                                  &centre,
+                      const bool     in_proportion,
+                      const MPI_Comm communicator)
+    {
+      const auto pair = [&](const DoF<dim> &row, const DoF<dim> &column) {
+        return moments_of_pair<dim>(Point<dim>(row.position - centre),
+                                    Point<dim>(column.position - centre));
+      };
+      // What an entry may change, by its own value.
+      const auto weight = [&](const double value) {
+        return in_proportion ? value : 1.;
+      };
+      // Moments that are lost with the contact boundary, and the Gram matrix of
+      // the constraints on the entries that are left.
+      const unsigned int n       = n_mass_moments<dim>;
+      Eigen::VectorXd    missing = Eigen::VectorXd::Zero(n);
+      Eigen::MatrixXd    gram    = Eigen::MatrixXd::Zero(n, n);
+      for_each_entry<dim>(mass,
+                          dofs,
+                          [&](const auto,
+                              const auto,
+                              const DoF<dim> &row,
+                              const DoF<dim> &column,
+                              const double    value) {
+                            if (row.component != 0)
+                              return;
+                            const Eigen::VectorXd products = pair(row, column);
+                            if (row.on_contact_boundary ||
+                                column.on_contact_boundary)
+                              missing += value * products;
+                            else
+                              gram +=
+                                weight(value) * products * products.transpose();
+                          });
+      sum_over_ranks(missing, communicator);
+      sum_over_ranks(gram, communicator);
+
+      // Scale the constraints to unit diagonal before judging independence.
+      const Eigen::VectorXd scale =
+        gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+      const Eigen::MatrixXd scaled =
+        scale.asDiagonal() * gram * scale.asDiagonal();
+      Eigen::FullPivLU<Eigen::MatrixXd> factorisation(scaled);
+      factorisation.setThreshold(1e-12);
+      if (!factorisation.isInvertible())
+        throw InputError(
+          "The mass cannot be redistributed: too few nodes lie "
+          "off the contact boundary to keep mass, centre of mass "
+          "and moments of inertia. Refine the mesh or take the "
+          "consistent mass.");
+      const Eigen::VectorXd multipliers = scale.asDiagonal() *
+        factorisation.solve(Eigen::VectorXd(scale.asDiagonal() * missing));
+
+      Matrix redistributed;
+      redistributed.copy_from(mass);
+      for_each_entry<dim>(mass,
+                          dofs,
+                          [&](const types::global_dof_index row_index,
+                              const types::global_dof_index column_index,
+                              const DoF<dim>               &row,
+                              const DoF<dim>               &column,
+                              const double                  value) {
+                            redistributed.set(row_index,
+                                              column_index,
+                                              row.on_contact_boundary ||
+                                                  column.on_contact_boundary
+                                                ? 0.
+                                                : value +
+                                                  weight(value) *
+                                                    multipliers.dot(
+                                                      pair(row, column)));
+                          });
+      redistributed.compress(VectorOperation::insert);
+      return redistributed;
+    }
+
     /**
      * Whether @p matrix is positive definite off the rows @p massless, where it
      * is zero. Conjugate gradients from a right hand side without structure
@@ -201,11 +290,6 @@ namespace Ricochet
     for (unsigned int i = 0; i < dim; ++i)
       centre[i] = about_zero[1 + i] / about_zero[0];
 
-    const auto pair = [&](const DoF<dim> &row, const DoF<dim> &column) {
-      return moments_of_pair<dim>(Point<dim>(row.position - centre),
-                                  Point<dim>(column.position - centre));
-    };
-
     // The nearest matrix changes all entries by like amounts, small ones too, and
     // need not be positive where much of the mass sits on the contact boundary.
     // Then each entry is multiplied by a polynomial of the positions, as if by
@@ -214,82 +298,11 @@ namespace Ricochet
     no_inertia.add_indices(body.multiplier_indices());
     for (const bool in_proportion : {false, true})
       {
-        // What an entry may change, by its own value.
-        const auto weight = [&](const double value) {
-          return in_proportion ? value : 1.;
-        };
-        // Moments that are lost with the contact boundary, and the Gram matrix of
-        // the constraints on the entries that are left.
-        const unsigned int n       = n_mass_moments<dim>;
-        Eigen::VectorXd    missing = Eigen::VectorXd::Zero(n);
-        Eigen::MatrixXd    gram    = Eigen::MatrixXd::Zero(n, n);
-        for_each_entry<dim>(mass,
-                            dofs,
-                            [&](const auto,
-                                const auto,
-                                const DoF<dim> &row,
-                                const DoF<dim> &column,
-                                const double    value) {
-                              if (row.component != 0)
-                                return;
-                              const Eigen::VectorXd products =
-                                pair(row, column);
-                              if (row.on_contact_boundary ||
-                                  column.on_contact_boundary)
-                                missing += value * products;
-                              else
-                                gram += weight(value) * products *
-                                  products.transpose();
-                            });
-        MPI_Allreduce(MPI_IN_PLACE,
-                      missing.data(),
-                      missing.size(),
-                      MPI_DOUBLE,
-                      MPI_SUM,
-                      body.communicator);
-        MPI_Allreduce(MPI_IN_PLACE,
-                      gram.data(),
-                      gram.size(),
-                      MPI_DOUBLE,
-                      MPI_SUM,
-                      body.communicator);
-
-        // Scale the constraints to unit diagonal before judging independence.
-        const Eigen::VectorXd scale =
-          gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-        const Eigen::MatrixXd scaled =
-          scale.asDiagonal() * gram * scale.asDiagonal();
-        Eigen::FullPivLU<Eigen::MatrixXd> factorisation(scaled);
-        factorisation.setThreshold(1e-12);
-        if (!factorisation.isInvertible())
-          throw InputError(
-            "The mass cannot be redistributed: too few nodes lie "
-            "off the contact boundary to keep mass, centre of mass "
-            "and moments of inertia. Refine the mesh or take the "
-            "consistent mass.");
-        const Eigen::VectorXd multipliers = scale.asDiagonal() *
-          factorisation.solve(Eigen::VectorXd(scale.asDiagonal() * missing));
-
-        Matrix redistributed;
-        redistributed.copy_from(mass);
-        for_each_entry<dim>(mass,
-                            dofs,
-                            [&](const types::global_dof_index row_index,
-                                const types::global_dof_index column_index,
-                                const DoF<dim>               &row,
-                                const DoF<dim>               &column,
-                                const double                  value) {
-                              redistributed.set(row_index,
-                                                column_index,
-                                                row.on_contact_boundary ||
-                                                    column.on_contact_boundary
-                                                  ? 0.
-                                                  : value +
-                                                    weight(value) *
-                                                      multipliers.dot(
-                                                        pair(row, column)));
-                            });
-        redistributed.compress(VectorOperation::insert);
+        Matrix redistributed = with_moments_kept(mass,
+                                                 dofs,
+                                                 centre,
+                                                 in_proportion,
+                                                 body.communicator);
         if (is_positive_definite(redistributed, no_inertia, body.make_vector()))
           return redistributed;
       }

@@ -22,8 +22,9 @@ namespace Ricochet
    * Where that matrix is not positive definite off the contact boundary (seen
    * with 3 or 4 elements across a body, and on the sphere of paper C with degree
    * 2, half of whose surface is the contact boundary), each entry is multiplied by
-   * 1 + sum_k l_k sym(a_k b_k^T)_ij instead, as if by another density. By Schur's product theorem it is positive whenever that polynomial
-   * is, as a matrix in (1, x).
+   * 1 + sum_k l_k sym(a_k b_k^T)_ij instead, as if by another density. By
+   * Schur's product theorem it is positive whenever that polynomial is, as a
+   * matrix in (1, x).
    *
    * @throws InputError when the mesh is too coarse: the moments are not
    * independent on the nodes that are left, or neither result is positive
