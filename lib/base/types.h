@@ -5,6 +5,8 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <vector>
+
 /**
  * Ricochet: what happens, in time, when an elastic body hits something.
  */
@@ -15,6 +17,15 @@ namespace Ricochet
 
   /// Distributed sparse matrix on the same unknowns.
   using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+  /// A constant matrix, and its factor in a sum.
+  struct MatrixTerm
+  {
+    double        weight;
+    const Matrix *matrix;
+  };
+
+  using MatrixSum = std::vector<MatrixTerm>;
 } // namespace Ricochet
 
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/memory.h>
 #include <base/parameter_file.h>
 #include <discretization/body.h>
 
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <tuple>
@@ -76,6 +78,20 @@ namespace Ricochet
               text + ") m.");
           }
     }
+
+
+
+    /// The unknowns of the nodes on boundaries with these @p ids.
+    template <int dim>
+    IndexSet
+    boundary_dofs(const DoFHandler<dim>              &dofs,
+                  const std::set<types::boundary_id> &ids)
+    {
+      // An empty set of ids means "all boundaries" to deal.II.
+      return ids.empty()
+        ? IndexSet(dofs.n_dofs())
+        : DoFTools::extract_boundary_dofs(dofs, ComponentMask(), ids);
+    }
   } // namespace
 
 
@@ -91,6 +107,7 @@ namespace Ricochet
     , displacement_dofs(triangulation)
     , multiplier_dofs(triangulation)
     , multipliers(multipliers)
+    , clamped_ids(clamped_ids)
     , contact_ids(contact_ids)
   {
     if (triangulation.all_reference_cells_are_hyper_cube())
@@ -132,17 +149,12 @@ namespace Ricochet
       set.compress();
       return set;
     };
-    const auto boundary_set = [&](const BoundaryIds &ids) {
-      // An empty set of ids means "all boundaries" to deal.II.
-      return ids.empty() ? IndexSet(displacement_dofs.n_dofs())
-                         : DoFTools::extract_boundary_dofs(displacement_dofs,
-                                                           ComponentMask(),
-                                                           ids);
-    };
-    clamped               = system_set(boundary_set(clamped_ids));
-    contact_displacements = system_set(boundary_set(contact_ids));
+    clamped = system_set(boundary_dofs(displacement_dofs, clamped_ids));
+    contact_displacements =
+      system_set(boundary_dofs(displacement_dofs, contact_ids));
 
     make_sparsity_patterns();
+    return_freed_memory();
   }
 
 
@@ -427,37 +439,143 @@ namespace Ricochet
 
 
 
-  template <int dim>
-  std::vector<Vector>
-  Body<dim>::rigid_body_modes() const
+  namespace
   {
-    // A translation and a gradient of each.
-    std::vector<std::pair<Tensor<1, dim>, Tensor<2, dim>>> modes;
-    for (unsigned int c = 0; c < dim; ++c)
-      {
-        Tensor<1, dim> translation;
-        translation[c] = 1.;
-        modes.emplace_back(translation, Tensor<2, dim>());
-      }
-    for (unsigned int c = 0; c < dim; ++c)
-      for (unsigned int d = c + 1; d < dim; ++d)
+    /// CoarseSpace::rigid_body_modes of the displacements @p dofs.
+    template <int dim>
+    std::vector<Vector>
+    rigid_body_modes(const Mapping<dim>    &mapping,
+                     const DoFHandler<dim> &dofs,
+                     const MPI_Comm         communicator)
+    {
+      // A translation and a gradient of each.
+      std::vector<std::pair<Tensor<1, dim>, Tensor<2, dim>>> modes;
+      for (unsigned int c = 0; c < dim; ++c)
         {
-          Tensor<2, dim> rotation;
-          rotation[c][d] = -1.;
-          rotation[d][c] = 1.;
-          modes.emplace_back(Tensor<1, dim>(), rotation);
+          Tensor<1, dim> translation;
+          translation[c] = 1.;
+          modes.emplace_back(translation, Tensor<2, dim>());
         }
-    std::vector<Vector> vectors(modes.size());
-    for (unsigned int m = 0; m < modes.size(); ++m)
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int d = c + 1; d < dim; ++d)
+          {
+            Tensor<2, dim> rotation;
+            rotation[c][d] = -1.;
+            rotation[d][c] = 1.;
+            modes.emplace_back(Tensor<1, dim>(), rotation);
+          }
+      std::vector<Vector> vectors;
+      for (const auto &[translation, gradient] : modes)
+        {
+          std::vector<std::function<double(const Point<dim> &)>> components;
+          for (unsigned int c = 0; c < dim; ++c)
+            components.emplace_back([value = translation[c],
+                                     slope = gradient[c]](const Point<dim> &x) {
+              return value + slope * x;
+            });
+          vectors.emplace_back(dofs.locally_owned_dofs(), communicator);
+          VectorTools::interpolate(mapping,
+                                   dofs,
+                                   FunctionFromFunctionObjects<dim>(components),
+                                   vectors.back());
+        }
+      return vectors;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  CoarseSpace
+  Body<dim>::coarse_space() const
+  {
+    AssertThrow(!has_multipliers(),
+                ExcMessage("There is no coarse space for multipliers."));
+    CoarseSpace space;
+    if (displacement_element->degree == 1)
       {
-        std::vector<std::function<double(const Point<dim> &)>> components;
-        for (unsigned int c = 0; c < dim; ++c)
-          components.emplace_back([mode = modes[m], c](const Point<dim> &x) {
-            return mode.first[c] + mode.second[c] * x;
-          });
-        interpolate(FunctionFromFunctionObjects<dim>(components), vectors[m]);
+        space.rigid_body_modes =
+          rigid_body_modes(*geometry, displacement_dofs, communicator);
+        return space;
       }
-    return vectors;
+
+    // The multipliers' element is scalar, of degree 1 and on the same cells.
+    const FESystem<dim> element(*multiplier_element, dim);
+    DoFHandler<dim>     dofs(displacement_dofs.get_triangulation());
+    dofs.distribute_dofs(element);
+    const IndexSet &coarse_owned = dofs.locally_owned_dofs();
+    // As far as this rank can see, which is around its own cells.
+    const IndexSet some_clamped = boundary_dofs(displacement_dofs, clamped_ids);
+    const IndexSet coarse_clamped = boundary_dofs(dofs, clamped_ids);
+    space.clamped                 = coarse_clamped & coarse_owned;
+    space.rigid_body_modes = rigid_body_modes(*geometry, dofs, communicator);
+
+    IndexSet coarse_relevant;
+    DoFTools::extract_locally_relevant_dofs(dofs, coarse_relevant);
+    DynamicSparsityPattern couplings(coarse_relevant);
+    DoFTools::make_sparsity_pattern(dofs, couplings);
+    SparsityTools::distribute_sparsity_pattern(couplings,
+                                               coarse_owned,
+                                               communicator,
+                                               coarse_relevant);
+    space.pattern.reinit(coarse_owned, couplings, communicator);
+
+    // A node of the body has the values of the coarse shape functions there, the
+    // same in all cells.
+    const std::vector<Point<dim>> &nodes =
+      displacement_element->get_unit_support_points();
+    const unsigned int                   n_coarse = element.dofs_per_cell;
+    std::vector<types::global_dof_index> indices(nodes.size());
+    std::vector<types::global_dof_index> coarse_indices(n_coarse);
+    std::vector<std::map<types::global_dof_index, double>> rows(
+      relevant.n_elements());
+    for (const auto &cell : dofs.active_cell_iterators())
+      {
+        if (cell->is_artificial())
+          continue;
+        cell->get_dof_indices(coarse_indices);
+        typename DoFHandler<dim>::active_cell_iterator(
+          &dofs.get_triangulation(),
+          cell->level(),
+          cell->index(),
+          &displacement_dofs)
+          ->get_dof_indices(indices);
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          {
+            auto &row = rows[relevant.index_within_set(indices[i])];
+            if (!row.empty() || some_clamped.is_element(indices[i]))
+              continue;
+            for (unsigned int j = 0; j < n_coarse; ++j)
+              if (const double value = element.shape_value(j, nodes[i]);
+                  displacement_element->system_to_component_index(i).first ==
+                    element.system_to_component_index(j).first &&
+                  std::abs(value) > 1e-12 &&
+                  !coarse_clamped.is_element(coarse_indices[j]))
+                row.emplace(coarse_indices[j], value);
+          }
+      }
+
+    space.relevant = relevant;
+    DynamicSparsityPattern parents(owned.size(), dofs.n_dofs(), owned);
+    for (unsigned int k = 0; k < rows.size(); ++k)
+      {
+        const types::global_dof_index index = relevant.nth_index_in_set(k);
+        for (const auto &[parent, value] : rows[k])
+          {
+            space.parents.add(parent, value);
+            if (owned.is_element(index))
+              parents.add(index, parent);
+          }
+        space.parents.end_functional();
+      }
+    space.prolongation.reinit(owned, coarse_owned, parents, communicator);
+    for (unsigned int k = 0; k < rows.size(); ++k)
+      if (const auto index = relevant.nth_index_in_set(k);
+          owned.is_element(index))
+        for (const auto &[parent, value] : rows[k])
+          space.prolongation.set(index, parent, value);
+    space.prolongation.compress(VectorOperation::insert);
+    return space;
   }
 
 

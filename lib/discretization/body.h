@@ -3,6 +3,7 @@
 #define ricochet_discretization_body_h
 
 #include <base/types.h>
+#include <solvers/coarse_space.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/quadrature.h>
@@ -93,10 +94,9 @@ namespace Ricochet
     std::vector<dealii::types::global_dof_index>
     canonical_positions() const;
 
-    /// Displacements that move the body without deforming it, to first order:
-    /// translations, then rotations about the origin. Zero in multipliers.
-    std::vector<Vector>
-    rigid_body_modes() const;
+    /// The displacements of degree 1 of a body without multipliers. Collective.
+    CoarseSpace
+    coarse_space() const;
 
     /// The sparsity pattern of all tangents.
     const dealii::TrilinosWrappers::SparsityPattern &
@@ -211,7 +211,7 @@ namespace Ricochet
     dealii::DoFHandler<dim>                      displacement_dofs;
     dealii::DoFHandler<dim>                      multiplier_dofs;
     const MultiplierSpace                        multipliers;
-    const BoundaryIds                            contact_ids;
+    const BoundaryIds                            clamped_ids, contact_ids;
 
     // First displacement DoF of each rank, and by how much the multipliers of
     // lower ranks shift it.

@@ -51,6 +51,21 @@ namespace Ricochet
                      const double  time_step,
                      Matrix       &tangent) const = 0;
 
+    /// What add_tangent() adds, for a linear body: the matrices live as long as
+    /// this object. Empty if the body is not linear.
+    virtual MatrixSum
+    tangent_terms(const double /*factor*/) const
+    {
+      return {};
+    }
+
+    /// The same for add_step_tangent().
+    virtual MatrixSum
+    step_tangent_terms(const double /*time_step*/) const
+    {
+      return {};
+    }
+
     /// Stored energy (J).
     virtual double
     energy(const Vector &solution) const = 0;

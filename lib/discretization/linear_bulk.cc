@@ -135,7 +135,17 @@ namespace Ricochet
                                const Vector & /*solution*/,
                                Matrix &tangent) const
   {
-    tangent.add(factor, stiffness);
+    for (const MatrixTerm &term : tangent_terms(factor))
+      tangent.add(term.weight, *term.matrix);
+  }
+
+
+
+  template <int dim>
+  MatrixSum
+  LinearBulk<dim>::tangent_terms(const double factor) const
+  {
+    return {{factor, &stiffness}};
   }
 
 
@@ -169,9 +179,20 @@ namespace Ricochet
                                     const double time_step,
                                     Matrix      &tangent) const
   {
-    tangent.add(.5, stiffness);
+    for (const MatrixTerm &term : step_tangent_terms(time_step))
+      tangent.add(term.weight, *term.matrix);
+  }
+
+
+
+  template <int dim>
+  MatrixSum
+  LinearBulk<dim>::step_tangent_terms(const double time_step) const
+  {
+    MatrixSum terms{{.5, &stiffness}};
     if (has_viscosity)
-      tangent.add(1. / time_step, viscosity_matrix);
+      terms.push_back({1. / time_step, &viscosity_matrix});
+    return terms;
   }
 
 

@@ -43,6 +43,12 @@ namespace Ricochet
                      const double  time_step,
                      Matrix       &tangent) const override;
 
+    MatrixSum
+    tangent_terms(const double factor) const override;
+
+    MatrixSum
+    step_tangent_terms(const double time_step) const override;
+
     double
     energy(const Vector &solution) const override;
 

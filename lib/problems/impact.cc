@@ -76,7 +76,7 @@ namespace Ricochet
               dim,
               &body.sparsity_pattern(),
               [this]() { return body.canonical_positions(); },
-              [this]() { return body.rigid_body_modes(); }},
+              [this]() { return body.coarse_space(); }},
              load,
              parameters.newton,
              parameters.linear_solver)

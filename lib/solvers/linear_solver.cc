@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/memory.h>
 #include <base/stopwatch.h>
 #include <solvers/linear_solver.h>
 #include <solvers/multigrid.h>
 
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
 
@@ -35,13 +37,15 @@ namespace Ricochet
 
 
 
-  /// The matrix of the last solution and its preconditioner, with the names of
+  /// The tangent of the last solution and its preconditioner, with the names of
   /// what they were made of.
   struct LinearSolver::MultigridState
   {
-    MultigridState(const std::vector<Vector> &rigid_body_modes,
-                   const bool                 is_symmetric)
-      : multigrid(rigid_body_modes, is_symmetric)
+    MultigridState(CoarseSpace coarse_space,
+                   const bool  is_symmetric,
+                   const bool  may_be_sum)
+      : is_sum(may_be_sum && coarse_space.prolongation.m() > 0)
+      , multigrid(std::move(coarse_space), is_symmetric)
     {}
 
     struct Name
@@ -57,9 +61,15 @@ namespace Ricochet
       }
     };
 
-    // ML smooths with this very matrix, even when its values have changed since
-    // the setup: two matrices would be too many for large bodies.
-    Matrix    matrix;
+    // The tangent is the sum of the body's constant terms, of open contact and
+    // of what contact does through its functionals; otherwise one matrix.
+    const bool is_sum;
+    // Open contact, or all of it.
+    Matrix                           matrix;
+    std::optional<BodyKey>           body;
+    std::unique_ptr<TangentOperator> tangent;
+    // Smooths with this very tangent, even when its values have changed since
+    // the setup: two would be too many for large bodies.
     Multigrid multigrid;
     Name      name, set_up_name;
     // Iterations for a decade of the residual, in the first solution of the
@@ -78,6 +88,42 @@ namespace Ricochet
       tangent.assemble_body(matrix);
       if (tangent.complete_contact)
         tangent.complete_contact(matrix);
+    }
+
+
+
+    /// Give @p contact_matrix the part of the pattern of @p matrix that couples
+    /// the unknowns @p rows of all ranks.
+    void
+    reinit_contact_matrix(const Matrix                               &matrix,
+                          const std::vector<types::global_dof_index> &rows,
+                          Matrix &contact_matrix)
+    {
+      const IndexSet owned = matrix.locally_owned_range_indices();
+      IndexSet       contact(owned.size());
+      {
+        std::vector<types::global_dof_index> sorted = rows;
+        std::sort(sorted.begin(), sorted.end());
+        contact.add_indices(sorted.begin(), sorted.end());
+      }
+      // Not by deal.II's iterators, which copy each row.
+      const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
+      DynamicSparsityPattern  pattern(owned.size(), owned.size(), owned);
+      for (const auto row : contact &owned)
+        {
+          int  n_entries = 0;
+          int *indices   = nullptr;
+          epetra.Graph().ExtractMyRowView(
+            epetra.LRID(static_cast<TrilinosWrappers::types::int_type>(row)),
+            n_entries,
+            indices);
+          for (int k = 0; k < n_entries; ++k)
+            if (const types::global_dof_index column =
+                  epetra.GCID64(indices[k]);
+                contact.is_element(column))
+              pattern.add(row, column);
+        }
+      contact_matrix.reinit(owned, pattern, matrix.get_mpi_communicator());
     }
 
 
@@ -109,16 +155,17 @@ namespace Ricochet
 
 
 
-  LinearSolver::LinearSolver(
-    const Parameters                           &parameters,
-    const ContactStructure                     &contact,
-    const bool                                  linear_body,
-    const std::function<std::vector<Vector>()> &rigid_body_modes,
-    const unsigned int                          dim,
-    const std::size_t                           n_unknowns,
-    const unsigned int                          n_ranks)
+  LinearSolver::LinearSolver(const Parameters                   &parameters,
+                             const ContactStructure             &contact,
+                             const bool                          linear_body,
+                             const IndexSet                     &clamped,
+                             const std::function<CoarseSpace()> &coarse_space,
+                             const unsigned int                  dim,
+                             const std::size_t                   n_unknowns,
+                             const unsigned int                  n_ranks)
     : parameters(parameters)
     , contact(contact)
+    , clamped(clamped)
     , linear_body(linear_body)
     , dim(dim)
     , n_unknowns(n_unknowns)
@@ -163,8 +210,11 @@ namespace Ricochet
         "Multigrid factors nothing: with Linear solver/Type = multigrid leave "
         "Linear solver/Factorisation at automatic.");
     multigrid =
-      std::make_unique<MultigridState>(rigid_body_modes(),
-                                       linear_body && contact.is_symmetric);
+      std::make_unique<MultigridState>(coarse_space(),
+                                       linear_body && contact.is_symmetric,
+                                       linear_body &&
+                                         contact.functionals.has_value());
+    return_freed_memory();
   }
 
 
@@ -466,6 +516,56 @@ namespace Ricochet
 
 
   void
+  LinearSolver::update_multigrid_tangent(const Tangent  &tangent,
+                                         const IndexSet &owned,
+                                         const MPI_Comm  communicator)
+  {
+    MultigridState &state = *multigrid;
+    if (!state.tangent)
+      state.tangent =
+        std::make_unique<TangentOperator>(owned,
+                                          clamped,
+                                          state.is_sum
+                                            ? contact.functionals->functionals
+                                            : Functionals(),
+                                          communicator);
+    if (!state.is_sum)
+      {
+        assemble(tangent, state.matrix);
+        state.tangent->set_terms({{1., &state.matrix}});
+        return;
+      }
+
+    const unsigned int n_functionals = contact.functionals->functionals.size();
+    if (!(state.body == tangent.body))
+      {
+        state.body.reset();
+        MatrixSum terms = tangent.body_terms;
+        if (tangent.complete_contact)
+          {
+            if (state.matrix.m() == 0)
+              reinit_contact_matrix(*terms[0].matrix,
+                                    contact.rows,
+                                    state.matrix);
+            state.matrix = 0.;
+            tangent.complete_open_contact(state.matrix);
+            terms.push_back({1., &state.matrix});
+          }
+        state.tangent->set_terms(terms);
+        state.tangent->set_change(std::vector<FunctionalRow>(n_functionals));
+        const Stopwatch stopwatch(factorising);
+        state.multigrid.set_body(*state.tangent, tangent.body_terms.size());
+        state.body = tangent.body;
+      }
+    std::vector<FunctionalRow> change(n_functionals);
+    if (tangent.complete_contact)
+      tangent.contact_change(change);
+    state.tangent->set_change(std::move(change));
+  }
+
+
+
+  void
   LinearSolver::solve_by_multigrid(const Tangent &tangent,
                                    const Vector  &right_hand_side,
                                    Vector        &solution,
@@ -474,50 +574,51 @@ namespace Ricochet
   {
     MultigridState            &state = *multigrid;
     const MultigridState::Name name{tangent.body, tangent.contact};
-    // The matrix, unless it is the same as before.
+    // The tangent, unless it is the same as before.
     if (!(state.name == name) &&
         !(may_reuse && !stage_begins && !state.name.contact))
       {
         state.name = {};
-        assemble(tangent, state.matrix);
+        update_multigrid_tangent(tangent,
+                                 right_hand_side.locally_owned_elements(),
+                                 right_hand_side.get_mpi_communicator());
         state.name = name;
       }
     const auto set_up = [&]() {
       const Stopwatch stopwatch(factorising);
       ++factorisation_count;
-      state.multigrid.setup(state.matrix);
+      if (!state.is_sum)
+        state.multigrid.set_body(*state.tangent, 0);
+      state.multigrid.setup();
       state.set_up_name = name;
     };
-    // A preconditioner serves in a stage, and beyond only for the same matrix:
-    // so results do not depend on what came before the stage.
-    bool is_first = stage_begins;
-    if (stage_begins && !(state.set_up_name == name))
-      set_up();
+    const auto solve = [&]() {
+      const Stopwatch stopwatch(substituting);
+      return state.multigrid.solve(right_hand_side, solution, tolerance);
+    };
+    // With contact the preconditioner must follow it: it costs a few iterations.
+    // Where the tangent has no name, one serves in a stage, and never beyond: so
+    // results do not depend on what came before the stage.
+    const bool has_name  = name.body && name.contact;
+    const bool is_first  = stage_begins;
     stage_begins         = false;
     const double decades = -std::log10(tolerance);
-    const auto   solve   = [&]() {
-      const Stopwatch stopwatch(substituting);
-      return state.multigrid.solve(state.matrix,
-                                   right_hand_side,
-                                   solution,
-                                   tolerance);
-    };
+    if (has_name ? !(state.set_up_name == name) : is_first)
+      set_up();
     int n_iterations = solve();
-    if (!is_first && !(state.set_up_name == name) &&
-        (n_iterations < 0 ||
-         n_iterations > 5 + 2. * decades * state.first_iterations_per_decade))
+    if (!has_name && is_first)
+      state.first_iterations_per_decade = n_iterations / decades;
+    else if (!has_name &&
+             (n_iterations < 0 ||
+              n_iterations >
+                5 + 2. * decades * state.first_iterations_per_decade))
       {
         // The next solution of this stage will have a better one.
         set_up();
         if (n_iterations < 0)
-          {
-            n_iterations = solve();
-            is_first     = true;
-          }
+          n_iterations = solve();
       }
     if (n_iterations < 0)
       throw NewtonFailure("Multigrid does not converge.");
-    if (is_first)
-      state.first_iterations_per_decade = n_iterations / decades;
   }
 } // namespace Ricochet

@@ -3,6 +3,7 @@
 #define ricochet_solvers_linear_solver_h
 
 #include <base/types.h>
+#include <solvers/coarse_space.h>
 #include <solvers/corrected_factorisation.h>
 #include <solvers/tangent.h>
 
@@ -51,20 +52,21 @@ namespace Ricochet
     /**
      * @param contact how contact enters the tangents.
      * @param linear_body the body's part of a tangent has a name.
-     * @param rigid_body_modes Body::rigid_body_modes(), only called for
-     * multigrid.
+     * @param clamped unknowns of this rank that are clamped.
+     * @param coarse_space Body::coarse_space(), only called for multigrid.
      * @param dim dimension of the body, on which depends which factorisation is
      * fast.
      * @param n_unknowns number of unknowns on all ranks.
      * @throws InputError when the parameters do not go together.
      */
-    LinearSolver(const Parameters                           &parameters,
-                 const ContactStructure                     &contact,
-                 const bool                                  linear_body,
-                 const std::function<std::vector<Vector>()> &rigid_body_modes,
-                 const unsigned int                          dim,
-                 const std::size_t                           n_unknowns,
-                 const unsigned int                          n_ranks);
+    LinearSolver(const Parameters                   &parameters,
+                 const ContactStructure             &contact,
+                 const bool                          linear_body,
+                 const dealii::IndexSet             &clamped,
+                 const std::function<CoarseSpace()> &coarse_space,
+                 const unsigned int                  dim,
+                 const std::size_t                   n_unknowns,
+                 const unsigned int                  n_ranks);
 
     ~LinearSolver();
 
@@ -154,6 +156,12 @@ namespace Ricochet
                       const bool     may_reuse,
                       const double   tolerance);
 
+    /// The tangent as multigrid takes it.
+    void
+    update_multigrid_tangent(const Tangent          &tangent,
+                             const dealii::IndexSet &owned,
+                             const MPI_Comm          communicator);
+
     void
     solve_by_multigrid(const Tangent &tangent,
                        const Vector  &right_hand_side,
@@ -163,6 +171,7 @@ namespace Ricochet
 
     const Parameters                        parameters;
     const ContactStructure                  contact;
+    const dealii::IndexSet                  clamped;
     const bool                              linear_body;
     const unsigned int                      dim;
     const std::size_t                       n_unknowns;

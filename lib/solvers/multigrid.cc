@@ -6,55 +6,265 @@
 #include <deal.II/lac/solver_gmres.h>
 
 #include <Teuchos_ParameterList.hpp>
+#include <ml_epetra_utils.h>
 #include <ml_MultiLevelPreconditioner.h>
 
 namespace Ricochet
 {
   using namespace dealii;
 
-  Multigrid::Multigrid(const std::vector<Vector> &rigid_body_modes,
-                       const bool                 is_symmetric)
-    : is_symmetric(is_symmetric)
-    , n_modes(rigid_body_modes.size())
+  /**
+   * Products with the prolongation P: terms of a tangent between coarse unknowns.
+   * Row by row, so that there is never another large matrix; and by hand, as the
+   * products of deal.II 9.4 write beyond their memory on several ranks.
+   */
+  class Multigrid::CoarseProducts
   {
-    for (const Vector &mode : rigid_body_modes)
+  public:
+    explicit CoarseProducts(const CoarseSpace &space)
+      : space(space)
+      , place(space.pattern.n_cols(), -1)
+    {}
+
+    /// @p coarse += P^T @p matrix P.
+    void
+    add(const Matrix &matrix, Matrix &coarse)
+    {
+      const Epetra_CrsMatrix   &epetra = matrix.trilinos_matrix();
+      std::vector<unsigned int> relevant(epetra.NumMyCols());
+      for (unsigned int c = 0; c < relevant.size(); ++c)
+        relevant[c] = space.relevant.index_within_set(epetra.GCID64(c));
+      for (int r = 0; r < epetra.NumMyRows(); ++r)
+        {
+          int     n_entries = 0;
+          double *values    = nullptr;
+          int    *indices   = nullptr;
+          epetra.ExtractMyRowView(r, n_entries, values, indices);
+          for (int e = 0; e < n_entries; ++e)
+            add_to_row(relevant[indices[e]], values[e]);
+          const unsigned int row =
+            space.relevant.index_within_set(epetra.GRID64(r));
+          const Functionals &parents = space.parents;
+          for (std::size_t k = parents.begin[row]; k < parents.begin[row + 1];
+               ++k)
+            flush_row(parents.index[k], parents.value[k], coarse);
+          clear_row();
+        }
+      coarse.compress(VectorOperation::add);
+    }
+
+    /// @p coarse += P^T F^T C F P for the functionals F of @p tangent.
+    void
+    add_contact(const TangentOperator &tangent, Matrix &coarse)
+    {
+      const Functionals &functionals = tangent.functionals();
+      const auto         add = [&](const unsigned int f, const double c) {
+        for (std::size_t k = functionals.begin[f]; k < functionals.begin[f + 1];
+             ++k)
+          add_to_row(space.relevant.index_within_set(functionals.index[k]),
+                     c * functionals.value[k]);
+      };
+      for (unsigned int f = 0; f < tangent.change().size(); ++f)
+        if (!tangent.change()[f].empty())
+          {
+            add(f, 1.);
+            const auto test_columns = columns;
+            const auto test_values  = values;
+            clear_row();
+            for (const auto &[other, factor] : tangent.change()[f])
+              add(other, factor);
+            for (unsigned int k = 0; k < test_columns.size(); ++k)
+              flush_row(test_columns[k], test_values[k], coarse);
+            clear_row();
+          }
+      coarse.compress(VectorOperation::add);
+    }
+
+  private:
+    /// Add @p value in the column of a relevant unknown, times P.
+    void
+    add_to_row(const unsigned int relevant, const double value)
+    {
+      for (std::size_t k = space.parents.begin[relevant];
+           k < space.parents.begin[relevant + 1];
+           ++k)
+        {
+          int &target = place[space.parents.index[k]];
+          if (target < 0)
+            {
+              target = columns.size();
+              columns.push_back(space.parents.index[k]);
+              values.push_back(0.);
+            }
+          values[target] += value * space.parents.value[k];
+        }
+    }
+
+    void
+    flush_row(const types::global_dof_index row,
+              const double                  factor,
+              Matrix                       &coarse)
+    {
+      scaled.resize(values.size());
+      for (unsigned int k = 0; k < values.size(); ++k)
+        scaled[k] = factor * values[k];
+      coarse.add(row, columns.size(), columns.data(), scaled.data(), true);
+    }
+
+    void
+    clear_row()
+    {
+      for (const auto column : columns)
+        place[column] = -1;
+      columns.clear();
+      values.clear();
+    }
+
+    const CoarseSpace &space;
+    // A row: where each coarse unknown stands in it, its columns and values.
+    std::vector<int>                     place;
+    std::vector<types::global_dof_index> columns;
+    std::vector<double>                  values, scaled;
+  };
+
+
+
+  Multigrid::Multigrid(CoarseSpace coarse_space, const bool is_symmetric)
+    : space(std::move(coarse_space))
+    , is_symmetric(is_symmetric)
+    , has_smoother(space.prolongation.m() > 0)
+  {
+    for (const Vector &mode : space.rigid_body_modes)
       {
         const double *values = mode.trilinos_vector()[0];
         modes.insert(modes.end(), values, values + mode.locally_owned_size());
+      }
+    if (has_smoother)
+      {
+        coarse_residual.reinit(space.rigid_body_modes[0]);
+        coarse_correction.reinit(space.rigid_body_modes[0]);
       }
   }
 
 
 
+  Multigrid::~Multigrid() = default;
+
+
+
   void
-  Multigrid::setup(const Matrix &matrix)
+  Multigrid::set_body(const TangentOperator &new_tangent,
+                      const unsigned int     n_constant)
   {
+    tangent = &new_tangent;
+    if (!has_smoother)
+      return;
+    CoarseProducts products(space);
+    coarse_body.reinit(space.pattern);
+    for (unsigned int k = 0; k < tangent->terms().size(); ++k)
+      {
+        const MatrixTerm &term = tangent->terms()[k];
+        Matrix            changing;
+        Matrix           &coarse_term =
+          k < n_constant ? constant_terms[term.matrix] : changing;
+        if (coarse_term.m() == 0)
+          {
+            coarse_term.reinit(space.pattern);
+            products.add(*term.matrix, coarse_term);
+          }
+        coarse_body.add(term.weight, coarse_term);
+      }
+    for (const auto i : space.clamped)
+      coarse_body.set(i, i, 1.);
+    coarse_body.compress(VectorOperation::insert);
+    // Contact adds to the diagonal what it adds to the matrix, and hardly
+    // changes the largest eigenvalue of the two. That of the body does not depend
+    // on what came before.
+    initialize_smoother(12);
+    max_eigenvalue =
+      smoother.estimate_eigenvalues(residual).max_eigenvalue_estimate;
+  }
+
+
+
+  void
+  Multigrid::initialize_smoother(const unsigned int n_eigenvalue_iterations)
+  {
+    Smoother::AdditionalData data;
+    data.degree              = 2;
+    data.smoothing_range     = 8.;
+    data.eig_cg_n_iterations = n_eigenvalue_iterations;
+    data.max_eigenvalue      = max_eigenvalue;
+    data.preconditioner      = std::make_shared<InverseDiagonal>();
+    Vector &inverse          = data.preconditioner->get_vector();
+    inverse                  = tangent->diagonal();
+    double *values           = inverse.trilinos_vector()[0];
+    for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
+      values[i] = 1. / values[i];
+    smoother.initialize(*tangent, data);
+    residual.reinit(inverse);
+    correction.reinit(inverse);
+  }
+
+
+
+  void
+  Multigrid::setup()
+  {
+    if (has_smoother)
+      {
+        coarse.copy_from(coarse_body);
+        CoarseProducts(space).add_contact(*tangent, coarse);
+        initialize_smoother(0);
+      }
+
+    const unsigned int     n_modes = space.rigid_body_modes.size();
     Teuchos::ParameterList list;
     ML_Epetra::SetDefaults("SA", list);
     list.set("ML output", 0);
+    // Smoothed aggregates need as many iterations here, more memory, and twice
+    // the time to be set up.
+    list.set("aggregation: damping factor", 0.);
     // The unknowns of a node stand together: dim translations, and in all
     // dim (dim + 1) / 2 modes.
     list.set("PDE equations", n_modes == 6 ? 3 : n_modes == 3 ? 2 : 1);
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", static_cast<int>(n_modes));
     list.set("null space: vectors", modes.data());
-    // Aggregates that are not smoothed converge as well here, are set up in a
-    // quarter of the time and need a fraction of the memory.
     list.set("aggregation: type", "Uncoupled");
-    list.set("aggregation: damping factor", 0.);
     list.set("smoother: type", "Chebyshev");
     list.set("smoother: sweeps", 2);
     list.set("coarse: type", "Amesos-KLU");
     list.set("coarse: max size", 1000);
-    preconditioner = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-    preconditioner->initialize(matrix, list);
+    aggregation = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+    aggregation->initialize(has_smoother ? coarse : *tangent->terms()[0].matrix,
+                            list);
+  }
+
+
+
+  void
+  Multigrid::vmult(Vector &result, const Vector &vector) const
+  {
+    if (!has_smoother)
+      {
+        aggregation->vmult(result, vector);
+        return;
+      }
+    smoother.vmult(result, vector);
+    tangent->vmult(residual, result);
+    residual.sadd(-1., 1., vector);
+    space.prolongation.Tvmult(coarse_residual, residual);
+    aggregation->vmult(coarse_correction, coarse_residual);
+    space.prolongation.vmult(correction, coarse_correction);
+    result += correction;
+    smoother.step(result, vector);
   }
 
 
 
   int
-  Multigrid::solve(const Matrix &matrix,
-                   const Vector &right_hand_side,
+  Multigrid::solve(const Vector &right_hand_side,
                    Vector       &solution,
                    const double  tolerance) const
   {
@@ -63,15 +273,15 @@ namespace Ricochet
     try
       {
         if (is_symmetric)
-          SolverCG<Vector>(control).solve(matrix,
+          SolverCG<Vector>(control).solve(*tangent,
                                           solution,
                                           right_hand_side,
-                                          *preconditioner);
+                                          *this);
         else
           {
             const SolverGMRES<Vector>::AdditionalData data(50, true);
             SolverGMRES<Vector>(control, data)
-              .solve(matrix, solution, right_hand_side, *preconditioner);
+              .solve(*tangent, solution, right_hand_side, *this);
           }
       }
     catch (const SolverControl::NoConvergence &)

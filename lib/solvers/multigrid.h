@@ -3,52 +3,94 @@
 #define ricochet_solvers_multigrid_h
 
 #include <base/types.h>
+#include <solvers/coarse_space.h>
+#include <solvers/tangent_operator.h>
 
+#include <deal.II/lac/diagonal_matrix.h>
+#include <deal.II/lac/precondition.h>
 #include <deal.II/lac/trilinos_precondition.h>
 
+#include <map>
 #include <memory>
 #include <vector>
 
 namespace Ricochet
 {
   /**
-   * Algebraic multigrid for elasticity: aggregation by Trilinos' ML, with the
-   * rigid body modes as what the coarse levels must be able to represent, as a preconditioner of conjugate gradients or GMRES.
+   * Multigrid for elasticity, as a preconditioner of conjugate gradients or
+   * GMRES: from the body's own elements to those of degree 1 (with Chebyshev's
+   * polynomials as smoothers), and from there by aggregation, with Trilinos' ML
+   * and the rigid body modes as what the coarse levels must be able to
+   * represent.
    */
   class Multigrid
   {
   public:
+    /// @param is_symmetric the tangents are: conjugate gradients will do.
+    Multigrid(CoarseSpace coarse_space, const bool is_symmetric);
+
+    ~Multigrid();
+
     /**
-     * @param rigid_body_modes Body::rigid_body_modes().
-     * @param is_symmetric the matrices are: conjugate gradients will do.
+     * A new body: the terms of @p tangent, which must stay where it is. To be
+     * followed by setup().
+     *
+     * @param n_constant the first terms, as many as this, never change their
+     * values: what was once computed of them is kept.
      */
-    Multigrid(const std::vector<Vector> &rigid_body_modes,
-              const bool                 is_symmetric);
-
-    /// Set up for @p matrix, which must stay where it is. Should its values
-    /// change, the coarse levels are those of the old ones.
     void
-    setup(const Matrix &matrix);
+    set_body(const TangentOperator &tangent, const unsigned int n_constant);
+
+    /// Set up for contact as it is in the tangent now. Should it change later,
+    /// the coarse levels are still those of the old one.
+    void
+    setup();
 
     /**
-     * Solve @p matrix * @p solution = @p right_hand_side, with the matrix of
-     * setup() and its values of now.
+     * Solve with the tangent of set_body(), as it is now.
      *
      * @param tolerance of the residual, relative to the right hand side.
      * @return the number of iterations, or -1 if they do not converge.
      */
     int
-    solve(const Matrix &matrix,
-          const Vector &right_hand_side,
+    solve(const Vector &right_hand_side,
           Vector       &solution,
           const double  tolerance) const;
 
+    /// A cycle: the preconditioner.
+    void
+    vmult(Vector &result, const Vector &vector) const;
+
   private:
-    const bool         is_symmetric;
-    const unsigned int n_modes;
-    // Mode by mode, the owned entries.
-    std::vector<double>                                        modes;
-    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> preconditioner;
+    // A class of its own, as deal.II wants to know more of a matrix that it makes
+    // a DiagonalMatrix of.
+    class InverseDiagonal : public dealii::DiagonalMatrix<Vector>
+    {};
+
+    using Smoother =
+      dealii::PreconditionChebyshev<TangentOperator, Vector, InverseDiagonal>;
+
+    class CoarseProducts;
+
+    /// @param n_eigenvalue_iterations of conjugate gradients to estimate the
+    /// largest eigenvalue; 0: use #max_eigenvalue.
+    void
+    initialize_smoother(const unsigned int n_eigenvalue_iterations);
+
+    const CoarseSpace      space;
+    const bool             is_symmetric;
+    const bool             has_smoother;
+    const TangentOperator *tangent = nullptr;
+    // The null space as ML wants it: mode by mode, the owned entries.
+    std::vector<double> modes;
+    double              max_eigenvalue = 1.;
+    Smoother            smoother;
+    // Between coarse unknowns: constant terms, the body, and all of the tangent.
+    std::map<const Matrix *, Matrix>                           constant_terms;
+    Matrix                                                     coarse_body;
+    Matrix                                                     coarse;
+    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> aggregation;
+    mutable Vector residual, correction, coarse_residual, coarse_correction;
   };
 } // namespace Ricochet
 

@@ -63,6 +63,9 @@ namespace Ricochet
 
     /// Overwrite a matrix with the body's part.
     std::function<void(Matrix &)> assemble_body;
+    /// The body's part as a sum, if it is linear; but for the rows of clamped
+    /// unknowns.
+    MatrixSum body_terms;
     /// Add contact.
     std::function<void(Matrix &)> complete_contact;
     /// Add what contact adds when all points are open.

@@ -72,7 +72,8 @@ namespace Ricochet
                                       unknowns.clamped,
                                       mass.get_mpi_communicator()),
                     bulk.is_linear(),
-                    unknowns.rigid_body_modes,
+                    unknowns.clamped,
+                    unknowns.coarse_space,
                     unknowns.dim,
                     mass.m(),
                     Utilities::MPI::n_mpi_processes(
@@ -139,6 +140,7 @@ namespace Ricochet
       matrix.compress(VectorOperation::insert);
     };
     tangent.complete_open_contact = [](Matrix &) {};
+    tangent.body_terms            = {{1., &invertible_mass}};
     linear_solver.solve(tangent, right_hand_side, acceleration, false, 1e-14);
   }
 
@@ -245,7 +247,11 @@ namespace Ricochet
         {
           tangent.body =
             BodyKey{stage.inertia, bulk_weight, stage.contact_weight_new};
-          tangent.contact = contact.tangent_signature();
+          tangent.contact    = contact.tangent_signature();
+          tangent.body_terms = stage.bulk_step_force
+                     ? bulk.step_tangent_terms(stage.time_step)
+                     : bulk.tangent_terms(bulk_weight);
+          tangent.body_terms.push_back({stage.inertia, &mass});
         }
       tangent.assemble_body = [&](Matrix &matrix) {
         const Stopwatch stopwatch(tangent_seconds);

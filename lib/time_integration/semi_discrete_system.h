@@ -100,8 +100,8 @@ namespace Ricochet
       /// Body::canonical_positions(), for checkpoints.
       std::function<std::vector<dealii::types::global_dof_index>()>
         canonical_positions;
-      /// Body::rigid_body_modes(), for multigrid.
-      std::function<std::vector<Vector>()> rigid_body_modes;
+      /// Body::coarse_space(), for multigrid.
+      std::function<CoarseSpace()> coarse_space;
     };
 
     /**

@@ -114,7 +114,8 @@ namespace
       solver_parameters,
       contact->tangent_structure(),
       linear_body,
-      [&]() { return body.rigid_body_modes(); },
+      body.clamped_indices(),
+      [&]() { return body.coarse_space(); },
       dim,
       mass.m(),
       dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
@@ -141,8 +142,10 @@ namespace
         Tangent tangent;
         if (linear_body)
           {
-            tangent.body    = BodyKey{3., .5, weight};
-            tangent.contact = contact->tangent_signature();
+            tangent.body       = BodyKey{3., .5, weight};
+            tangent.contact    = contact->tangent_signature();
+            tangent.body_terms = bulk.step_tangent_terms(.1);
+            tangent.body_terms.push_back({3., &mass});
           }
         tangent.assemble_body = [&](Matrix &matrix) {
           // In place, as factorisations that are used again want it.
@@ -232,17 +235,33 @@ BOOST_AUTO_TEST_CASE(nonlinear_tangents_are_solved)
     }
 }
 
+BOOST_AUTO_TEST_CASE(multigrid_solves)
+{
+  LinearSolver::Parameters parameters;
+  parameters.type = "multigrid";
+  for (const Treatment &treatment : all_treatments())
+    if (treatment.name != "proximal augmented Lagrangian" &&
+        treatment.name != "Signorini multipliers")
+      {
+        check<2>(treatment, parameters, true, 1e-9);
+        check<3>(treatment, parameters, true, 1e-9);
+        if (treatment.scheme == "midpoint" &&
+            treatment.name != "Nitsche-hybrid")
+          check<2>(treatment, parameters, false, 1e-9);
+      }
+}
+
 BOOST_AUTO_TEST_CASE(impossible_factorisations_are_refused)
 {
   LinearSolver::Parameters parameters;
   parameters.type          = "direct";
   parameters.factorisation = "CHOLMOD";
-  BOOST_CHECK_THROW(LinearSolver(parameters, {}, true, {}, 2, 10, 1),
+  BOOST_CHECK_THROW(LinearSolver(parameters, {}, true, {}, {}, 2, 10, 1),
                     InputError);
   parameters.type = "corrected";
-  BOOST_CHECK_THROW(LinearSolver(parameters, {}, true, {}, 2, 10, 2),
+  BOOST_CHECK_THROW(LinearSolver(parameters, {}, true, {}, {}, 2, 10, 2),
                     InputError);
-  BOOST_CHECK_NO_THROW(LinearSolver(parameters, {}, true, {}, 2, 10, 1));
+  BOOST_CHECK_NO_THROW(LinearSolver(parameters, {}, true, {}, {}, 2, 10, 1));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

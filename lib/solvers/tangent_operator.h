@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_tangent_operator_h
+#define ricochet_solvers_tangent_operator_h
+
+#include <base/types.h>
+#include <solvers/functionals.h>
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/subscriptor.h>
+
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * A tangent that is not one matrix but a sum: of matrices, and of what
+   * contact does through its functionals,
+   *
+   *     T = sum_k w_k A_k + F^T C F,
+   *
+   * with a functional in each row of F; in the rows and columns of clamped
+   * unknowns it is the identity. A large body has no room for another matrix, and
+   * a new state of contact costs no more than its active points.
+   */
+  class TangentOperator : public dealii::Subscriptor
+  {
+  public:
+    /**
+     * @param owned unknowns of this rank.
+     * @param clamped those of them that are clamped.
+     * @param functionals of this rank; they may have entries of other ranks.
+     */
+    TangentOperator(const dealii::IndexSet &owned,
+                    const dealii::IndexSet &clamped,
+                    const Functionals      &functionals,
+                    const MPI_Comm          communicator);
+
+    /// The matrices A_k, which must stay where they are, with their values: the
+    /// diagonal of their sum is kept.
+    void
+    set_terms(const MatrixSum &terms);
+
+    const MatrixSum &
+    terms() const
+    {
+      return sum;
+    }
+
+    /// The rows of C, one for each functional of this rank.
+    void
+    set_change(std::vector<FunctionalRow> new_rows);
+
+    const std::vector<FunctionalRow> &
+    change() const
+    {
+      return rows;
+    }
+
+    /// Those of this rank.
+    const Functionals &
+    functionals() const
+    {
+      return my_functionals;
+    }
+
+    void
+    vmult(Vector &result, const Vector &vector) const;
+
+    Vector
+    diagonal() const;
+
+    /// Number of rows.
+    dealii::types::global_dof_index
+    m() const
+    {
+      return owned.size();
+    }
+
+    const MPI_Comm communicator;
+
+  private:
+    const dealii::IndexSet     owned;
+    const dealii::IndexSet     clamped;
+    const Functionals          my_functionals;
+    bool                       some_clamped = false;
+    MatrixSum                  sum;
+    std::vector<FunctionalRow> rows;
+    bool                       some_change = false;
+    // F, with a row for each functional of all ranks.
+    Matrix functional_matrix;
+    Vector body_diagonal;
+    // Work space.
+    mutable Vector free, product, observed, acting;
+  };
+} // namespace Ricochet
+
+#endif
