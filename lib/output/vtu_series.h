@@ -12,8 +12,8 @@ namespace Ricochet
   /**
    * The fields of a body for ParaView: displacement, velocity, acceleration,
    * elastic Cauchy stress (in 3D its von Mises stress too), the contact force of
-   * each node (N, on the body) and the contact pressure (Pa), as `solution/step-NNNNNN.vtu`, and `solution.pvd` that ties them to their
-   * times.
+   * each node (N, on the body) and the contact pressure (Pa), as
+   * `solution/step-NNNNNN.vtu`, and `solution.pvd` that ties them to their times.
    */
   template <int dim>
   class VtuSeries

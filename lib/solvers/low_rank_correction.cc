@@ -235,11 +235,12 @@ namespace Ricochet
       Utilities::MPI::min(is_positive() ? 1 : 0, communicator) == 1;
     if (small_is_positive)
       {
-        // Divided by C, the system is symmetric and positive definite.
+        // Divided by C, the system is symmetric and positive definite. Cholesky's
+        // factorisation reads the lower triangle.
         for (unsigned int j = 0; j < n; ++j)
           {
             const std::vector<double> &column = columns[changed[j]];
-            for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int i = j; i < n; ++i)
               (*small)(i, j) = column[rows[i][0].first];
             (*small)(j, j) += 1. / rows[j][0].second;
           }
