@@ -18,7 +18,7 @@ namespace Ricochet
   /// Distributed sparse matrix on the same unknowns.
   using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-  /// A constant matrix, and its factor in a sum.
+  /// A matrix, and its factor in a sum.
   struct MatrixTerm
   {
     double        weight;

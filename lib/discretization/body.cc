@@ -504,14 +504,27 @@ namespace Ricochet
     DoFHandler<dim>     dofs(displacement_dofs.get_triangulation());
     dofs.distribute_dofs(element);
     const IndexSet &coarse_owned = dofs.locally_owned_dofs();
-    // As far as this rank can see, which is around its own cells.
-    const IndexSet some_clamped = boundary_dofs(displacement_dofs, clamped_ids);
-    const IndexSet coarse_clamped = boundary_dofs(dofs, clamped_ids);
-    space.clamped                 = coarse_clamped & coarse_owned;
+    IndexSet        coarse_relevant;
+    DoFTools::extract_locally_relevant_dofs(dofs, coarse_relevant);
+    space.clamped = boundary_dofs(dofs, clamped_ids) & coarse_owned;
+    // Ask the owners: the clamped face of an unknown of a ghost cell may be that
+    // of a cell which this rank does not know.
+    const auto with_ghosts = [&](const IndexSet &mine,
+                                 const IndexSet &owned_set,
+                                 const IndexSet &relevant_set) {
+      Vector flags(owned_set, communicator);
+      for (const auto i : mine)
+        flags(i) = 1.;
+      flags.compress(VectorOperation::insert);
+      Vector ghosted(owned_set, relevant_set, communicator);
+      ghosted = flags;
+      return ghosted;
+    };
+    const Vector is_clamped = with_ghosts(clamped, owned, relevant);
+    const Vector is_coarse_clamped =
+      with_ghosts(space.clamped, coarse_owned, coarse_relevant);
     space.rigid_body_modes = rigid_body_modes(*geometry, dofs, communicator);
 
-    IndexSet coarse_relevant;
-    DoFTools::extract_locally_relevant_dofs(dofs, coarse_relevant);
     DynamicSparsityPattern couplings(coarse_relevant);
     DoFTools::make_sparsity_pattern(dofs, couplings);
     SparsityTools::distribute_sparsity_pattern(couplings,
@@ -543,14 +556,14 @@ namespace Ricochet
         for (unsigned int i = 0; i < nodes.size(); ++i)
           {
             auto &row = rows[relevant.index_within_set(indices[i])];
-            if (!row.empty() || some_clamped.is_element(indices[i]))
+            if (!row.empty() || is_clamped(indices[i]) != 0.)
               continue;
             for (unsigned int j = 0; j < n_coarse; ++j)
               if (const double value = element.shape_value(j, nodes[i]);
                   displacement_element->system_to_component_index(i).first ==
                     element.system_to_component_index(j).first &&
                   std::abs(value) > 1e-12 &&
-                  !coarse_clamped.is_element(coarse_indices[j]))
+                  is_coarse_clamped(coarse_indices[j]) == 0.)
                 row.emplace(coarse_indices[j], value);
           }
       }

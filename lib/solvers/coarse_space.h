@@ -23,7 +23,8 @@ namespace Ricochet
     Functionals      parents;
     /// Of matrices between coarse unknowns.
     dealii::TrilinosWrappers::SparsityPattern pattern;
-    /// Those of them owned and clamped. The prolongation does not know them.
+    /// Owned coarse unknowns that are clamped. The prolongation does not know
+    /// them.
     dealii::IndexSet clamped;
     /// Displacements that move the body without deforming it, to first order:
     /// translations, then rotations about the origin.

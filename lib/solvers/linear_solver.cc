@@ -68,12 +68,13 @@ namespace Ricochet
     Matrix                           matrix;
     std::optional<BodyKey>           body;
     std::unique_ptr<TangentOperator> tangent;
-    // Smooths with this very tangent, even when its values have changed since
-    // the setup: two would be too many for large bodies.
+    // Smooths with this very tangent, even when it has changed since the setup: a
+    // large body has no room for another one.
     Multigrid multigrid;
     Name      name, set_up_name;
-    // Iterations for a decade of the residual, in the first solution of the
-    // stage.
+    // For tangents without a name: whether there was a set-up for them in this
+    // stage, and the iterations for a decade of the residual that it needed.
+    bool   set_up_in_stage             = false;
     double first_iterations_per_decade = 0.;
   };
 
@@ -233,8 +234,8 @@ namespace Ricochet
       "direct: factor the tangent for each state of contact and keep the last "
       "few. corrected: factor the body only and treat contact as a correction "
       "of low rank; for nonlinear materials factor the body's tangent (with "
-      "CHOLMOD its symmetric part), with GMRES for the rest. multigrid: "
-      "algebraic multigrid, not for treatments with multipliers. automatic: "
+      "CHOLMOD its symmetric part), with GMRES for the rest. multigrid: from "
+      "degree 2 to degree 1 and on by aggregation, not for treatments with multipliers. automatic: "
       "corrected above 1000 unknowns for linear bodies, above 5000 for "
       "nonlinear ones if CHOLMOD can be used; multigrid for linear bodies in 3D "
       "above 50000 unknowns, or 10000 on several ranks.",
@@ -289,7 +290,7 @@ namespace Ricochet
   LinearSolver::description() const
   {
     if (type == "multigrid")
-      return "multigrid (ML)";
+      return "multigrid";
     const std::string name = chosen_factorisation(type == "corrected");
     if (type == "direct")
       return name + " for each state of contact";
@@ -596,17 +597,21 @@ namespace Ricochet
       const Stopwatch stopwatch(substituting);
       return state.multigrid.solve(right_hand_side, solution, tolerance);
     };
-    // With contact the preconditioner must follow it: it costs a few iterations.
-    // Where the tangent has no name, one serves in a stage, and never beyond: so
-    // results do not depend on what came before the stage.
-    const bool has_name  = name.body && name.contact;
-    const bool is_first  = stage_begins;
-    stage_begins         = false;
-    const double decades = -std::log10(tolerance);
+    // A tangent with a name gets a preconditioner of its own. Others share one
+    // within a stage, but never beyond: so results do not depend on what came
+    // before the stage.
+    if (stage_begins)
+      state.set_up_in_stage = false;
+    stage_begins          = false;
+    const bool   has_name = name.body && name.contact;
+    const bool   is_first = !has_name && !state.set_up_in_stage;
+    const double decades  = -std::log10(tolerance);
     if (has_name ? !(state.set_up_name == name) : is_first)
       set_up();
+    if (is_first)
+      state.set_up_in_stage = true;
     int n_iterations = solve();
-    if (!has_name && is_first)
+    if (is_first)
       state.first_iterations_per_decade = n_iterations / decades;
     else if (!has_name &&
              (n_iterations < 0 ||

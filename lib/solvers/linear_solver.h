@@ -71,7 +71,8 @@ namespace Ricochet
     ~LinearSolver();
 
     /**
-     * Solve @p tangent * @p solution = @p right_hand_side.
+     * Solve @p tangent * @p solution = @p right_hand_side, which must be zero in
+     * clamped unknowns.
      *
      * @param may_reuse the last tangent without a name will do, if there is one.
      * @param tolerance of the residual, relative to @p right_hand_side, where

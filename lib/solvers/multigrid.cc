@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
 #include <solvers/multigrid.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
@@ -8,6 +10,9 @@
 #include <Teuchos_ParameterList.hpp>
 #include <ml_epetra_utils.h>
 #include <ml_MultiLevelPreconditioner.h>
+#include <ml_utils.h>
+
+#include <cmath>
 
 namespace Ricochet
 {
@@ -177,33 +182,48 @@ namespace Ricochet
     for (const auto i : space.clamped)
       coarse_body.set(i, i, 1.);
     coarse_body.compress(VectorOperation::insert);
-    // Contact adds to the diagonal what it adds to the matrix, and hardly
-    // changes the largest eigenvalue of the two. That of the body does not depend
-    // on what came before.
-    initialize_smoother(12);
-    max_eigenvalue =
-      smoother.estimate_eigenvalues(residual).max_eigenvalue_estimate;
   }
 
 
 
   void
-  Multigrid::initialize_smoother(const unsigned int n_eigenvalue_iterations)
+  Multigrid::initialize_smoother()
   {
     Smoother::AdditionalData data;
-    data.degree              = 2;
-    data.smoothing_range     = 8.;
-    data.eig_cg_n_iterations = n_eigenvalue_iterations;
-    data.max_eigenvalue      = max_eigenvalue;
-    data.preconditioner      = std::make_shared<InverseDiagonal>();
-    Vector &inverse          = data.preconditioner->get_vector();
-    inverse                  = tangent->diagonal();
-    double *values           = inverse.trilinos_vector()[0];
+    data.degree          = 2;
+    data.smoothing_range = 8.;
+    data.preconditioner  = std::make_shared<InverseDiagonal>();
+    Vector &inverse      = data.preconditioner->get_vector();
+    inverse              = tangent->diagonal();
+    bool    is_positive  = true;
+    double *values       = inverse.trilinos_vector()[0];
     for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
-      values[i] = 1. / values[i];
-    smoother.initialize(*tangent, data);
+      {
+        is_positive = is_positive && values[i] > 0. && std::isfinite(values[i]);
+        values[i]   = 1. / values[i];
+      }
+    if (Utilities::MPI::min(is_positive ? 1 : 0, tangent->communicator) == 0)
+      throw NewtonFailure(
+        "The diagonal of the tangent matrix is not positive: multigrid cannot "
+        "smooth with it.");
     residual.reinit(inverse);
     correction.reinit(inverse);
+    try
+      {
+        // By some iterations of conjugate gradients, from the same start each
+        // time: so that it does not depend on what came before.
+        smoother.initialize(*tangent, data);
+        const double largest =
+          smoother.estimate_eigenvalues(residual).max_eigenvalue_estimate;
+        if (!(largest > 0.) || !std::isfinite(largest))
+          throw NewtonFailure(
+            "The tangent matrix is not positive: multigrid "
+            "cannot smooth with it.");
+      }
+    catch (const SolverControl::NoConvergence &)
+      {
+        throw NewtonFailure("The tangent matrix is not finite.");
+      }
   }
 
 
@@ -215,7 +235,7 @@ namespace Ricochet
       {
         coarse.copy_from(coarse_body);
         CoarseProducts(space).add_contact(*tangent, coarse);
-        initialize_smoother(0);
+        initialize_smoother();
       }
 
     const unsigned int     n_modes = space.rigid_body_modes.size();
@@ -236,6 +256,10 @@ namespace Ricochet
     list.set("smoother: sweeps", 2);
     list.set("coarse: type", "Amesos-KLU");
     list.set("coarse: max size", 1000);
+    // ML starts its own estimates of eigenvalues from random vectors; a resumed
+    // run shall have the same.
+    ML_set_random_seed(1 +
+                       Utilities::MPI::this_mpi_process(tangent->communicator));
     aggregation = std::make_unique<TrilinosWrappers::PreconditionAMG>();
     aggregation->initialize(has_smoother ? coarse : *tangent->terms()[0].matrix,
                             list);

@@ -33,7 +33,7 @@ namespace Ricochet
 
     /**
      * A new body: the terms of @p tangent, which must stay where it is. To be
-     * followed by setup().
+     * followed by setup(). Collective, like all functions.
      *
      * @param n_constant the first terms, as many as this, never change their
      * values: what was once computed of them is kept.
@@ -43,6 +43,7 @@ namespace Ricochet
 
     /// Set up for contact as it is in the tangent now. Should it change later,
     /// the coarse levels are still those of the old one.
+    /// @throws NewtonFailure where the diagonal of the tangent is not positive.
     void
     setup();
 
@@ -62,8 +63,8 @@ namespace Ricochet
     vmult(Vector &result, const Vector &vector) const;
 
   private:
-    // A class of its own, as deal.II wants to know more of a matrix that it makes
-    // a DiagonalMatrix of.
+    // A class of its own: for a DiagonalMatrix, deal.II's smoother would read the
+    // entries of the tangent itself.
     class InverseDiagonal : public dealii::DiagonalMatrix<Vector>
     {};
 
@@ -72,10 +73,10 @@ namespace Ricochet
 
     class CoarseProducts;
 
-    /// @param n_eigenvalue_iterations of conjugate gradients to estimate the
-    /// largest eigenvalue; 0: use #max_eigenvalue.
+    /// Chebyshev's polynomials for the tangent as it is now.
+    /// @throws NewtonFailure where its diagonal is not positive.
     void
-    initialize_smoother(const unsigned int n_eigenvalue_iterations);
+    initialize_smoother();
 
     const CoarseSpace      space;
     const bool             is_symmetric;
@@ -83,7 +84,6 @@ namespace Ricochet
     const TangentOperator *tangent = nullptr;
     // The null space as ML wants it: mode by mode, the owned entries.
     std::vector<double> modes;
-    double              max_eigenvalue = 1.;
     Smoother            smoother;
     // Between coarse unknowns: constant terms, the body, and all of the tangent.
     std::map<const Matrix *, Matrix>                           constant_terms;

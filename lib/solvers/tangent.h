@@ -63,8 +63,7 @@ namespace Ricochet
 
     /// Overwrite a matrix with the body's part.
     std::function<void(Matrix &)> assemble_body;
-    /// The body's part as a sum, if it is linear; but for the rows of clamped
-    /// unknowns.
+    /// The body's part as a sum, if it is linear, as if no unknown were clamped.
     MatrixSum body_terms;
     /// Add contact.
     std::function<void(Matrix &)> complete_contact;

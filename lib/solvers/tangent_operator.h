@@ -36,7 +36,7 @@ namespace Ricochet
                     const MPI_Comm          communicator);
 
     /// The matrices A_k, which must stay where they are, with their values: the
-    /// diagonal of their sum is kept.
+    /// diagonal of their sum is kept. Collective.
     void
     set_terms(const MatrixSum &terms);
 
@@ -46,7 +46,7 @@ namespace Ricochet
       return sum;
     }
 
-    /// The rows of C, one for each functional of this rank.
+    /// The rows of C, one for each functional of this rank. Collective.
     void
     set_change(std::vector<FunctionalRow> new_rows);
 
@@ -63,9 +63,11 @@ namespace Ricochet
       return my_functionals;
     }
 
+    /// @p result = T @p vector.
     void
     vmult(Vector &result, const Vector &vector) const;
 
+    /// The diagonal of T.
     Vector
     diagonal() const;
 
@@ -76,6 +78,7 @@ namespace Ricochet
       return owned.size();
     }
 
+    /// Of all ranks that own unknowns.
     const MPI_Comm communicator;
 
   private:

@@ -251,6 +251,7 @@ namespace Ricochet
           tangent.body_terms = stage.bulk_step_force
                      ? bulk.step_tangent_terms(stage.time_step)
                      : bulk.tangent_terms(bulk_weight);
+          AssertThrow(!tangent.body_terms.empty(), ExcInternalError());
           tangent.body_terms.push_back({stage.inertia, &mass});
         }
       tangent.assemble_body = [&](Matrix &matrix) {

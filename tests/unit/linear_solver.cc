@@ -13,6 +13,7 @@
 #include <discretization/linear_bulk.h>
 #include <materials/laws/ciarlet_geymonat.h>
 #include <solvers/linear_solver.h>
+#include <solvers/multigrid.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -30,6 +31,8 @@ namespace
     unsigned int degree    = 1;
     bool         simplices = true;
     double       friction  = 0.;
+    // Size of the random displacements; two thirds of it are the gap.
+    double displacement = .03;
   };
 
   std::vector<Treatment>
@@ -95,7 +98,7 @@ namespace
                                       treatment.scheme,
                                       body,
                                       material,
-                                      cube.plane(.02));
+                                      cube.plane(treatment.displacement / 1.5));
     const Matrix                mass    = assemble_mass_matrix(body, 1.);
     const LinearBulk<dim>       linear_bulk(body, material);
     const Material<dim>         nonlinear(std::make_shared<Hyperelastic<dim>>(
@@ -127,8 +130,8 @@ namespace
     const double       weight = .7;
     for (unsigned int seed = 0; seed < 6; ++seed)
       {
-        randomise(solution, .03, seed);
-        randomise(old_solution, .03, seed + 10);
+        randomise(solution, treatment.displacement, seed);
+        randomise(old_solution, treatment.displacement, seed + 10);
         randomise(right_hand_side, 1., seed + 20);
         for (const auto i : clamped)
           right_hand_side(i) = 0.;
@@ -248,6 +251,102 @@ BOOST_AUTO_TEST_CASE(multigrid_solves)
         if (treatment.scheme == "midpoint" &&
             treatment.name != "Nitsche-hybrid")
           check<2>(treatment, parameters, false, 1e-9);
+      }
+}
+
+// Degree 2 without a sum: each new tangent is a matrix. Displacements are smaller,
+// as the tangent of a crumpled body is indefinite.
+BOOST_AUTO_TEST_CASE(multigrid_solves_with_assembled_tangents)
+{
+  LinearSolver::Parameters parameters;
+  parameters.type = "multigrid";
+  for (const bool simplices : {true, false})
+    for (const double friction : {0., .3})
+      {
+        const Treatment treatment{"improved normal compliance",
+                                  "midpoint",
+                                  1.,
+                                  2,
+                                  simplices,
+                                  friction,
+                                  .006};
+        check<2>(treatment, parameters, false, 1e-9);
+        check<2>(treatment, parameters, true, 1e-9);
+        if (!simplices)
+          check<3>(treatment, parameters, true, 1e-9);
+      }
+}
+
+// Iterations do not grow with the body, nor with the stiffness of contact, which
+// is oblique here; with more coarse unknowns than aggregation leaves alone, on any
+// number of ranks.
+BOOST_AUTO_TEST_CASE(multigrid_needs_few_iterations)
+{
+  for (const double stiffness : {0., 1., 100.})
+    for (const bool simplices : {false, true})
+      {
+        std::vector<int> iterations;
+        for (const int n_cells : {simplices ? 3 : 4, simplices ? 5 : 8})
+          {
+            const CubeAbovePlane<3> cube(simplices, n_cells);
+            const Body<3>           body(cube.triangulation,
+                               2,
+                               {2},
+                               {1},
+                               MultiplierSpace::none,
+                               MPI_COMM_WORLD);
+            const LinearBulk<3>     bulk(body, material);
+            const Matrix            mass = assemble_mass_matrix(body, 1.);
+            dealii::Tensor<1, 3>    normal({.4, .3, 1.});
+            normal /= normal.norm();
+            ContactParameters parameters;
+            parameters.treatment = "penalty";
+            const auto contact   = make_contact(
+              parameters,
+              "midpoint",
+              body,
+              material,
+              {{1,
+                  std::make_shared<dealii::Functions::SignedDistance::Plane<3>>(
+                  dealii::Point<3>(0., 0., .2),
+                  normal)}});
+            Vector solution = body.make_vector(), residual(solution),
+                   right_hand_side(solution), result(solution);
+            contact->begin_stage({solution, solution, solution, .1}, stiffness);
+            contact->complete_residual(solution, residual);
+            const ContactStructure     structure = contact->tangent_structure();
+            std::vector<FunctionalRow> change(
+              structure.functionals->functionals.size());
+            contact->tangent_change(change);
+
+            TangentOperator tangent(body.owned_indices(),
+                                    body.clamped_indices(),
+                                    structure.functionals->functionals,
+                                    MPI_COMM_WORLD);
+            MatrixSum       terms = bulk.tangent_terms(1.);
+            terms.push_back({1., &mass});
+            tangent.set_terms(terms);
+            Multigrid multigrid(body.coarse_space(), true);
+            multigrid.set_body(tangent, terms.size());
+            tangent.set_change(change);
+            multigrid.setup();
+            randomise(right_hand_side, 1., 1);
+            for (const auto i : body.clamped_indices())
+              right_hand_side(i) = 0.;
+            right_hand_side.compress(VectorOperation::insert);
+            iterations.push_back(
+              multigrid.solve(right_hand_side, result, 1e-8));
+            tangent.vmult(residual, result);
+            residual -= right_hand_side;
+            BOOST_CHECK_LT(residual.l2_norm(),
+                           1e-7 * right_hand_side.l2_norm());
+          }
+        BOOST_TEST_MESSAGE("stiffness " << stiffness << ": " << iterations[0]
+                                        << ", " << iterations[1]
+                                        << " iterations");
+        BOOST_CHECK_GT(iterations[0], 0);
+        BOOST_CHECK_LE(iterations[1], 30);
+        BOOST_CHECK_LE(iterations[1], 1.5 * iterations[0]);
       }
 }
 
