@@ -104,9 +104,11 @@ class Sphere(ProgramTest):
         self.compare(whole, again, 1e-9)
 
     def test_resumed_on_one_rank(self):
-        for type in ("automatic", "multigrid"):
-            parameters = COARSE + ["Output/Checkpoint every=100",
-                                   f"Linear solver/Type={type}"]
+        # Multigrid on a mesh that it takes apart into several levels.
+        for type, mesh in (("automatic", []),
+                           ("multigrid", ["Mesh/Mesh size=4.5"])):
+            parameters = COARSE + mesh + ["Output/Checkpoint every=100",
+                                          f"Linear solver/Type={type}"]
             whole = self.folder / f"whole-{type}"
             parts = self.folder / f"parts-{type}"
             self.run_program("sphere", parameters, whole)
