@@ -3,6 +3,7 @@
 #include <base/memory.h>
 #include <base/parameter_file.h>
 #include <discretization/body.h>
+#include <discretization/ghost_flags.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -506,23 +507,11 @@ namespace Ricochet
     const IndexSet &coarse_owned = dofs.locally_owned_dofs();
     IndexSet        coarse_relevant;
     DoFTools::extract_locally_relevant_dofs(dofs, coarse_relevant);
-    space.clamped = boundary_dofs(dofs, clamped_ids) & coarse_owned;
-    // Ask the owners: the clamped face of an unknown of a ghost cell may be that
-    // of a cell which this rank does not know.
-    const auto with_ghosts = [&](const IndexSet &mine,
-                                 const IndexSet &owned_set,
-                                 const IndexSet &relevant_set) {
-      Vector flags(owned_set, communicator);
-      for (const auto i : mine)
-        flags(i) = 1.;
-      flags.compress(VectorOperation::insert);
-      Vector ghosted(owned_set, relevant_set, communicator);
-      ghosted = flags;
-      return ghosted;
-    };
-    const Vector is_clamped = with_ghosts(clamped, owned, relevant);
-    const Vector is_coarse_clamped =
-      with_ghosts(space.clamped, coarse_owned, coarse_relevant);
+    space.clamped     = boundary_dofs(dofs, clamped_ids) & coarse_owned;
+    Vector is_clamped = make_ghosted_vector();
+    flag_with_ghosts(clamped, is_clamped);
+    Vector is_coarse_clamped(coarse_owned, coarse_relevant, communicator);
+    flag_with_ghosts(space.clamped, is_coarse_clamped);
     space.rigid_body_modes = rigid_body_modes(*geometry, dofs, communicator);
 
     DynamicSparsityPattern couplings(coarse_relevant);

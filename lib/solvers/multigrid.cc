@@ -153,10 +153,6 @@ namespace Ricochet
 
 
 
-  Multigrid::~Multigrid() = default;
-
-
-
   void
   Multigrid::set_body(const TangentOperator &new_tangent,
                       const unsigned int     n_constant)

@@ -29,8 +29,6 @@ namespace Ricochet
     /// @param is_symmetric the tangents are: conjugate gradients will do.
     Multigrid(CoarseSpace coarse_space, const bool is_symmetric);
 
-    ~Multigrid();
-
     /**
      * A new body: the terms of @p tangent, which must stay where it is. To be
      * followed by setup(). Collective, like all functions.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <discretization/ghost_flags.h>
 #include <time_integration/mass_redistribution.h>
 
 #include <deal.II/base/mpi.h>
@@ -34,14 +35,8 @@ namespace Ricochet
       DoFTools::map_dofs_to_support_points(body.mapping(),
                                            body.dof_handler(),
                                            positions);
-      // Ask the owners: the contact face of an unknown of a ghost cell may be
-      // that of a cell which this rank does not know.
-      Vector owned_flags = body.make_vector();
-      for (const auto i : body.contact_indices())
-        owned_flags(i) = 1.;
-      owned_flags.compress(VectorOperation::insert);
       Vector on_boundary = body.make_ghosted_vector();
-      on_boundary        = owned_flags;
+      flag_with_ghosts(body.contact_indices(), on_boundary);
       std::map<types::global_dof_index, DoF<dim>> dofs;
       std::vector<types::global_dof_index>        indices(
         body.dof_handler().get_fe().n_dofs_per_cell());
@@ -59,15 +54,19 @@ namespace Ricochet
       return dofs;
     }
 
-    /// Symmetrised products a_k b_k^T at a pair of positions, for all moments:
-    /// 1 1, x_i 1, x_i x_j.
+    /// Symmetrised products a_k b_k^T at the positions of a pair, for all moments
+    /// about @p origin: 1 1, x_i 1, x_i x_j.
     template <int dim>
     Eigen::VectorXd
-    moments_of_pair(const Point<dim> &x, const Point<dim> &y)
+    moments_of_pair(const DoF<dim>   &row,
+                    const DoF<dim>   &column,
+                    const Point<dim> &origin)
     {
-      Eigen::VectorXd values(n_mass_moments<dim>);
-      unsigned int    k = 0;
-      values[k++]       = 1.;
+      const Tensor<1, dim> x = row.position - origin;
+      const Tensor<1, dim> y = column.position - origin;
+      Eigen::VectorXd      values(n_mass_moments<dim>);
+      unsigned int         k = 0;
+      values[k++]            = 1.;
       for (unsigned int i = 0; i < dim; ++i)
         values[k++] = .5 * (x[i] + y[i]);
       for (unsigned int i = 0; i < dim; ++i)
@@ -134,10 +133,8 @@ namespace Ricochet
                               const DoF<dim> &column,
                               const double    value) {
                             if (row.component == 0)
-                              sums += value *
-                                moments_of_pair<dim>(
-                                        Point<dim>(row.position - origin),
-                                        Point<dim>(column.position - origin));
+                              sums +=
+                                value * moments_of_pair(row, column, origin);
                           });
       sum_over_ranks(sums, communicator);
       return sums;
@@ -155,10 +152,6 @@ namespace Ricochet
                       const bool     in_proportion,
                       const MPI_Comm communicator)
     {
-      const auto pair = [&](const DoF<dim> &row, const DoF<dim> &column) {
-        return moments_of_pair<dim>(Point<dim>(row.position - centre),
-                                    Point<dim>(column.position - centre));
-      };
       // What an entry may change, by its own value.
       const auto weight = [&](const double value) {
         return in_proportion ? value : 1.;
@@ -177,7 +170,8 @@ namespace Ricochet
                               const double    value) {
                             if (row.component != 0)
                               return;
-                            const Eigen::VectorXd products = pair(row, column);
+                            const Eigen::VectorXd products =
+                              moments_of_pair(row, column, centre);
                             if (row.on_contact_boundary ||
                                 column.on_contact_boundary)
                               missing += value * products;
@@ -206,23 +200,22 @@ namespace Ricochet
 
       Matrix redistributed;
       redistributed.copy_from(mass);
-      for_each_entry<dim>(mass,
-                          dofs,
-                          [&](const types::global_dof_index row_index,
-                              const types::global_dof_index column_index,
-                              const DoF<dim>               &row,
-                              const DoF<dim>               &column,
-                              const double                  value) {
-                            redistributed.set(row_index,
-                                              column_index,
-                                              row.on_contact_boundary ||
-                                                  column.on_contact_boundary
-                                                ? 0.
-                                                : value +
-                                                  weight(value) *
-                                                    multipliers.dot(
-                                                      pair(row, column)));
-                          });
+      for_each_entry<dim>(
+        mass,
+        dofs,
+        [&](const types::global_dof_index row_index,
+            const types::global_dof_index column_index,
+            const DoF<dim>               &row,
+            const DoF<dim>               &column,
+            const double                  value) {
+          redistributed.set(
+            row_index,
+            column_index,
+            row.on_contact_boundary || column.on_contact_boundary ? 0.
+                                                                  : value +
+                weight(value) *
+                  multipliers.dot(moments_of_pair(row, column, centre)));
+        });
       redistributed.compress(VectorOperation::insert);
       return redistributed;
     }
