@@ -61,7 +61,7 @@ class Run:
             command.append(f"parameter_files/{self.parameter_file}")
         for override in self.overrides:
             command += ["--set", override]
-        command += ["--quiet", "--output-dir", str(self.folder.relative_to(CHECKOUT))]
+        command += ["--quiet", "--overwrite", "--output-dir", str(self.folder.relative_to(CHECKOUT))]
         return command
 
     def read(self, table=None):
@@ -73,7 +73,8 @@ def read_csv(path):
     """The columns of a CSV file whose header is `name [unit],name [unit],...`."""
     with open(path, newline="", encoding="utf-8") as file:
         header = next(csv.reader(file))
-    values = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+    # An empty cell is a value that does not exist.
+    values = np.genfromtxt(path, delimiter=",", skip_header=1, ndmin=2)
     names = [re.sub(r" \[[^\]]*\]$", "", column.strip()) for column in header]
     return dict(zip(names, values.T))
 

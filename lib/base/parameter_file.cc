@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/files.h>
 #include <base/parameter_file.h>
 
 #include <deal.II/base/utilities.h>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -28,6 +28,7 @@ namespace Ricochet
     {
       Path                                           path;
       std::unique_ptr<dealii::Patterns::PatternBase> pattern;
+      std::string                                    value;
     };
     using Declarations = std::map<std::string, Declaration>;
 
@@ -70,7 +71,8 @@ namespace Ricochet
             declarations[join(name)] =
               Declaration{name,
                           dealii::Patterns::pattern_factory(
-                            child.get<std::string>("pattern_description"))};
+                            child.get<std::string>("pattern_description")),
+                          child.get<std::string>("value")};
           else
             collect(child, name, declarations);
         }
@@ -88,6 +90,25 @@ namespace Ricochet
       Declarations declarations;
       collect(tree, {}, declarations);
       return declarations;
+    }
+
+    bool
+    is_input_file(const Declaration &declaration)
+    {
+      const auto *file = dynamic_cast<const dealii::Patterns::FileName *>(
+        declaration.pattern.get());
+      return file && file->file_type == dealii::Patterns::FileName::input;
+    }
+
+    /// The beginning of a text that may be anything.
+    std::string
+    shortened(const std::string &text)
+    {
+      constexpr unsigned int length = 120;
+      std::string            printable;
+      for (const char c : text.substr(0, length))
+        printable += static_cast<unsigned char>(c) < 32 ? '?' : c;
+      return text.size() > length ? printable + "..." : printable;
     }
 
     unsigned int
@@ -116,10 +137,12 @@ namespace Ricochet
       return row[b.size()];
     }
 
-    void
+    /// @param folder where a relative name of a file to be read counts from.
+    Setting
     assign(const Path               &path,
-           const std::string        &value,
+           const std::string        &given_value,
            const std::string        &where,
+           const std::string        &folder,
            const Declarations       &declarations,
            dealii::ParameterHandler &parameters)
     {
@@ -140,7 +163,7 @@ namespace Ricochet
             ? nearest_names(join(path), full_names)
             : same_last_part;
           std::string              message =
-            where + ": there is no parameter '" + join(path) + "'.";
+            where + ": there is no parameter '" + shortened(join(path)) + "'.";
           if (!suggestions.empty())
             {
               message += "\nThe nearest valid names are:";
@@ -151,10 +174,23 @@ namespace Ricochet
           throw InputError(message);
         }
 
-      if (!entry->second.pattern->match(value))
-        throw InputError(where + ": the value '" + value + "' of '" +
+      const Declaration &declaration = entry->second;
+      if (path == Path{"Program"} && given_value != declaration.value)
+        throw InputError(where + ": this file is for the program '" +
+                         shortened(given_value) + "', not for '" +
+                         declaration.value + "'.");
+
+      std::string value = given_value;
+      if (is_input_file(declaration) && !value.empty())
+        value =
+          (std::filesystem::absolute(folder.empty() ? "." : folder) / value)
+            .lexically_normal()
+            .string();
+
+      if (!declaration.pattern->match(value))
+        throw InputError(where + ": the value '" + shortened(value) + "' of '" +
                          join(path) + "' is not allowed.\nAllowed: " +
-                         entry->second.pattern->description(
+                         declaration.pattern->description(
                            dealii::Patterns::PatternBase::OutputStyle::Text));
 
       for (unsigned int i = 0; i + 1 < path.size(); ++i)
@@ -162,36 +198,59 @@ namespace Ricochet
       parameters.set(path.back(), value);
       for (unsigned int i = 0; i + 1 < path.size(); ++i)
         parameters.leave_subsection();
+      return {join(path), value, where, false, value != declaration.value};
     }
 
+    /// What reading a file and those that it includes carries along.
+    struct Reading
+    {
+      const Declarations       &declarations;
+      dealii::ParameterHandler &parameters;
+      std::vector<std::string>  open_files;
+      std::vector<Setting>      settings;
+    };
+
     void
-    read(const std::string        &file_name,
-         const std::string        &included_from,
-         std::vector<std::string> &open_files,
-         const Declarations       &declarations,
-         dealii::ParameterHandler &parameters)
+    read(const std::string &file_name,
+         const std::string &included_from,
+         Reading           &reading)
     {
       namespace fs = std::filesystem;
       const std::string origin =
         included_from.empty() ? "" : included_from + ": ";
+      const auto refuse = [&](const std::string &why) {
+        throw InputError(origin + "the parameter file '" +
+                         shortened(file_name) + "' " + why + ".");
+      };
       std::error_code error;
       if (!fs::exists(file_name, error))
-        throw InputError(origin + "the parameter file '" + file_name +
-                         "' does not exist.");
-      std::ifstream in(file_name);
-      if (!in || fs::is_directory(file_name, error))
-        throw InputError(origin + "the parameter file '" + file_name +
-                         "' cannot be read.");
-      const std::string canonical = fs::canonical(file_name).string();
-      if (std::find(open_files.begin(), open_files.end(), canonical) !=
-          open_files.end())
-        throw InputError(origin + "the parameter file '" + file_name +
-                         "' includes itself.");
-      open_files.push_back(canonical);
+        refuse("does not exist");
+      if (fs::is_directory(file_name, error))
+        refuse("cannot be read: it is a folder");
+      const std::string canonical = fs::canonical(file_name, error).string();
+      if (std::find(reading.open_files.begin(),
+                    reading.open_files.end(),
+                    canonical) != reading.open_files.end())
+        refuse("includes itself");
+      reading.open_files.push_back(canonical);
+      std::string text;
+      try
+        {
+          text = read_file(file_name, /* largest size */ 1 << 24);
+        }
+      catch (const InputError &problem)
+        {
+          throw InputError(origin + "the parameter file " + problem.what());
+        }
+      // Some editors begin a file with a mark of its encoding.
+      if (text.compare(0, 3, "\xEF\xBB\xBF") == 0)
+        text.erase(0, 3);
 
-      Path         section;
-      std::string  line;
-      unsigned int line_number = 0;
+      const std::string  folder = fs::path(file_name).parent_path().string();
+      std::istringstream in(text);
+      Path               section;
+      std::string        line;
+      unsigned int       line_number = 0;
       while (std::getline(in, line))
         {
           ++line_number;
@@ -226,36 +285,32 @@ namespace Ricochet
                 throw InputError(where +
                                  ": 'include' must stand outside of all "
                                  "subsections.");
-              const fs::path target(rest);
-              read(target.is_absolute()
-                     ? rest
-                     : (fs::path(file_name).parent_path() / target).string(),
-                   where,
-                   open_files,
-                   declarations,
-                   parameters);
+              read((fs::path(folder) / rest).string(), where, reading);
             }
           else if (keyword == "set" && rest.find('=') != std::string::npos)
             {
               const std::size_t equal = rest.find('=');
               Path              path  = section;
               path.push_back(trim(rest.substr(0, equal)));
-              assign(path,
-                     trim(rest.substr(equal + 1)),
-                     where,
-                     declarations,
-                     parameters);
+              reading.settings.push_back(assign(path,
+                                                trim(rest.substr(equal + 1)),
+                                                where,
+                                                folder,
+                                                reading.declarations,
+                                                reading.parameters));
             }
           else
-            throw InputError(where + ": cannot make sense of '" + line +
+            throw InputError(where + ": cannot make sense of '" +
+                             shortened(line) +
                              "'.\nA line is 'subsection NAME', 'set NAME = "
                              "VALUE', 'end', 'include FILE' or a comment that "
                              "starts with '#'.");
         }
       if (!section.empty())
-        throw InputError(file_name + ": subsection '" + join(section) +
+        throw InputError(file_name + ": subsection '" +
+                         shortened(join(section)) +
                          "' is never closed with 'end'.");
-      open_files.pop_back();
+      reading.open_files.pop_back();
     }
   } // namespace
 
@@ -279,7 +334,9 @@ namespace Ricochet
     std::vector<std::pair<unsigned int, std::string>> ranked;
     for (const std::string &candidate : candidates)
       {
-        const unsigned int distance = edit_distance(name, candidate);
+        // Nobody types a name this long; the distance takes time.
+        const unsigned int distance =
+          edit_distance(name.substr(0, 200), candidate);
         if (2 * distance <= std::max(name.size(), candidate.size()))
           ranked.emplace_back(distance, candidate);
       }
@@ -292,34 +349,58 @@ namespace Ricochet
 
 
 
-  void
-  read_parameter_file(const std::string        &file_name,
-                      dealii::ParameterHandler &parameters)
+  std::vector<ParameterValue>
+  list_parameters(const dealii::ParameterHandler &parameters)
   {
-    const Declarations       declarations = declarations_of(parameters);
-    std::vector<std::string> open_files;
-    read(file_name, "", open_files, declarations, parameters);
+    std::vector<ParameterValue> list;
+    for (const auto &[name, declaration] : declarations_of(parameters))
+      list.push_back({name, declaration.value, is_input_file(declaration)});
+    return list;
   }
 
 
 
-  void
+  std::vector<Setting>
+  read_parameter_file(const std::string        &file_name,
+                      dealii::ParameterHandler &parameters)
+  {
+    const Declarations declarations = declarations_of(parameters);
+    Reading            reading{declarations, parameters, {}, {}};
+    read(file_name, "", reading);
+    return reading.settings;
+  }
+
+
+
+  Setting
   set_parameter(const std::string        &assignment,
                 dealii::ParameterHandler &parameters)
   {
-    const std::string where = "--set \"" + assignment + "\"";
+    const std::string where = "--set \"" + shortened(assignment) + "\"";
     const std::size_t equal = assignment.find('=');
+    const auto        fail  = [&](const std::string &why) {
+      throw InputError(where + ": " + why +
+                       " Expected the form --set \"Section/Name=value\".");
+    };
     if (equal == std::string::npos)
-      throw InputError(where +
-                       ": expected the form --set \"Section/Name=value\".");
+      fail("there is no '='.");
     Path path;
-    for (const std::string &part :
-         dealii::Utilities::split_string_list(assignment.substr(0, equal), '/'))
-      path.push_back(trim(part));
-    assign(path,
-           trim(assignment.substr(equal + 1)),
-           where,
-           declarations_of(parameters),
-           parameters);
+    for (std::size_t begin = 0; begin <= equal;)
+      {
+        const std::size_t end = std::min(assignment.find('/', begin), equal);
+        path.push_back(trim(assignment.substr(begin, end - begin)));
+        begin = end + 1;
+      }
+    for (const std::string &part : path)
+      if (part.empty())
+        fail("a section or the name is empty.");
+    Setting setting         = assign(path,
+                             trim(assignment.substr(equal + 1)),
+                             where,
+                             ".",
+                             declarations_of(parameters),
+                             parameters);
+    setting.on_command_line = true;
+    return setting;
   }
 } // namespace Ricochet

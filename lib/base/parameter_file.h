@@ -9,29 +9,69 @@
 
 namespace Ricochet
 {
+  /// A parameter as it was set by a file or on the command line.
+  struct Setting
+  {
+    /// "Section/Name".
+    std::string name;
+    std::string value;
+    /// Where: "file.prm, line 3" or the option of the command line.
+    std::string where;
+    bool        on_command_line = false;
+    /// It differs from the program's own default.
+    bool changes_default = false;
+  };
+
+  /// A parameter that has no effect with the others as they are.
+  struct UnusedParameter
+  {
+    /// "Section/Name".
+    std::string name;
+    /// What it belongs to: "the time scheme HHT; Time/Scheme is midpoint".
+    std::string belongs_to;
+  };
+
+  /// A parameter as it is declared, with its value now.
+  struct ParameterValue
+  {
+    /// "Section/Name".
+    std::string name;
+    std::string value;
+    /// It is the name of a file that is read.
+    bool is_input_file = false;
+  };
+
+  /// All parameters, in an order that does not depend on where they were set.
+  std::vector<ParameterValue>
+  list_parameters(const dealii::ParameterHandler &parameters);
+
   /**
    * Read the .prm file @p file_name into @p parameters, in the syntax of
-   * dealii::ParameterHandler, with two additions that users of many small files
-   * need: the path after an `include` counts from the folder of the file that
-   * holds it, and each mistake is reported with file, line and, for a
+   * dealii::ParameterHandler, with these additions that users of many small files
+   * need: the path after an `include`, and the value of a parameter that names a
+   * file to be read, count from the folder of the file that holds them; a
+   * parameter `Program`, if declared, must have its default value, which is the
+   * name of the program; and each mistake is reported with file, line and, for a
    * misspelt name, the nearest valid names.
    *
+   * @return all settings, in their order.
    * @throws InputError file missing or unreadable, unknown section or
    * parameter, value that does not match its pattern, `include` circle,
-   * unbalanced `subsection`/`end`.
+   * unbalanced `subsection`/`end`, file of another program.
    */
-  void
+  std::vector<Setting>
   read_parameter_file(const std::string        &file_name,
                       dealii::ParameterHandler &parameters);
 
   /**
    * Set one parameter from a text of the form "Section/Name=value", as given to
-   * `--set` on the command line. Sections nest: "A/B/Name=value".
+   * `--set` on the command line. Sections nest: "A/B/Name=value". Files to be
+   * read count from the working directory.
    *
    * @throws InputError as read_parameter_file(), with @p assignment in place of
    * file and line.
    */
-  void
+  Setting
   set_parameter(const std::string        &assignment,
                 dealii::ParameterHandler &parameters);
 

@@ -5,8 +5,11 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <new>
 #include <sstream>
 
 namespace Ricochet
@@ -35,6 +38,8 @@ namespace Ricochet
           command_line.output_dir = next_value(argument);
         else if (argument == "--resume")
           command_line.resume = true;
+        else if (argument == "--overwrite")
+          command_line.overwrite = true;
         else if (argument == "--validate")
           command_line.validate_only = true;
         else if (argument == "--print-parameters")
@@ -45,12 +50,15 @@ namespace Ricochet
           command_line.help = true;
         else if (argument == "--version")
           command_line.version = true;
-        else if (!argument.empty() && argument[0] == '-')
+        else if (argument.empty())
+          throw InputError("The name of the parameter file is empty.");
+        else if (argument[0] == '-')
           {
             std::string message = "There is no option '" + argument + "'.";
             const auto  names   = nearest_names(argument,
                                              {"--set",
                                                  "--output-dir",
+                                                 "--overwrite",
                                                  "--resume",
                                                  "--validate",
                                                  "--print-parameters",
@@ -70,40 +78,185 @@ namespace Ricochet
                            "'; a run has one. Use 'include' in a file to "
                            "combine several.");
       }
+    if (command_line.resume && command_line.overwrite)
+      throw InputError(
+        "--resume goes on with the run in the folder, "
+        "--overwrite takes its place: give one of them.");
     return command_line;
   }
 
 
 
-  RunFolder::RunFolder(const std::string &path,
-                       const MPI_Comm     communicator,
-                       const bool         resume,
-                       const bool         quiet)
+  namespace
+  {
+    // What a run leaves in its folder.
+    const std::string              identity_file = "run.txt";
+    const std::vector<std::string> result_files  = {"checkpoint.bin",
+                                                    "energy.csv",
+                                                    "energy.h5",
+                                                    "solution.pvd",
+                                                    "log.txt",
+                                                    "parameters.prm",
+                                                    "parameters.resumed.prm"};
+
+    /// The name of the copy of a parameter file in the folder.
+    std::string
+    name_of_copy(const std::string &parameter_file)
+    {
+      return std::filesystem::path(parameter_file).filename().string();
+    }
+
+    /// The text after @p key in the line that begins with it.
+    std::string
+    entry(const std::string &text, const std::string &key)
+    {
+      std::istringstream lines(text);
+      std::string        line;
+      while (std::getline(lines, line))
+        if (line.compare(0, key.size(), key) == 0)
+          return line.substr(key.size());
+      return {};
+    }
+
+    bool
+    exists(const std::string &file)
+    {
+      std::error_code error;
+      return std::filesystem::exists(file, error);
+    }
+  } // namespace
+
+
+
+  RunFolder::RunFolder(const Options &options, const MPI_Comm communicator)
     : communicator(communicator)
     , is_root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-    , resume(resume)
-    , path(path)
-    , quiet(quiet)
+    , resume(options.resume)
+    , options(options)
   {
-    std::string problem;
-    if (is_root)
+    namespace fs = std::filesystem;
+    on_first_rank(communicator, [&]() {
+      std::error_code error;
+      fs::create_directories(options.path, error);
+      if (error)
+        throw InputError("The output folder '" + options.path +
+                         "' cannot be written to: " + error.message() + ".");
+      lock.take(options.path);
+      identity = "program = " + options.program + "\nparameter file = ";
+      if (!options.parameter_file.empty())
+        identity +=
+          fs::weakly_canonical(options.parameter_file, error).string();
+      identity += "\n";
+      for (const std::string &name : result_files)
+        if (fs::is_directory(file(name), error))
+          throw InputError("The output folder '" + options.path +
+                           "' cannot be used: '" + name +
+                           "' in it is a folder.");
+      if (exists(file("solution")) &&
+          !fs::is_directory(file("solution"), error))
+        throw InputError("The output folder '" + options.path +
+                         "' cannot be used: 'solution' in it is a file, and "
+                         "fields go to a folder of that name.");
+      if (!options.resume && !options.overwrite)
+        check_whose_run_it_holds();
+    });
+  }
+
+
+
+  void
+  RunFolder::check_whose_run_it_holds() const
+  {
+    const auto refuse = [&](const std::string &whose) {
+      throw InputError("The output folder '" + options.path +
+                       "' holds the results of " + whose +
+                       ". Name another folder with --output-dir, or take "
+                       "their place with --overwrite.");
+    };
+    if (!exists(file(identity_file)))
+      {
+        for (const std::string &name : result_files)
+          if (exists(file(name)))
+            refuse("an unknown run");
+        return;
+      }
+    const std::string found = read_file(file(identity_file));
+    if (found == identity)
+      return;
+    const std::string program = entry(found, "program = ");
+    const std::string other   = entry(found, "parameter file = ");
+    // A file that was moved, or came with the folder from elsewhere, is still
+    // the same file.
+    if (program == options.program && !other.empty() &&
+        !options.parameter_file.empty() &&
+        name_of_copy(other) == name_of_copy(options.parameter_file) &&
+        exists(file(name_of_copy(other))) &&
+        read_file(file(name_of_copy(other))) ==
+          read_file(options.parameter_file))
+      return;
+    refuse(program +
+           (other.empty() ? " without a parameter file" : " with " + other));
+  }
+
+
+
+  void
+  RunFolder::remove_earlier_results() const
+  {
+    namespace fs = std::filesystem;
+    // The checkpoint first: from then on nothing can be resumed by mistake.
+    std::vector<std::string> names = result_files;
+    if (exists(file(identity_file)))
+      {
+        const std::string other =
+          entry(read_file(file(identity_file)), "parameter file = ");
+        if (!other.empty())
+          names.push_back(name_of_copy(other));
+      }
+    for (const std::string &name : names)
       {
         std::error_code error;
-        std::filesystem::create_directories(path, error);
+        fs::remove(file(name), error);
         if (error)
-          problem = error.message();
-        else
-          {
-            log_file.open(file("log.txt"),
-                          resume ? std::ios::app : std::ios::trunc);
-            if (!log_file)
-              problem = "no file can be created in it";
-          }
+          throw ComputationError(
+            "'" + file(name) + "' cannot be removed: " + error.message() + ".");
+        fs::remove(file(name + ".new"), error);
       }
-    problem = dealii::Utilities::MPI::broadcast(communicator, problem, 0);
-    if (!problem.empty())
-      throw InputError("The output folder '" + path +
-                       "' cannot be written to: " + problem + ".");
+    std::error_code error;
+    for (const auto &entry : fs::directory_iterator(file("solution"), error))
+      {
+        const std::string name = entry.path().filename().string();
+        if (name.compare(0, 5, "step-") == 0)
+          fs::remove(entry.path(), error);
+      }
+  }
+
+
+
+  void
+  RunFolder::begin()
+  {
+    if (begun)
+      return;
+    begun = true;
+    on_first_rank(communicator, [&]() {
+      if (resume)
+        // An attempt to resume with other parameters must not overwrite the
+        // ones that the results in the folder belong to.
+        write_atomically(file("parameters.resumed.prm"), all_parameters);
+      else
+        {
+          remove_earlier_results();
+          write_atomically(file(identity_file), identity);
+          if (!options.parameter_file.empty())
+            write_atomically(file(name_of_copy(options.parameter_file)),
+                             read_file(options.parameter_file));
+          write_atomically(file("parameters.prm"), all_parameters);
+        }
+      log_file.open(file("log.txt"), /* keep */ resume);
+      log_file.append(early_lines);
+    });
+    early_lines.clear();
   }
 
 
@@ -111,11 +264,12 @@ namespace Ricochet
   void
   RunFolder::log(const std::string &line)
   {
-    if (!is_root)
-      return;
-    log_file << line << std::endl;
-    if (!quiet)
+    if (is_root && !options.quiet)
       std::cout << line << std::endl;
+    if (!begun)
+      early_lines += line + "\n";
+    else
+      on_first_rank(communicator, [&]() { log_file.append(line + "\n"); });
   }
 
 
@@ -123,61 +277,104 @@ namespace Ricochet
   std::string
   RunFolder::file(const std::string &name) const
   {
-    return (std::filesystem::path(path) / name).string();
+    return (std::filesystem::path(options.path) / name).string();
   }
 
 
 
   namespace
   {
-    void
-    print_help(const Program &program)
+    std::string
+    help_text(const Program &program)
     {
-      std::cout
-        << program.description << "\n\n"
-        << "Usage: " << program.name
-        << " [FILE.prm] [options]\n"
-           "  --set \"Section/Name=value\"  override one parameter; may be "
-           "repeated\n"
-           "  --output-dir DIR            folder for all output (default: "
-           "Output/Folder)\n"
-           "  --resume                    continue from the checkpoint in the "
-           "output folder\n"
-           "  --validate                  check the parameters and stop\n"
-           "  --print-parameters          print all parameters with their "
-           "documentation\n"
-           "  --quiet                     no lines on the console (log.txt has "
-           "them)\n"
-           "  --help, --version\n"
-           "Without FILE.prm all parameters have their default values.\n"
-           "In parallel: mpirun -n N "
-        << program.name << " FILE.prm ...\n";
+      return program.description + "\n\n" + "Usage: " + program.name +
+        " [FILE.prm] [options]\n"
+        "  --set \"Section/Name=value\"  override one parameter; may be "
+        "repeated\n"
+        "  --output-dir DIR            folder for all output (default: "
+        "Output/Folder)\n"
+        "  --overwrite                 take the place of the run of another "
+        "file in it\n"
+        "  --resume                    continue from the checkpoint in the "
+        "output folder\n"
+        "  --validate                  check the parameters and stop\n"
+        "  --print-parameters          print all parameters with their "
+        "documentation\n"
+        "  --quiet                     no lines on the console (log.txt has "
+        "them)\n"
+        "  --help, --version\n"
+        "Without FILE.prm all parameters have their default values.\n"
+        "In parallel: mpirun -n N " +
+        program.name + " FILE.prm ...\n";
+    }
+
+
+
+    /// Print what was asked for, on rank 0. @throws ComputationError
+    void
+    print(const std::string &text)
+    {
+      on_first_rank(MPI_COMM_WORLD, [&]() {
+        std::cout << text << std::flush;
+        if (!std::cout)
+          throw ComputationError("The standard output cannot be written to.");
+      });
     }
 
 
 
     /// The parameters but for those that say what to write, when to stop, and
-    /// how hard the solvers try.
+    /// how hard the solvers try. A file counts by what is in it.
     std::string
-    parameters_that_matter(dealii::ParameterHandler &parameters)
+    parameters_that_matter(const dealii::ParameterHandler &parameters)
     {
-      std::stringstream all;
-      parameters.print_parameters(all, dealii::ParameterHandler::ShortText);
-      std::string kept, line;
-      bool        skipping = false;
-      while (std::getline(all, line))
+      std::string text;
+      for (const ParameterValue &parameter : list_parameters(parameters))
         {
-          const std::string text = dealii::Utilities::trim(line);
-          if (text == "subsection Output" || text == "subsection Newton" ||
-              text == "subsection Linear solver")
-            skipping = true;
-          else if (skipping)
-            skipping = (text != "end");
-          else if (text.find("set Final time") != 0 &&
-                   text.find("set Maximum halvings") != 0)
-            kept += text + "\n";
+          const std::string &name        = parameter.name;
+          const auto         begins_with = [&](const std::string &beginning) {
+            return name.compare(0, beginning.size(), beginning) == 0;
+          };
+          if (begins_with("Output/") || begins_with("Newton/") ||
+              begins_with("Linear solver/") || begins_with("Limits/") ||
+              name == "Program" || name == "Time/Final time" ||
+              name == "Time/Maximum halvings")
+            continue;
+          if (parameter.is_input_file && !parameter.value.empty())
+            text += name + " = a file with the checksum " +
+              std::to_string(checksum(read_file(parameter.value))) + "\n";
+          else
+            text += name + " = " + parameter.value + "\n";
         }
-      return kept;
+      return text;
+    }
+
+
+
+    /// Refuse or note parameters without effect. @return the notes.
+    std::vector<std::string>
+    check_unused(const Program &program, const std::vector<Setting> &settings)
+    {
+      std::vector<std::string> notes;
+      if (!program.unused_parameters)
+        return notes;
+      for (const UnusedParameter &unused : program.unused_parameters())
+        {
+          // The last setting is the one that counts.
+          const Setting *last = nullptr;
+          for (const Setting &setting : settings)
+            if (setting.name == unused.name)
+              last = &setting;
+          if (!last || !last->changes_default)
+            continue;
+          const std::string text = "'" + unused.name + "' is set to '" +
+            last->value + "' and has no effect: it belongs to " +
+            unused.belongs_to + ".";
+          if (last->on_command_line)
+            throw InputError(last->where + ": " + text);
+          notes.push_back("note: " + last->where + ": " + text);
+        }
+      return notes;
     }
 
 
@@ -185,86 +382,82 @@ namespace Ricochet
     void
     execute(const int argc, char **argv, const Program &program)
     {
+      namespace fs                = std::filesystem;
       const MPI_Comm communicator = MPI_COMM_WORLD;
-      const bool     is_root =
-        dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
 
       const CommandLine command_line = parse_command_line(argc, argv);
       if (command_line.help)
-        {
-          if (is_root)
-            print_help(program);
-          return;
-        }
+        return print(help_text(program));
       if (command_line.version)
-        {
-          if (is_root)
-            std::cout << program.name << " of Ricochet " << RICOCHET_VERSION
-                      << " (" << RICOCHET_BUILD_TYPE << "), deal.II "
-                      << DEAL_II_PACKAGE_VERSION << std::endl;
-          return;
-        }
+        return print(program.name + " of Ricochet " + RICOCHET_VERSION + " (" +
+                     RICOCHET_BUILD_TYPE + "), deal.II " +
+                     DEAL_II_PACKAGE_VERSION + "\n");
 
       dealii::ParameterHandler parameters;
-      std::string              output_dir = "output/" + program.name;
+      std::string              program_name = program.name;
+      parameters.add_parameter("Program",
+                               program_name,
+                               "The program that this file is for; others "
+                               "refuse it.");
+      std::string output_dir;
       parameters.enter_subsection("Output");
       parameters.add_parameter("Folder",
                                output_dir,
-                               "Folder for all output of the run. On the "
-                               "command line: --output-dir.",
+                               "Folder for all output of the run; empty for "
+                               "output/PROGRAM/FILE, from the names of program "
+                               "and parameter file. On the command line: "
+                               "--output-dir.",
                                dealii::Patterns::DirectoryName());
       parameters.leave_subsection();
       program.add_parameters(parameters);
+      std::vector<Setting> settings;
       if (!command_line.parameter_file.empty())
-        read_parameter_file(command_line.parameter_file, parameters);
+        settings = read_parameter_file(command_line.parameter_file, parameters);
       for (const std::string &assignment : command_line.assignments)
-        set_parameter(assignment, parameters);
+        settings.push_back(set_parameter(assignment, parameters));
 
+      std::ostringstream all_parameters;
+      parameters.print_parameters(all_parameters,
+                                  dealii::ParameterHandler::Text);
       if (command_line.print_parameters)
-        {
-          if (is_root)
-            parameters.print_parameters(std::cout,
-                                        dealii::ParameterHandler::Text);
-          return;
-        }
+        return print(all_parameters.str());
 
       program.validate();
+      const std::vector<std::string> notes = check_unused(program, settings);
       if (command_line.validate_only)
         {
-          if (is_root)
-            std::cout << "The parameters are valid." << std::endl;
-          return;
+          std::string text = "The parameters are valid.\n";
+          for (const std::string &note : notes)
+            text += note + "\n";
+          return print(text);
         }
 
-      RunFolder folder(command_line.output_dir.empty()
-                         ? output_dir
-                         : command_line.output_dir,
-                       communicator,
-                       command_line.resume,
-                       command_line.quiet);
-      if (is_root)
-        {
-          namespace fs = std::filesystem;
-          std::error_code error;
-          if (!command_line.parameter_file.empty() && !command_line.resume)
-            fs::copy_file(
-              command_line.parameter_file,
-              folder.file(
-                fs::path(command_line.parameter_file).filename().string()),
-              fs::copy_options::overwrite_existing,
-              error);
-          // An attempt to resume with other parameters must not overwrite the
-          // ones that the results in the folder belong to.
-          std::ofstream all(folder.file(
-            command_line.resume ? "parameters.resumed.prm" : "parameters.prm"));
-          parameters.print_parameters(all, dealii::ParameterHandler::Text);
-        }
+      // Who stops reading the console does not stop the run.
+      std::signal(SIGPIPE, SIG_IGN);
+      if (!command_line.output_dir.empty())
+        output_dir = command_line.output_dir;
+      // Runs of different files do not meet by themselves.
+      if (output_dir.empty())
+        output_dir = "output/" + program.name + "/" +
+          (command_line.parameter_file.empty()
+             ? "without_file"
+             : fs::path(command_line.parameter_file).stem().string());
+      RunFolder folder({output_dir,
+                        program.name,
+                        command_line.parameter_file,
+                        command_line.resume,
+                        command_line.overwrite,
+                        command_line.quiet},
+                       communicator);
+      folder.all_parameters         = all_parameters.str();
       folder.parameters_that_matter = parameters_that_matter(parameters);
       folder.log(
         program.name + ", Ricochet " + RICOCHET_VERSION + " (" +
         RICOCHET_BUILD_TYPE + "), deal.II " + DEAL_II_PACKAGE_VERSION + ", " +
         std::to_string(dealii::Utilities::MPI::n_mpi_processes(communicator)) +
         " MPI rank(s)");
+      for (const std::string &note : notes)
+        folder.log(note);
       program.run(folder);
     }
   } // namespace
@@ -274,6 +467,9 @@ namespace Ricochet
   int
   run_program(const int argc, char **argv, const Program &program)
   {
+    // Beyond the limit on the size of files, writing fails as on a full disk.
+    std::signal(SIGXFSZ, SIG_IGN);
+
     // One thread per rank: the parallelism of Ricochet is MPI.
     int                                      mpi_argc = argc;
     char                                   **mpi_argv = argv;
@@ -291,6 +487,12 @@ namespace Ricochet
                   << text << "\n"
                   << std::endl;
     };
+    // Possibly on one rank only: the others must not wait for ever.
+    const auto stop_all_ranks = [](const int code) {
+      if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+        MPI_Abort(MPI_COMM_WORLD, code);
+      return code;
+    };
     try
       {
         execute(argc, argv, program);
@@ -306,14 +508,19 @@ namespace Ricochet
         report("the computation stopped.", error.what());
         return 2;
       }
+    catch (const std::bad_alloc &)
+      {
+        std::cerr << "\n"
+                  << program.name << ": the computation stopped.\n"
+                  << "There is not enough memory.\n"
+                  << std::endl;
+        return stop_all_ranks(2);
+      }
     catch (const std::exception &error)
       {
-        // Possibly on one rank only: the others must not wait for ever.
         std::cerr << program.name << ": an error that should not happen.\n"
                   << error.what() << std::endl;
-        if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-          MPI_Abort(MPI_COMM_WORLD, 3);
-        return 3;
+        return stop_all_ranks(3);
       }
     return 0;
   }

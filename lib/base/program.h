@@ -2,11 +2,14 @@
 #ifndef ricochet_base_program_h
 #define ricochet_base_program_h
 
+#include <base/files.h>
+#include <base/parameter_file.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
 
-#include <fstream>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,6 +22,7 @@ namespace Ricochet
     std::vector<std::string> assignments;
     std::string              output_dir;
     bool                     resume           = false;
+    bool                     overwrite        = false;
     bool                     validate_only    = false;
     bool                     print_parameters = false;
     bool                     help             = false;
@@ -33,22 +37,43 @@ namespace Ricochet
   /**
    * The folder a run writes to, and its log. It holds `log.txt`, the parameter
    * file as it was given, `parameters.prm` with the values of all parameters,
-   * and what the output classes add. All members may be called on all ranks;
-   * only rank 0 touches files.
+   * `run.txt` that says whose run it is, and what the output classes add. All
+   * members are called on all ranks; only rank 0 touches files.
+   *
+   * One process at a time writes to a folder. What an earlier run has left is
+   * untouched until begin(): a run that is refused while it is set up leaves
+   * everything as it was.
    */
   class RunFolder
   {
   public:
-    /**
-     * Create the folder @p path if need be.
-     * @throws InputError on all ranks when it cannot be created or written to.
-     */
-    RunFolder(const std::string &path,
-              const MPI_Comm     communicator,
-              const bool         resume,
-              const bool         quiet);
+    struct Options
+    {
+      std::string path;
+      /// Name of the program.
+      std::string program;
+      /// Empty for none.
+      std::string parameter_file;
+      bool        resume    = false;
+      bool        overwrite = false;
+      bool        quiet     = false;
+    };
 
-    /// Print one line on the console and into `log.txt`, on rank 0 only.
+    /**
+     * Create the folder if need be, and lock it.
+     * @throws InputError on all ranks when it cannot be created or written to,
+     * is in use, or holds the run of another program or parameter file and
+     * neither resume nor overwrite is asked for.
+     */
+    RunFolder(const Options &options, const MPI_Comm communicator);
+
+    /// Take away what an earlier run has left, unless it is resumed, and begin
+    /// the log. Called when the set-up has succeeded; further calls do nothing.
+    void
+    begin();
+
+    /// Print one line on the console and into `log.txt`.
+    /// @throws ComputationError when the disk is full.
     void
     log(const std::string &line);
 
@@ -65,10 +90,24 @@ namespace Ricochet
     /// solvers are not among them.
     std::string parameters_that_matter;
 
+    /// All parameters, for `parameters.prm`.
+    std::string all_parameters;
+
   private:
-    const std::string path;
-    const bool        quiet;
-    std::ofstream     log_file;
+    void
+    check_whose_run_it_holds() const;
+
+    void
+    remove_earlier_results() const;
+
+    const Options options;
+    FolderLock    lock;
+    // What run.txt says of this run.
+    std::string identity;
+    bool        begun = false;
+    GrowingFile log_file;
+    // What was logged before begin().
+    std::string early_lines;
   };
 
   /// What run_program() needs to know about one of the programs in steps/.
@@ -84,6 +123,8 @@ namespace Ricochet
     std::function<void()> validate;
     /// Do the work.
     std::function<void(RunFolder &)> run;
+    /// The parameters without effect; may be left out.
+    std::function<std::vector<UnusedParameter>()> unused_parameters = {};
   };
 
   /**
@@ -91,8 +132,11 @@ namespace Ricochet
    * then validate and run.
    *
    *     NAME [FILE.prm] [--set "Section/Name=value"]... [--output-dir DIR]
-   *          [--resume] [--validate] [--print-parameters] [--quiet]
-   *          [--help] [--version]
+   *          [--overwrite] [--resume] [--validate] [--print-parameters]
+   *          [--quiet] [--help] [--version]
+   *
+   * A parameter without effect is refused when it is set on the command line, and
+   * noted in the log when a file sets it: files set what belongs together.
    *
    * Errors are printed once, by rank 0, without a stack trace.
    *

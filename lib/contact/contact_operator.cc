@@ -21,8 +21,14 @@ namespace Ricochet
     unsigned int longest = 0;
     local_index.reserve(points.index.size());
     for (const auto index : points.index)
-      local_index.push_back(ghosted.trilinos_vector().Map().LID(
-        static_cast<dealii::TrilinosWrappers::types::int_type>(index)));
+      {
+        local_index.push_back(ghosted.trilinos_vector().Map().LID(
+          static_cast<dealii::TrilinosWrappers::types::int_type>(index)));
+        AssertThrow(local_index.back() >= 0,
+                    dealii::ExcMessage("A contact point needs the unknown " +
+                                       std::to_string(index) +
+                                       ", which this rank does not know."));
+      }
     for (const ContactPoint &point : points.points)
       longest = std::max(longest, point.end - point.begin);
     values.resize(longest);
@@ -251,6 +257,7 @@ namespace Ricochet
   {
     area += point.weight;
     mean_gap += point.weight * gap;
+    smallest_gap    = std::min(smallest_gap, gap);
     max_penetration = std::max(max_penetration, -gap);
     force += point_force;
     active_points += is_active;

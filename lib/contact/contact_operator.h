@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -25,6 +26,8 @@ namespace Ricochet
     double force = 0.;
     /// Mean gap (m).
     double mean_gap = 0.;
+    /// Smallest gap (m), that of a boundary without points being infinite.
+    double smallest_gap = std::numeric_limits<double>::infinity();
     /// Largest penetration (m), 0 without.
     double max_penetration = 0.;
     /// Mean of the pressure that the treatment itself stands for (Pa): [P_N]_-
@@ -172,6 +175,14 @@ namespace Ricochet
     virtual double
     potential(const Vector &solution) = 0;
 
+    /// Whether there is a modified energy. A constraint stores nothing; a method
+    /// without potential has none.
+    virtual bool
+    has_modified_energy() const
+    {
+      return true;
+    }
+
     /// Per row, the factor that makes the residual a force: 1 for
     /// displacements, a stiffness for multipliers.
     virtual const Vector &
@@ -179,7 +190,9 @@ namespace Ricochet
 
     /// Contact pressure (Pa) at a solved state, as a field for pictures: the
     /// average around each node of the contact boundary, in the place of the
-    /// node's first displacement; zero elsewhere.
+    /// node's first displacement; zero elsewhere. It depends on the arguments
+    /// alone: in nodes it is read off the force, elsewhere it is the law's pressure
+    /// at the solution.
     virtual Vector
     pressure_field(const Vector &solution, const Vector &contact_force) = 0;
 

@@ -33,6 +33,39 @@ namespace Ricochet
         normal[c] = gradient[c] / gradient.norm();
       return normal;
     }
+    /// Whether the zero set of @p distance looks like a plane from @p x: the
+    /// distance is affine over @p length (m) in all directions. A curved obstacle
+    /// would be frozen in the tangent plane of the reference position.
+    template <int dim>
+    bool
+    is_plane(const Function<dim> &distance,
+             const Point<dim>    &x,
+             const double         length)
+    {
+      const double         here     = distance.value(x);
+      const Tensor<1, dim> gradient = distance.gradient(x);
+      for (unsigned int c = 0; c < dim; ++c)
+        for (const double step : {-length, length})
+          {
+            Point<dim> there = x;
+            there[c] += step;
+            if (!(std::abs(distance.value(there) - here - step * gradient[c]) <=
+                  1e-9 * (length + std::abs(here))))
+              return false;
+          }
+      return std::abs(gradient.norm() - 1.) < 1e-9;
+    }
+
+    /// Refuse curved obstacles, on all ranks alike.
+    void
+    require_planes(const bool all_are_planes, const MPI_Comm communicator)
+    {
+      if (Utilities::MPI::min(all_are_planes ? 1 : 0, communicator) == 0)
+        throw InputError(
+          "An obstacle is curved, or its function is not a distance. Contact "
+          "is linearised about the position at the start, which is right for "
+          "planes only: take a plane.");
+    }
   } // namespace
 
 
@@ -66,6 +99,7 @@ namespace Ricochet
       }
 
     ContactPoints points;
+    bool          all_are_planes = true;
     for (const auto &cell : body.dof_handler().active_cell_iterators())
       {
         if (!cell->is_locally_owned())
@@ -92,6 +126,8 @@ namespace Ricochet
               {
                 const Point<dim>  &x = face_values.quadrature_point(q);
                 const Tensor<1, 3> obstacle_normal = normal_of(distance, x);
+                all_are_planes =
+                  all_are_planes && is_plane(distance, x, cell->diameter());
 
                 ContactPoint point;
                 point.weight          = face_values.JxW(q);
@@ -136,7 +172,156 @@ namespace Ricochet
               }
           }
       }
+    require_planes(all_are_planes, body.communicator);
     return points;
+  }
+
+
+
+  namespace
+  {
+    template <int dim>
+    ContactPoints
+    nodes_of_contact_boundary(const Body<dim>      &body,
+                              const Obstacles<dim> &obstacles,
+                              const bool            with_multipliers)
+    {
+      const FiniteElement<dim> &element = body.dof_handler().get_fe();
+
+      // What is known of each owned node, by the system index of its first
+      // displacement. Ghost cells are visited too: an owned node may lie on
+      // contact faces of cells of other ranks only.
+      struct Node
+      {
+        ContactPoint                                 point;
+        std::array<types::global_dof_index, dim + 1> index;
+      };
+      std::map<types::global_dof_index, Node> nodes;
+
+      // The lumped boundary mass, on the first displacement of each node.
+      // Its terms without their signs tell zero from round-off.
+      Vector lumped_boundary_mass = body.make_vector();
+      Vector sum_of_moduli        = body.make_vector();
+      bool   all_are_planes       = true;
+
+      FEFaceValues<dim>                    face_values(body.mapping(),
+                                    element,
+                                    body.face_quadrature(),
+                                    update_values | update_JxW_values);
+      std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
+      std::vector<types::global_dof_index> multiplier_indices(
+        with_multipliers
+          ? body.multiplier_dof_handler().get_fe().n_dofs_per_cell()
+          : 0);
+      for (const auto &cell : body.dof_handler().active_cell_iterators())
+        {
+          if (cell->is_artificial())
+            continue;
+          for (const unsigned int f : cell->face_indices())
+            {
+              const auto face = cell->face(f);
+              if (!face->at_boundary() ||
+                  body.contact_boundary_ids().count(face->boundary_id()) == 0)
+                continue;
+
+              cell->get_dof_indices(indices);
+              if (cell->is_locally_owned())
+                face_values.reinit(cell, f);
+              if (with_multipliers)
+                body.multiplier_cell(cell)->get_dof_indices(multiplier_indices);
+
+              // The element's own has_support_on_face() says yes to all shape
+              // functions of simplices.
+              std::vector<types::global_dof_index> face_indices(
+                element.n_dofs_per_face(f));
+              face->get_dof_indices(face_indices);
+              const std::set<types::global_dof_index> face_dofs(
+                face_indices.begin(),
+                face_indices.end());
+
+              for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
+                {
+                  const auto [component, node] =
+                    element.system_to_component_index(i);
+                  if (component != 0 || face_dofs.count(indices[i]) == 0)
+                    continue;
+                  const types::global_dof_index first =
+                    body.system_index(indices[i]);
+
+                  if (cell->is_locally_owned())
+                    {
+                      double mass = 0., moduli = 0.;
+                      for (const unsigned int q :
+                           face_values.quadrature_point_indices())
+                        {
+                          const double term =
+                            face_values.shape_value(i, q) * face_values.JxW(q);
+                          mass += term;
+                          moduli += std::abs(term);
+                        }
+                      lumped_boundary_mass(first) += mass;
+                      sum_of_moduli(first) += moduli;
+                    }
+                  if (!body.owned_indices().is_element(first))
+                    continue;
+
+                  Node &info = nodes[first];
+                  info.point.cell_diameter =
+                    std::max(info.point.cell_diameter, cell->diameter());
+                  info.point.boundary_id = face->boundary_id();
+                  for (unsigned int c = 0; c < dim; ++c)
+                    info.index[c] = body.system_index(
+                      indices[element.component_to_system_index(c, node)]);
+                  if (with_multipliers)
+                    info.index[dim] =
+                      body.multiplier_system_index(multiplier_indices[node]);
+
+                  const Point<dim> x =
+                    body.mapping().transform_unit_to_real_cell(
+                      cell,
+                      element.unit_support_point(i));
+                  const Function<dim> &distance =
+                    obstacle_of(obstacles, face->boundary_id());
+                  info.point.initial_gap     = distance.value(x);
+                  info.point.obstacle_normal = normal_of(distance, x);
+                  all_are_planes =
+                    all_are_planes && is_plane(distance, x, cell->diameter());
+                }
+            }
+        }
+      lumped_boundary_mass.compress(VectorOperation::add);
+      sum_of_moduli.compress(VectorOperation::add);
+      require_planes(all_are_planes, body.communicator);
+
+      ContactPoints points;
+      for (auto &[first, node] : nodes)
+        {
+          const double mass   = lumped_boundary_mass(first);
+          const double moduli = sum_of_moduli(first);
+          node.point.weight   = std::abs(mass) > 1e-10 * moduli ? mass : 0.;
+          node.point.begin    = points.index.size();
+          for (unsigned int c = 0; c < dim; ++c)
+            points.add_displacement(node.index[c],
+                                    node.point.obstacle_normal,
+                                    c,
+                                    1.,
+                                    0.);
+          if (with_multipliers)
+            points.add_multiplier(node.index[dim], 1.);
+          node.point.end = points.index.size();
+          points.points.push_back(node.point);
+        }
+      return points;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  ContactPoints
+  make_contact_nodes(const Body<dim> &body, const Obstacles<dim> &obstacles)
+  {
+    return nodes_of_contact_boundary(body, obstacles, false);
   }
 
 
@@ -146,127 +331,23 @@ namespace Ricochet
   make_nodal_contact_points(const Body<dim>      &body,
                             const Obstacles<dim> &obstacles)
   {
-    const FiniteElement<dim> &element = body.dof_handler().get_fe();
-    if (body.has_multipliers() && element.degree > 1)
+    const unsigned int degree = body.dof_handler().get_fe().degree;
+    if (body.has_multipliers() && degree > 1)
       throw InputError(
         "Multipliers in the nodes need displacements of degree "
         "1; with degree " +
-        std::to_string(element.degree) +
+        std::to_string(degree) +
         " take the proximal augmented Lagrangian or the active "
         "set.");
-
-    // What is known of each owned node, by the system index of its first
-    // displacement. Ghost cells are visited too: an owned node may lie on
-    // contact faces of cells of other ranks only.
-    struct Node
-    {
-      ContactPoint                                 point;
-      std::array<types::global_dof_index, dim + 1> index;
-    };
-    std::map<types::global_dof_index, Node> nodes;
-
-    // The lumped boundary mass, on the first displacement of each node.
-    Vector lumped_boundary_mass = body.make_vector();
-
-    FEFaceValues<dim>                    face_values(body.mapping(),
-                                  element,
-                                  body.face_quadrature(),
-                                  update_values | update_JxW_values);
-    std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
-    std::vector<types::global_dof_index> multiplier_indices(
-      body.has_multipliers()
-        ? body.multiplier_dof_handler().get_fe().n_dofs_per_cell()
-        : 0);
-    for (const auto &cell : body.dof_handler().active_cell_iterators())
+    const ContactPoints points =
+      nodes_of_contact_boundary(body, obstacles, body.has_multipliers());
+    bool positive = true, clamped = false;
+    for (const ContactPoint &point : points.points)
       {
-        if (cell->is_artificial())
-          continue;
-        for (const unsigned int f : cell->face_indices())
-          {
-            const auto face = cell->face(f);
-            if (!face->at_boundary() ||
-                body.contact_boundary_ids().count(face->boundary_id()) == 0)
-              continue;
-
-            cell->get_dof_indices(indices);
-            if (cell->is_locally_owned())
-              face_values.reinit(cell, f);
-            if (body.has_multipliers())
-              body.multiplier_cell(cell)->get_dof_indices(multiplier_indices);
-
-            // The element's own has_support_on_face() says yes to all shape
-            // functions of simplices.
-            std::vector<types::global_dof_index> face_indices(
-              element.n_dofs_per_face(f));
-            face->get_dof_indices(face_indices);
-            const std::set<types::global_dof_index> face_dofs(
-              face_indices.begin(),
-              face_indices.end());
-
-            for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
-              {
-                const auto [component, node] =
-                  element.system_to_component_index(i);
-                if (component != 0 || face_dofs.count(indices[i]) == 0)
-                  continue;
-                const types::global_dof_index first =
-                  body.system_index(indices[i]);
-
-                if (cell->is_locally_owned())
-                  {
-                    double mass = 0.;
-                    for (const unsigned int q :
-                         face_values.quadrature_point_indices())
-                      mass +=
-                        face_values.shape_value(i, q) * face_values.JxW(q);
-                    lumped_boundary_mass(first) += mass;
-                  }
-                if (!body.owned_indices().is_element(first))
-                  continue;
-
-                Node &info = nodes[first];
-                info.point.cell_diameter =
-                  std::max(info.point.cell_diameter, cell->diameter());
-                info.point.boundary_id = face->boundary_id();
-                for (unsigned int c = 0; c < dim; ++c)
-                  info.index[c] = body.system_index(
-                    indices[element.component_to_system_index(c, node)]);
-                if (body.has_multipliers())
-                  info.index[dim] =
-                    body.multiplier_system_index(multiplier_indices[node]);
-
-                const Point<dim> x = body.mapping().transform_unit_to_real_cell(
-                  cell,
-                  element.unit_support_point(i));
-                const Function<dim> &distance =
-                  obstacle_of(obstacles, face->boundary_id());
-                info.point.initial_gap     = distance.value(x);
-                info.point.obstacle_normal = normal_of(distance, x);
-              }
-          }
-      }
-    lumped_boundary_mass.compress(VectorOperation::add);
-
-    ContactPoints points;
-    bool          positive = true;
-    bool          clamped  = false;
-    for (auto &[first, node] : nodes)
-      {
-        node.point.weight = lumped_boundary_mass(first);
-        positive          = positive && node.point.weight > 0.;
-        for (unsigned int c = 0; c < dim; ++c)
-          clamped = clamped || body.clamped_indices().is_element(node.index[c]);
-        node.point.begin = points.index.size();
-        for (unsigned int c = 0; c < dim; ++c)
-          points.add_displacement(node.index[c],
-                                  node.point.obstacle_normal,
-                                  c,
-                                  1.,
-                                  0.);
-        if (body.has_multipliers())
-          points.add_multiplier(node.index[dim], 1.);
-        node.point.end = points.index.size();
-        points.points.push_back(node.point);
+        positive = positive && point.weight > 0.;
+        for (unsigned int k = point.begin; k < point.end; ++k)
+          clamped =
+            clamped || body.clamped_indices().is_element(points.index[k]);
       }
     if (Utilities::MPI::max(clamped ? 1 : 0, body.communicator) == 1)
       throw InputError(
@@ -278,7 +359,7 @@ namespace Ricochet
       throw InputError(
         "Nodal contact needs nodes with a positive lumped "
         "boundary mass; elements of degree " +
-        std::to_string(element.degree) +
+        std::to_string(degree) +
         " on this mesh have others. Take degree 1, or one of "
         "the treatments that integrate over the boundary.");
     return points;
@@ -298,9 +379,15 @@ namespace Ricochet
                                  const std::optional<LinearElastic> &,
                                  const Obstacles<3> &);
   template ContactPoints
+  make_contact_nodes(const Body<1> &, const Obstacles<1> &);
+  template ContactPoints
   make_nodal_contact_points(const Body<1> &, const Obstacles<1> &);
   template ContactPoints
+  make_contact_nodes(const Body<2> &, const Obstacles<2> &);
+  template ContactPoints
   make_nodal_contact_points(const Body<2> &, const Obstacles<2> &);
+  template ContactPoints
+  make_contact_nodes(const Body<3> &, const Obstacles<3> &);
   template ContactPoints
   make_nodal_contact_points(const Body<3> &, const Obstacles<3> &);
 } // namespace Ricochet

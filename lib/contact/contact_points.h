@@ -19,7 +19,7 @@ namespace Ricochet
    * The rigid obstacle that a part of the boundary can touch: its signed
    * distance (m), positive outside, by boundary id. Kinematics are linearised
    * about the reference position, which is exact for planes:
-   * gap(u) = distance(x) + grad distance(x) . u.
+   * gap(u) = distance(x) + grad distance(x) . u. Others are refused.
    */
   template <int dim>
   using Obstacles = std::map<dealii::types::boundary_id,
@@ -118,6 +118,8 @@ namespace Ricochet
    * The stress pressure is that of @p material on the face, along the normal
    * of the obstacle: p = normal . sigma(u) n, with n the outward normal of the
    * body. Without a linear material it is zero.
+   *
+   * @throws InputError when an obstacle is not a plane.
    */
   template <int dim>
   ContactPoints
@@ -126,13 +128,22 @@ namespace Ricochet
                                  const Obstacles<dim>               &obstacles);
 
   /**
-   * Owned nodes of the contact boundary, each with its lumped boundary mass.
-   * The multiplier of a node is the one of that node; nodes know no stress
+   * Owned nodes of the contact boundary, each with its lumped boundary mass,
+   * which is zero in vertices of quadratic tetrahedra; without multipliers.
+   *
+   * @throws InputError when an obstacle is not a plane.
+   */
+  template <int dim>
+  ContactPoints
+  make_contact_nodes(const Body<dim> &body, const Obstacles<dim> &obstacles);
+
+  /**
+   * The same for treatments that live in nodes. The multiplier of a node is the one of that node; nodes know no stress
    * pressure.
    *
    * @throws InputError when a lumped boundary mass is not positive (vertices of
-   * quadratic tetrahedra), for nodal multipliers with degree > 1, and when a
-   * node is clamped.
+   * quadratic tetrahedra), for nodal multipliers with degree > 1, when a node is
+   * clamped, and when an obstacle is not a plane.
    */
   template <int dim>
   ContactPoints

@@ -2,6 +2,7 @@
 #ifndef ricochet_contact_contact_treatment_h
 #define ricochet_contact_contact_treatment_h
 
+#include <base/parameter_file.h>
 #include <contact/contact_operator.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -28,6 +29,10 @@ namespace Ricochet
 
     void
     add_parameters(dealii::ParameterHandler &parameters);
+
+    /// The parameters that the treatment makes no use of.
+    std::vector<UnusedParameter>
+    unused_parameters() const;
   };
 
   /// Names of all contact treatments, as a pattern for Patterns::Selection.
@@ -63,6 +68,9 @@ namespace Ricochet
   /// @p body against @p obstacles. @p material gives the stress on the contact
   /// boundary; none for hyperelastic bodies, with which the treatments that
   /// use that stress are refused.
+  ///
+  /// @throws InputError when Nitsche's parameter is below its bound of stability
+  /// on this mesh, or the points of contact cannot be made.
   template <int dim>
   std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters            &parameters,

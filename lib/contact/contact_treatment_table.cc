@@ -9,6 +9,7 @@
 #include <contact/laws/normal_compliance.h>
 #include <contact/laws/penalty.h>
 #include <contact/laws/signorini_multiplier.h>
+#include <contact/nitsche_bound.h>
 #include <contact/pointwise_contact.h>
 
 #include <deal.II/base/utilities.h>
@@ -151,6 +152,20 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    /// Nitsche's method has a potential in its symmetric variant only. A
+    /// constraint stores nothing.
+    bool
+    has_modified_energy(const ContactParameters &parameters)
+    {
+      return !find(parameters).traits.uses_stress ||
+        parameters.nitsche_theta == 1.;
+    }
+  } // namespace
+
+
+
   std::string
   contact_treatment_names()
   {
@@ -184,10 +199,8 @@ namespace Ricochet
                                         "midpoint"};
     // A differential equation with an invertible mass and a potential from
     // which the work against contact can be read.
-    const bool symmetric =
-      parameters.treatment != "Nitsche" || parameters.nitsche_theta == 1.;
     if (!redistributed_mass && !traits.needs_multiplier &&
-        traits.has_potential && symmetric)
+        traits.has_potential && has_modified_energy(parameters))
       schemes.push_back("ARKODE");
     return schemes;
   }
@@ -299,6 +312,68 @@ namespace Ricochet
 
 
 
+  std::vector<UnusedParameter>
+  ContactParameters::unused_parameters() const
+  {
+    const Treatment             &own = find(*this);
+    std::vector<UnusedParameter> unused;
+    const auto                   need =
+      [&](const bool used, const std::string &name, const std::string &owner) {
+        if (!used)
+          unused.push_back(
+            {"Contact/" + name, owner + "; Contact/Treatment is " + treatment});
+      };
+    const bool compliant        = own.make_law && !own.traits.piecewise_linear;
+    const bool exponent_is_free = treatment != "Hauret-Le Tallec";
+    const bool friction         = friction_coefficient > 0.;
+    need(own.traits.uses_stress, "Nitsche gamma0", "Nitsche's method");
+    need(own.traits.uses_stress, "Nitsche theta", "Nitsche's method");
+    need(treatment == "penalty", "Penalty epsilon0", "penalty");
+    need(compliant, "Compliance coefficient", "normal compliance");
+    need(compliant && exponent_is_free,
+         "Compliance exponent",
+         "standard and improved normal compliance");
+    need(!own.make_law || own.traits.needs_multiplier || compliant || friction,
+         "Augmentation",
+         "multipliers, active sets, normal compliance and friction");
+    if (!friction)
+      unused.push_back({"Contact/Tangential compliance",
+                        "friction; Contact/Friction coefficient is 0"});
+    else
+      need(bool(own.make_law), "Tangential compliance", "regularised friction");
+    return unused;
+  }
+
+
+
+  namespace
+  {
+    /// Refuse a parameter with which Nitsche's method is not stable: energy could
+    /// grow without bound.
+    template <int dim>
+    void
+    check_nitsche_bound(const ContactParameters &parameters,
+                        const Body<dim>         &body,
+                        const LinearElastic     &material,
+                        const Obstacles<dim>    &obstacles)
+    {
+      const double theta = parameters.nitsche_theta;
+      const double bound = .25 * (1. + theta) * (1. + theta) *
+        nitsche_trace_constant(body, material, obstacles);
+      // Equal is not enough, and both come with round-off.
+      if (parameters.nitsche_gamma_0 > (1. + 1e-9) * bound)
+        return;
+      throw InputError(
+        "Contact/Nitsche gamma0 = " + to_text(parameters.nitsche_gamma_0) +
+        " Pa is too small for theta = " + to_text(theta) +
+        ", this material and this mesh: the method is not stable. It must be "
+        "larger than " +
+        to_text(bound) + " Pa.");
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters            &parameters,
@@ -308,7 +383,9 @@ namespace Ricochet
                const Obstacles<dim>               &obstacles)
   {
     const Treatment &treatment = find(parameters);
-    ContactPoints    stress_points;
+    if (treatment.traits.uses_stress)
+      check_nitsche_bound(parameters, body, *material, obstacles);
+    ContactPoints stress_points;
     if (material || !treatment.traits.nodal)
       stress_points = make_quadrature_contact_points(body, material, obstacles);
     ContactPoints points = treatment.traits.nodal
@@ -334,7 +411,8 @@ namespace Ricochet
       std::move(stress_points),
       CoulombFriction{parameters.friction_coefficient,
                       parameters.tangential_compliance},
-      parameters.augmentation);
+      parameters.augmentation,
+      has_modified_energy(parameters));
   }
 
 

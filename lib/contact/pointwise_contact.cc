@@ -447,8 +447,13 @@ namespace Ricochet
         const ContactPoint       &point = evaluator.contact_points()[p];
         const ContactPointTangent tangent =
           law->tangent(state[p], old_state[p], point.cell_diameter);
+        // The gap is in the equation of a multiplier too.
+        const double stiffness =
+          std::max(std::abs(tangent[0][0]),
+                   std::abs(tangent[2][0]) *
+                     law->multiplier_scale(point.cell_diameter));
         const double force =
-          point.weight * tangent[0][0] * gap_round_off(point, state[p].gap);
+          point.weight * stiffness * gap_round_off(point, state[p].gap);
         square += force * force;
         // Slip is a difference of displacements over a step.
         if (friction.coefficient > 0. && friction_branch[p].sticks &&
@@ -580,15 +585,12 @@ namespace Ricochet
   PointwiseContact::normal_force(const unsigned int p,
                                  const Vector      &contact_force) const
   {
-    // A two-point law has no force at an instant, only over the last step. In
-    // nodes every force can be read off the vector.
-    const ContactPoint    &point  = evaluator.contact_points()[p];
-    const ContactLawTraits traits = law->traits();
-    if (traits.nodal)
-      return evaluator.nodal_normal_force(p, contact_force);
-    if (traits.is_two_point && !traits.uses_stress && point_force.size() > 0)
-      return -point.weight * point_force[p].gap;
-    return point.weight * law->pressure(state[p], point.cell_diameter);
+    // In nodes the force of the step can be read off the vector; elsewhere the
+    // pressure is that of the law at the end of the step.
+    const ContactPoint &point = evaluator.contact_points()[p];
+    return law->traits().nodal
+      ? evaluator.nodal_normal_force(p, contact_force)
+      : point.weight * law->pressure(state[p], point.cell_diameter);
   }
 
 
@@ -670,6 +672,7 @@ namespace Ricochet
         total.force = dealii::Utilities::MPI::sum(sum.force, communicator);
         total.mean_gap =
           dealii::Utilities::MPI::sum(sum.mean_gap, communicator) / total.area;
+        total.smallest_gap     = min(sum.smallest_gap, communicator);
         total.max_penetration  = max(sum.max_penetration, communicator);
         total.contact_pressure = total.force / total.area;
         total.stress_pressure =

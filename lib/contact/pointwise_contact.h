@@ -30,17 +30,20 @@ namespace Ricochet
      * @param augmentation r_0 (Pa); a stiffness r_0 / h_T, the body's own in
      * order of magnitude, tells stick and slip apart and chooses where power
      * laws are linearised. It leaves the solution alone.
+     * @param modified_energy the potential of the law makes a modified energy.
      */
     template <int dim>
     PointwiseContact(const Body<dim>            &body,
                      std::unique_ptr<ContactLaw> law,
                      ContactPoints               points,
                      ContactPoints               stress_points,
-                     const CoulombFriction      &friction     = {},
-                     const double                augmentation = 1.)
+                     const CoulombFriction      &friction        = {},
+                     const double                augmentation    = 1.,
+                     const bool                  modified_energy = true)
       : law(std::move(law))
       , friction(friction)
       , augmentation(augmentation)
+      , modified_energy(modified_energy)
       , evaluator(body, std::move(points))
       , stress_evaluator(body, std::move(stress_points))
       , force(body.make_vector())
@@ -106,6 +109,12 @@ namespace Ricochet
 
     double
     potential(const Vector &solution) override;
+
+    bool
+    has_modified_energy() const override
+    {
+      return modified_energy;
+    }
 
     const Vector &
     row_scaling() const override
@@ -198,6 +207,7 @@ namespace Ricochet
     const std::unique_ptr<ContactLaw> law;
     const CoulombFriction             friction;
     const double                      augmentation;
+    const bool                        modified_energy;
     ContactPointEvaluator             evaluator;
     ContactPointEvaluator             stress_evaluator;
     double                            weight     = 1.;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <base/exceptions.h>
+#include <base/files.h>
 #include <discretization/distributed_mesh.h>
 
 #include <deal.II/base/mpi.h>
@@ -18,24 +18,11 @@ namespace Ricochet
                   const MPI_Comm                                   communicator)
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const bool is_root = Utilities::MPI::this_mpi_process(communicator) == 0;
 
     // Made here, and not by deal.II when it asks for it, so that all ranks learn
     // of an error.
     Triangulation<dim> whole;
-    std::string        error;
-    if (is_root)
-      try
-        {
-          make_mesh(whole);
-        }
-      catch (const InputError &input_error)
-        {
-          error = input_error.what();
-        }
-    error = Utilities::MPI::broadcast(communicator, error);
-    if (!error.empty())
-      throw InputError(error);
+    on_first_rank(communicator, [&]() { make_mesh(whole); });
 
     const auto description = TriangulationDescription::Utilities::
       create_description_from_triangulation_in_groups<dim, dim>(

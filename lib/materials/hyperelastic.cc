@@ -283,6 +283,32 @@ namespace Ricochet
   }
 
 
+
+  template <int dim>
+  SymmetricTensor<2, 3>
+  Hyperelastic<dim>::spatial_cauchy_stress(
+    const Tensor<2, dim> &deformation_gradient) const
+  {
+    const Symmetric2      in_plane = cauchy_stress(deformation_gradient);
+    SymmetricTensor<2, 3> stress;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = i; j < dim; ++j)
+        stress[i][j] = in_plane[i][j];
+    if constexpr (dim == 2)
+      {
+        // 2 dW/dC_33 C_33/J, and spatial() says how the invariants depend on
+        // C_33. In plane stress that is zero.
+        const auto plane = invariants_of(
+          symmetrize(transpose(deformation_gradient) * deformation_gradient));
+        const double s = c33(plane[0], plane[1]);
+        const auto   w = law->gradient(spatial(plane[0], plane[1], s));
+        stress[2][2]   = 2. * (w[0] + w[1] * plane[0] + w[2] * plane[1]) * s /
+          std::sqrt(plane[1] * s);
+      }
+    return stress;
+  }
+
+
   template class Hyperelastic<2>;
   template class Hyperelastic<3>;
 } // namespace Ricochet

@@ -64,6 +64,12 @@ namespace Ricochet
     Symmetric2
     cauchy_stress(const dealii::Tensor<2, dim> &deformation_gradient) const;
 
+    /// Cauchy stress (Pa) with the components out of the plane in 2D; in 1D there
+    /// are none.
+    dealii::SymmetricTensor<2, 3>
+    spatial_cauchy_stress(
+      const dealii::Tensor<2, dim> &deformation_gradient) const;
+
   private:
     /// C_33 in 2D.
     double

@@ -6,6 +6,7 @@
 #include <materials/linear_elastic.h>
 #include <materials/viscosity.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -15,15 +16,20 @@ namespace Ricochet
   template <int dim>
   struct Material
   {
-    Material(const LinearElastic &linear, const Viscosity &viscosity = {})
+    /// @param plane_state in 2D, what @p linear was reduced to.
+    Material(const LinearElastic &linear,
+             const Viscosity     &viscosity   = {},
+             const PlaneState     plane_state = PlaneState::plane_strain)
       : linear(linear)
       , viscosity(viscosity)
+      , plane_state(plane_state)
     {}
 
     Material(std::shared_ptr<const Hyperelastic<dim>> hyperelastic,
              const Viscosity                         &viscosity = {})
       : hyperelastic(std::move(hyperelastic))
       , viscosity(viscosity)
+      , plane_state(PlaneState::plane_strain)
     {}
 
     /// Elastic Cauchy stress (Pa) for a gradient of the displacement.
@@ -37,11 +43,40 @@ namespace Ricochet
       return linear->stress(symmetrize(displacement_gradient));
     }
 
+    /// Von Mises' stress (Pa), sqrt(3/2) times the norm of the deviator of the
+    /// elastic Cauchy stress, which in 2D has a component out of the plane. A bar
+    /// is in uniaxial stress.
+    double
+    von_mises(const dealii::Tensor<2, dim> &displacement_gradient) const
+    {
+      dealii::SymmetricTensor<2, 3> stress;
+      if constexpr (dim > 1)
+        if (!linear)
+          stress = hyperelastic->spatial_cauchy_stress(
+            dealii::unit_symmetric_tensor<dim>() + displacement_gradient);
+      if (linear)
+        {
+          const dealii::SymmetricTensor<2, dim> strain =
+            symmetrize(displacement_gradient);
+          const dealii::SymmetricTensor<2, dim> in_plane =
+            linear->stress(strain);
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = i; j < dim; ++j)
+              stress[i][j] = in_plane[i][j];
+          if (dim == 2 && plane_state == PlaneState::plane_strain)
+            stress[2][2] = linear->lambda * trace(strain);
+        }
+      return std::sqrt(1.5) * deviator(stress).norm();
+    }
+
     /// Small strains; nothing for a hyperelastic body.
     const std::optional<LinearElastic> linear;
     /// Large strains; null for a linear elastic body.
     const std::shared_ptr<const Hyperelastic<dim>> hyperelastic;
     const Viscosity                                viscosity;
+
+  private:
+    PlaneState plane_state;
   };
 } // namespace Ricochet
 

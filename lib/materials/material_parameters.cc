@@ -127,6 +127,24 @@ namespace Ricochet
 
 
 
+  std::vector<UnusedParameter>
+  MaterialParameters::unused_parameters() const
+  {
+    std::vector<UnusedParameter> unused;
+    const auto need = [&](const std::string &owner, const auto &...names) {
+      for (const std::string name : {names...})
+        unused.push_back(
+          {"Material/" + name, owner + "; Material/Law is " + law});
+    };
+    if (law == "Ciarlet-Geymonat")
+      need("the other laws", "Young modulus", "Poisson ratio");
+    else
+      need("the law Ciarlet-Geymonat", "c1", "c2", "d");
+    return unused;
+  }
+
+
+
   void
   MaterialParameters::validate(const unsigned int dim,
                                const std::string &scheme) const
@@ -180,7 +198,8 @@ namespace Ricochet
     if (law == linear_elastic)
       return Material<dim>(
         LinearElastic::from_young(young_modulus, poisson_ratio).in_plane(state),
-        viscous);
+        viscous,
+        state);
     for (const auto &[name, make_law] : table())
       if (name == law)
         return Material<dim>(

@@ -2,6 +2,7 @@
 #ifndef ricochet_materials_material_parameters_h
 #define ricochet_materials_material_parameters_h
 
+#include <base/parameter_file.h>
 #include <materials/material.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -26,6 +27,10 @@ namespace Ricochet
 
     void
     add_parameters(dealii::ParameterHandler &parameters);
+
+    /// The parameters that the law makes no use of.
+    std::vector<UnusedParameter>
+    unused_parameters() const;
 
     /**
      * @param dim dimension of the body.

@@ -6,10 +6,10 @@
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
-#include <boost/crc.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <cstring>
 #include <filesystem>
 #include <sstream>
 
@@ -19,7 +19,7 @@ namespace Ricochet
 
   namespace
   {
-    const std::string magic     = "Ricochet checkpoint, format 3\n";
+    const std::string magic     = "Ricochet checkpoint, format 4\n";
     const std::string file_name = "checkpoint.bin";
 
     /// The vectors of a state, in the order in which they are stored.
@@ -42,6 +42,8 @@ namespace Ricochet
       unsigned int        step = 0;
       double              time = 0.;
       std::vector<double> sums;
+      unsigned int        n_rows   = 0;
+      std::uint32_t       checksum = 0;
       /// The vectors, in the canonical order of the unknowns.
       std::vector<std::vector<double>> values;
 
@@ -49,17 +51,10 @@ namespace Ricochet
       void
       serialize(Archive &archive, const unsigned int /*version*/)
       {
-        archive &parameters &step &time &sums &values;
+        archive &parameters &step &time &sums &n_rows &checksum &values;
       }
     };
 
-    std::uint32_t
-    checksum(const std::string &data)
-    {
-      boost::crc_32_type crc;
-      crc.process_bytes(data.data(), data.size());
-      return crc.checksum();
-    }
   } // namespace
 
 
@@ -68,7 +63,13 @@ namespace Ricochet
   Checkpoint::write(const RunFolder                            &folder,
                     const std::vector<types::global_dof_index> &positions) const
   {
-    Payload payload{folder.parameters_that_matter, step, state.time, sums, {}};
+    Payload    payload{folder.parameters_that_matter,
+                    step,
+                    state.time,
+                    sums,
+                    ledger.n_rows,
+                    ledger.checksum,
+                    {}};
     const auto positions_of_rank =
       Utilities::MPI::gather(folder.communicator, positions);
     for_each_vector(state, [&](const Vector &vector) {
@@ -83,32 +84,20 @@ namespace Ricochet
           values[positions_of_rank[rank][k]] = values_of_rank[rank][k];
     });
 
-    bool written = true;
-    if (folder.is_root)
+    on_first_rank(folder.communicator, [&]() {
+      std::ostringstream data;
       {
-        std::ostringstream data;
-        {
-          boost::archive::binary_oarchive archive(data);
-          archive << payload;
-        }
-        const std::string   bytes    = data.str();
-        const std::uint64_t size     = bytes.size();
-        const std::uint32_t crc      = checksum(bytes);
-        const std::string   new_file = folder.file(file_name + ".new");
-        std::ofstream       out(new_file, std::ios::binary | std::ios::trunc);
-        out << magic;
-        out.write(reinterpret_cast<const char *>(&size), sizeof(size));
-        out.write(reinterpret_cast<const char *>(&crc), sizeof(crc));
-        out.write(bytes.data(), bytes.size());
-        out.close();
-        std::error_code error;
-        if (out.good())
-          std::filesystem::rename(new_file, folder.file(file_name), error);
-        written = out.good() && !error;
+        boost::archive::binary_oarchive archive(data);
+        archive << payload;
       }
-    if (!Utilities::MPI::broadcast(folder.communicator, written, 0))
-      throw ComputationError("The checkpoint '" + folder.file(file_name) +
-                             "' cannot be written: is the disk full?");
+      const std::string   bytes = data.str();
+      const std::uint64_t size  = bytes.size();
+      const std::uint32_t crc   = checksum(bytes);
+      std::string         whole = magic;
+      whole.append(reinterpret_cast<const char *>(&size), sizeof(size));
+      whole.append(reinterpret_cast<const char *>(&crc), sizeof(crc));
+      write_atomically(folder.file(file_name), whole + bytes);
+    });
   }
 
 
@@ -125,20 +114,24 @@ namespace Ricochet
     };
 
     // Every rank reads the whole file and takes its part.
-    std::ifstream in(file, std::ios::binary);
-    if (!in)
-      fail("does not exist");
-    std::string found(magic.size(), '\0');
-    in.read(found.data(), found.size());
-    if (found != magic)
+    std::string bytes;
+    try
+      {
+        bytes = read_file(file);
+      }
+    catch (const InputError &)
+      {
+        fail(std::filesystem::exists(file) ? "cannot be read"
+                                           : "does not exist");
+      }
+    std::uint64_t     size = 0;
+    std::uint32_t     crc  = 0;
+    const std::size_t head = magic.size() + sizeof(size) + sizeof(crc);
+    if (bytes.compare(0, magic.size(), magic) != 0 || bytes.size() < head)
       fail("is no checkpoint of this version of Ricochet");
-    std::uint64_t size = 0;
-    std::uint32_t crc  = 0;
-    in.read(reinterpret_cast<char *>(&size), sizeof(size));
-    in.read(reinterpret_cast<char *>(&crc), sizeof(crc));
-    std::ostringstream rest;
-    rest << in.rdbuf();
-    const std::string bytes = rest.str();
+    std::memcpy(&size, bytes.data() + magic.size(), sizeof(size));
+    std::memcpy(&crc, bytes.data() + magic.size() + sizeof(size), sizeof(crc));
+    bytes.erase(0, head);
     if (bytes.size() != size)
       fail("is truncated: it holds " + std::to_string(bytes.size()) + " of " +
            std::to_string(size) + " bytes");
@@ -167,13 +160,16 @@ namespace Ricochet
     Checkpoint checkpoint;
     checkpoint.step       = payload.step;
     checkpoint.sums       = payload.sums;
+    checkpoint.ledger     = {payload.n_rows, payload.checksum};
     checkpoint.state.time = payload.time;
     auto stored           = payload.values.begin();
     for_each_vector(checkpoint.state, [&](Vector &vector) {
       vector.reinit(empty_vector);
-      AssertThrow(stored != payload.values.end() &&
-                    stored->size() == vector.size(),
-                  ExcMessage("The checkpoint has another number of unknowns."));
+      AssertThrow(stored != payload.values.end(), ExcInternalError());
+      if (stored->size() != vector.size())
+        fail("has " + std::to_string(stored->size()) +
+             " unknowns, this run has " + std::to_string(vector.size()) +
+             ": it belongs to another mesh");
       double *values = vector.trilinos_vector()[0];
       for (std::size_t k = 0; k < positions.size(); ++k)
         values[k] = (*stored)[positions[k]];

@@ -2,7 +2,7 @@
 #ifndef ricochet_output_checkpoint_h
 #define ricochet_output_checkpoint_h
 
-#include <base/program.h>
+#include <output/energy_ledger.h>
 #include <time_integration/semi_discrete_system.h>
 
 namespace Ricochet
@@ -14,14 +14,16 @@ namespace Ricochet
     unsigned int step = 0;
     /// Sums that the time loop carries.
     std::vector<double> sums;
-    State               state;
+    /// What the table of energies is known by.
+    EnergyLedger::Seal ledger;
+    State              state;
 
     /**
-     * Write to @p folder / checkpoint.bin: first to a second file that then
-     * takes the place of the first, so that there is a whole checkpoint at any
-     * time.
+     * Write to @p folder / checkpoint.bin, so that there is a whole checkpoint at
+     * any time.
      *
      * @param positions Body::canonical_positions().
+     * @throws ComputationError on all ranks, when the disk is full.
      */
     void
     write(const RunFolder                                    &folder,

@@ -2,12 +2,12 @@
 #include <base/exceptions.h>
 #include <output/energy_ledger.h>
 
-#include <deal.II/base/hdf5.h>
-#include <deal.II/base/utilities.h>
+#include <hdf5.h>
 
-#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
-#include <sstream>
+#include <limits>
 
 namespace Ricochet
 {
@@ -21,22 +21,71 @@ namespace Ricochet
     {
       std::string line;
       char        number[32];
-      for (const double value : row)
+      for (unsigned int i = 0; i < row.size(); ++i)
         {
-          std::snprintf(number, sizeof(number), "%.16e", value);
-          line += (line.empty() ? "" : ",") + std::string(number);
+          if (i > 0)
+            line += ",";
+          if (std::isnan(row[i]))
+            continue;
+          // Locales write other decimal points.
+          const auto end = std::to_chars(number,
+                                         number + sizeof(number),
+                                         row[i],
+                                         std::chars_format::scientific,
+                                         16)
+                             .ptr;
+          line.append(number, end);
         }
-      return line;
+      return line + "\n";
     }
+
+    /// A handle of HDF5 that is closed at the end.
+    class Handle
+    {
+    public:
+      Handle(const hid_t id, herr_t (*close)(hid_t))
+        : id(id)
+        , close(close)
+      {
+        check(id);
+      }
+
+      ~Handle()
+      {
+        close(id);
+      }
+
+      Handle(const Handle &) = delete;
+      Handle &
+      operator=(const Handle &) = delete;
+
+      operator hid_t() const
+      {
+        return id;
+      }
+
+      static void
+      check(const long long result)
+      {
+        if (result < 0)
+          throw ComputationError("HDF5 cannot make the table of energies.");
+      }
+
+    private:
+      const hid_t id;
+      herr_t (*const close)(hid_t);
+    };
   } // namespace
 
 
 
   unsigned int
-  EnergyLedger::add_column(const std::string &name, const std::string &unit)
+  EnergyLedger::add_column(const std::string &name,
+                           const std::string &unit,
+                           const bool         may_be_empty)
   {
     AssertThrow(row_list.empty(), ExcMessage("Columns come before rows."));
-    column_list.push_back({name, unit});
+    column_list.push_back({name, unit, may_be_empty});
     return column_list.size() - 1;
   }
 
@@ -61,7 +110,7 @@ namespace Ricochet
     for (const Column &column : column_list)
       line +=
         (line.empty() ? "" : ",") + column.name + " [" + column.unit + "]";
-    return line;
+    return line + "\n";
   }
 
 
@@ -69,62 +118,103 @@ namespace Ricochet
   void
   EnergyLedger::start()
   {
-    if (!folder.is_root)
-      return;
-    csv.open(folder.file("energy.csv"), std::ios::trunc);
-    csv << header() << std::endl;
+    folder.begin();
+    csv_checksum = checksum(header());
+    on_first_rank(folder.communicator, [&]() {
+      csv.open(folder.file("energy.csv"), /* keep */ false);
+      csv.append(header());
+    });
+  }
+
+
+
+  std::vector<double>
+  EnergyLedger::parse_row(const std::string &line) const
+  {
+    std::vector<double> row;
+    for (std::size_t begin = 0; begin <= line.size();)
+      {
+        const std::size_t end   = std::min(line.find(',', begin), line.size());
+        const char *const text  = line.data() + begin;
+        const char *const stop  = line.data() + end;
+        double            value = std::numeric_limits<double>::quiet_NaN();
+        const bool        may_be_empty = row.size() < column_list.size() &&
+          column_list[row.size()].may_be_empty;
+        if (begin < end || !may_be_empty)
+          {
+            const auto result = std::from_chars(text, stop, value);
+            if (result.ec != std::errc() || result.ptr != stop ||
+                !std::isfinite(value))
+              throw InputError("holds '" +
+                               std::string(text, stop).substr(0, 40) +
+                               "' where a number is expected");
+          }
+        row.push_back(value);
+        begin = end + 1;
+      }
+    if (row.size() != column_list.size())
+      throw InputError("has " + std::to_string(row.size()) + " of " +
+                       std::to_string(column_list.size()) + " columns");
+    return row;
   }
 
 
 
   void
-  EnergyLedger::resume(const unsigned int n_rows)
+  EnergyLedger::resume(const Seal &seal)
   {
     // Every rank reads: the rows are also needed for sums over the whole run.
     const std::string file = folder.file("energy.csv");
-    std::string       problem;
-    std::string       line;
-    {
-      std::ifstream in(file);
-      if (!in)
-        problem = "it cannot be read";
-      else if (!std::getline(in, line) || line != header())
-        problem = "it has other columns than this run";
-      while (problem.empty() && row_list.size() < n_rows)
-        {
-          if (!std::getline(in, line) || in.eof())
-            {
-              problem = "it ends after " + std::to_string(row_list.size()) +
-                " of the " + std::to_string(n_rows) +
-                " rows that the checkpoint counts";
-              break;
-            }
-          std::vector<double> row;
-          for (const std::string &value :
-               Utilities::split_string_list(line, ','))
-            row.push_back(std::strtod(value.c_str(), nullptr));
-          if (row.size() != column_list.size())
-            {
-              problem = "row " + std::to_string(row_list.size() + 1) + " has " +
-                std::to_string(row.size()) + " of " +
-                std::to_string(column_list.size()) + " columns";
-              break;
-            }
-          row_list.push_back(row);
-        }
-    }
-    if (!problem.empty())
+    const auto        fail = [&](const std::string &problem) {
       throw InputError("The run cannot be resumed from '" + file +
                        "': " + problem + ".");
+    };
+    std::string text;
+    try
+      {
+        text = read_file(file);
+      }
+    catch (const InputError &)
+      {
+        fail("it cannot be read");
+      }
+    std::size_t position = header().size();
+    if (text.compare(0, position, header()) != 0)
+      fail("it has other columns than this run");
+    while (row_list.size() < seal.n_rows)
+      {
+        // A row is complete when its line has an end.
+        const std::size_t end = text.find('\n', position);
+        if (end == std::string::npos)
+          fail("it ends after " + std::to_string(row_list.size()) + " of the " +
+               std::to_string(seal.n_rows) +
+               " rows that the checkpoint counts");
+        const std::string row_name =
+          "row " + std::to_string(row_list.size() + 1);
+        try
+          {
+            row_list.push_back(
+              parse_row(text.substr(position, end - position)));
+          }
+        catch (const InputError &problem)
+          {
+            fail(row_name + " " + problem.what());
+          }
+        if (row_list.size() > 1 &&
+            !(row_list.back()[0] > row_list[row_list.size() - 2][0]))
+          fail("the time of " + row_name + " is not later than the one before");
+        position = end + 1;
+      }
+    text.resize(position);
+    csv_checksum = checksum(text);
+    if (csv_checksum != seal.checksum)
+      fail("its rows are not those that were written before the checkpoint");
 
-    MPI_Barrier(folder.communicator);
-    if (!folder.is_root)
-      return;
-    csv.open(file, std::ios::trunc);
-    csv << header() << "\n";
-    for (const std::vector<double> &row : row_list)
-      csv << format_row(row) << "\n";
-    csv.flush();
+    folder.begin();
+    on_first_rank(folder.communicator, [&]() {
+      write_atomically(file, text);
+      csv.open(file, /* keep */ true);
+    });
   }
 
 
@@ -133,17 +223,19 @@ namespace Ricochet
   EnergyLedger::add_row(const std::vector<double> &row)
   {
     AssertDimension(row.size(), column_list.size());
+    const std::string line = format_row(row);
+    on_first_rank(folder.communicator, [&]() { csv.append(line); });
+    csv_checksum = checksum(line, csv_checksum);
     row_list.push_back(row);
-    bool written = true;
-    if (folder.is_root)
-      {
-        csv << format_row(row) << std::endl;
-        written = csv.good();
-      }
-    if (!Utilities::MPI::broadcast(folder.communicator, written, 0))
-      throw ComputationError("'" + folder.file("energy.csv") +
-                             "' cannot be written any more: is the disk "
-                             "full?");
+  }
+
+
+
+  EnergyLedger::Seal
+  EnergyLedger::seal()
+  {
+    on_first_rank(folder.communicator, [&]() { csv.sync(); });
+    return {static_cast<unsigned int>(row_list.size()), csv_checksum};
   }
 
 
@@ -151,19 +243,53 @@ namespace Ricochet
   void
   EnergyLedger::write_hdf5() const
   {
-    if (!folder.is_root)
-      return;
-    HDF5::File          file(folder.file("energy.h5"),
-                    HDF5::File::FileAccessMode::create);
-    std::vector<double> values(row_list.size());
-    for (unsigned int i = 0; i < column_list.size(); ++i)
+    on_first_rank(folder.communicator, [&]() {
+      // The file is made in memory: HDF5 itself does not always notice that a
+      // disk is full.
+      std::string image;
       {
-        for (unsigned int r = 0; r < row_list.size(); ++r)
-          values[r] = row_list[r][i];
-        HDF5::DataSet data =
-          file.create_dataset<double>(column_list[i].name, {values.size()});
-        data.write(values);
-        data.set_attribute<std::string>("unit", column_list[i].unit);
+        const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+        Handle::check(H5Pset_fapl_core(access, 1 << 16, /* on disk */ false));
+        const Handle file(
+          H5Fcreate("energy.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access),
+          H5Fclose);
+        const hsize_t n_rows = row_list.size();
+        const Handle  rows(H5Screate_simple(1, &n_rows, nullptr), H5Sclose);
+        const Handle  scalar(H5Screate(H5S_SCALAR), H5Sclose);
+        const Handle  text(H5Tcopy(H5T_C_S1), H5Tclose);
+        Handle::check(H5Tset_size(text, H5T_VARIABLE));
+        std::vector<double> values(row_list.size());
+        for (unsigned int i = 0; i < column_list.size(); ++i)
+          {
+            for (unsigned int r = 0; r < row_list.size(); ++r)
+              values[r] = row_list[r][i];
+            const Handle data(H5Dcreate2(file,
+                                         column_list[i].name.c_str(),
+                                         H5T_NATIVE_DOUBLE,
+                                         rows,
+                                         H5P_DEFAULT,
+                                         H5P_DEFAULT,
+                                         H5P_DEFAULT),
+                              H5Dclose);
+            Handle::check(H5Dwrite(data,
+                                   H5T_NATIVE_DOUBLE,
+                                   H5S_ALL,
+                                   H5S_ALL,
+                                   H5P_DEFAULT,
+                                   values.data()));
+            const Handle unit(
+              H5Acreate2(data, "unit", text, scalar, H5P_DEFAULT, H5P_DEFAULT),
+              H5Aclose);
+            const char *const unit_text = column_list[i].unit.c_str();
+            Handle::check(H5Awrite(unit, text, &unit_text));
+          }
+        Handle::check(H5Fflush(file, H5F_SCOPE_GLOBAL));
+        const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+        Handle::check(size);
+        image.resize(size);
+        Handle::check(H5Fget_file_image(file, image.data(), image.size()));
       }
+      write_atomically(folder.file("energy.h5"), image);
+    });
   }
 } // namespace Ricochet

@@ -4,6 +4,7 @@
 
 #include <base/program.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,12 @@ namespace Ricochet
 {
   /**
    * The table of a run: one row per time step, each column with its unit. Rows
-   * go to `energy.csv` at once, so that what was computed is on disk whatever
+   * go to `energy.csv` at once, so that what was computed is in the file whatever
    * happens next; `energy.h5` holds the same table, one data set per column
    * with its unit as an attribute.
+   *
+   * A value that does not exist (say, a modified energy of a method that has
+   * none) is not a number in the rows and empty in the file.
    *
    * Collective: all ranks add the same rows, rank 0 writes.
    */
@@ -24,6 +28,15 @@ namespace Ricochet
     {
       std::string name;
       std::string unit;
+      /// Whether values need not exist.
+      bool may_be_empty = false;
+    };
+
+    /// What a checkpoint remembers of the table, to know it again.
+    struct Seal
+    {
+      unsigned int  n_rows   = 0;
+      std::uint32_t checksum = 0;
     };
 
     explicit EnergyLedger(RunFolder &folder)
@@ -32,26 +45,34 @@ namespace Ricochet
 
     /// Before the first row: @return the column's number.
     unsigned int
-    add_column(const std::string &name, const std::string &unit);
+    add_column(const std::string &name,
+               const std::string &unit,
+               const bool         may_be_empty = false);
 
-    /// Begin `energy.csv`.
+    /// Begin `energy.csv`. @throws ComputationError
     void
     start();
 
     /**
-     * Go on with the table that the folder holds: keep its first @p n_rows rows
-     * and drop what a later part of an earlier run has added.
-     * @throws InputError when it has other columns or fewer rows.
+     * Go on with the table that the folder holds: keep the rows that @p seal is
+     * of, and drop what a later part of an earlier run has added.
+     * @throws InputError when it has other columns, fewer rows, something that is
+     * not a number, times that do not rise, or not the rows that were written.
      */
     void
-    resume(const unsigned int n_rows);
+    resume(const Seal &seal);
 
     /// Append one row and write it. @throws ComputationError when the disk is
     /// full.
     void
     add_row(const std::vector<double> &row);
 
-    /// Write `energy.h5`.
+    /// Wait until all rows are on the disk. @throws ComputationError
+    /// @return what they can be known by.
+    Seal
+    seal();
+
+    /// Write `energy.h5`. @throws ComputationError
     void
     write_hdf5() const;
 
@@ -75,10 +96,16 @@ namespace Ricochet
     std::string
     header() const;
 
+    /// The values of a line. @throws InputError saying what is wrong.
+    std::vector<double>
+    parse_row(const std::string &line) const;
+
     RunFolder                       &folder;
     std::vector<Column>              column_list;
     std::vector<std::vector<double>> row_list;
-    std::ofstream                    csv;
+    GrowingFile                      csv;
+    // Of all of energy.csv.
+    std::uint32_t csv_checksum = 0;
   };
 } // namespace Ricochet
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
 #include <output/vtu_series.h>
 
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
 
-#include <cmath>
+#include <charconv>
 #include <filesystem>
-#include <memory>
+#include <limits>
 #include <regex>
+#include <sstream>
 
 namespace Ricochet
 {
@@ -61,31 +63,31 @@ namespace Ricochet
       const Material<dim> material;
     };
 
-    class VonMises : public DataPostprocessorScalar<3>
+    template <int dim>
+    class VonMises : public DataPostprocessorScalar<dim>
     {
     public:
-      explicit VonMises(const Material<3> &material)
-        : DataPostprocessorScalar<3>("von_mises", update_gradients)
+      explicit VonMises(const Material<dim> &material)
+        : DataPostprocessorScalar<dim>("von_mises", update_gradients)
         , material(material)
       {}
 
       void
       evaluate_vector_field(
-        const DataPostprocessorInputs::Vector<3> &inputs,
-        std::vector<dealii::Vector<double>>      &values) const override
+        const DataPostprocessorInputs::Vector<dim> &inputs,
+        std::vector<dealii::Vector<double>>        &values) const override
       {
         for (unsigned int p = 0; p < values.size(); ++p)
           {
-            Tensor<2, 3> gradient;
-            for (unsigned int i = 0; i < 3; ++i)
+            Tensor<2, dim> gradient;
+            for (unsigned int i = 0; i < dim; ++i)
               gradient[i] = inputs.solution_gradients[p][i];
-            values[p][0] = std::sqrt(1.5) *
-              deviator(material.cauchy_stress(gradient)).norm();
+            values[p][0] = material.von_mises(gradient);
           }
       }
 
     private:
-      const Material<3> material;
+      const Material<dim> material;
     };
 
     /// Hands out a scalar that stands in the first component of a vector field.
@@ -116,6 +118,25 @@ namespace Ricochet
       }
     };
 
+    /// Writes the patches of this rank without header and footer.
+    template <int dim>
+    class PieceOfFile : public DataOut<dim>
+    {
+    public:
+      std::string
+      text(const DataOutBase::VtkFlags &flags, const bool may_be_empty) const
+      {
+        std::ostringstream text;
+        if (!may_be_empty || !this->get_patches().empty())
+          DataOutBase::write_vtu_main(this->get_patches(),
+                                      this->get_dataset_names(),
+                                      this->get_nonscalar_data_ranges(),
+                                      flags,
+                                      text);
+        return text.str();
+      }
+    };
+
     /// In 1D a field of one component is a scalar to VTU files.
     template <int dim>
     std::vector<DataComponentInterpretation::DataComponentInterpretation>
@@ -131,29 +152,60 @@ namespace Ricochet
 
 
   template <int dim>
-  VtuSeries<dim>::VtuSeries(const Body<dim>     &body,
-                            const Material<dim> &material,
-                            ContactOperator     &contact,
-                            RunFolder           &folder)
+  VtuSeries<dim>::VtuSeries(const Body<dim>      &body,
+                            const Material<dim>  &material,
+                            ContactOperator      &contact,
+                            const Obstacles<dim> &obstacles,
+                            RunFolder            &folder)
     : body(body)
     , material(material)
     , contact(contact)
+    , nodes(body, make_contact_nodes(body, obstacles))
     , folder(folder)
   {
-    if (!folder.is_root)
-      return;
-    std::filesystem::create_directories(folder.file("solution"));
-    if (!folder.resume)
+    if (!folder.is_root || !folder.resume ||
+        !std::filesystem::exists(folder.file("solution.pvd")))
       return;
     // Take over the list of an earlier part of the run.
-    std::ifstream    in(folder.file("solution.pvd"));
-    std::string      line;
-    const std::regex entry(
+    std::istringstream in(read_file(folder.file("solution.pvd")));
+    std::string        line;
+    const std::regex   entry(
       "timestep=\"([^\"]*)\".*file=\"(solution/step-([0-9]*)\\.vtu)\"");
     std::smatch match;
     while (std::getline(in, line))
       if (std::regex_search(line, match, entry))
-        written[std::stoul(match[3])] = {std::stod(match[1]), match[2]};
+        {
+          unsigned long step = 0;
+          double        time = 0.;
+          const auto    read = [](const std::string &text, auto &number) {
+            return std::from_chars(text.data(),
+                                   text.data() + text.size(),
+                                   number)
+                     .ec == std::errc();
+          };
+          if (read(match[3], step) && read(match[1], time) &&
+              std::filesystem::exists(folder.file(match[2])))
+            written[step] = {time, match[2]};
+        }
+  }
+
+
+
+  template <int dim>
+  Vector
+  VtuSeries<dim>::gap_field(const Vector &solution)
+  {
+    Vector field(solution);
+    field = std::numeric_limits<double>::quiet_NaN();
+    std::vector<ContactPointState<>> states;
+    nodes.evaluate(solution, states);
+    for (unsigned int p = 0; p < states.size(); ++p)
+      {
+        const ContactPoint &point = nodes.contact_points()[p];
+        field(nodes.coefficients().index[point.begin]) = states[p].gap;
+      }
+    field.compress(VectorOperation::insert);
+    return field;
   }
 
 
@@ -174,10 +226,10 @@ namespace Ricochet
 
     const StressPostprocessor<dim> stress(material);
     const FirstComponent<dim>      contact_pressure("contact_pressure");
-    std::unique_ptr<DataPostprocessor<dim>> von_mises;
-    if constexpr (dim == 3)
-      von_mises = std::make_unique<VonMises>(material);
-    DataOut<dim> data_out;
+    const FirstComponent<dim>      gap("gap");
+    const VonMises<dim>            von_mises(material);
+    const Vector     gaps = body.displacement_part(gap_field(state.solution));
+    PieceOfFile<dim> data_out;
     data_out.attach_dof_handler(body.dof_handler());
     const auto add = [&](const Vector &vector, const std::string &name) {
       data_out.add_data_vector(body.dof_handler(),
@@ -190,25 +242,49 @@ namespace Ricochet
     add(acceleration, "acceleration");
     add(force_on_body, "contact_force");
     data_out.add_data_vector(body.dof_handler(), displacement, stress);
-    if (von_mises)
-      data_out.add_data_vector(body.dof_handler(), displacement, *von_mises);
+    if constexpr (dim > 1)
+      data_out.add_data_vector(body.dof_handler(), displacement, von_mises);
     data_out.add_data_vector(body.dof_handler(), pressure, contact_pressure);
+    data_out.add_data_vector(body.dof_handler(), gaps, gap);
     data_out.build_patches(body.mapping(), body.dof_handler().get_fe().degree);
 
     const std::string name =
       "solution/step-" + Utilities::int_to_string(step, 6) + ".vtu";
-    data_out.write_vtu_in_parallel(folder.file(name), body.communicator);
+    // One file, to which each rank gives the part between header and footer.
+    DataOutBase::VtkFlags flags;
+    flags.time                = state.time;
+    flags.print_date_and_time = false;
+    std::ostringstream header, footer;
+    DataOutBase::write_vtu_header(header, flags);
+    DataOutBase::write_vtu_footer(footer);
+    const unsigned int rank =
+      Utilities::MPI::this_mpi_process(folder.communicator);
+    const unsigned int n_ranks =
+      Utilities::MPI::n_mpi_processes(folder.communicator);
+    on_first_rank(folder.communicator, [&]() {
+      std::error_code error;
+      std::filesystem::create_directories(folder.file("solution"), error);
+      if (error)
+        throw ComputationError("The folder '" + folder.file("solution") +
+                               "' cannot be made: " + error.message() + ".");
+    });
+    write_atomically(folder.file(name),
+                     (rank == 0 ? header.str() : "") +
+                       data_out.text(flags, /* may be empty */ rank > 0) +
+                       (rank + 1 == n_ranks ? footer.str() : ""),
+                     folder.communicator);
 
-    if (!folder.is_root)
-      return;
     // A resumed run forgets what came after its checkpoint.
     written.erase(written.lower_bound(step), written.end());
     written[step] = {state.time, name};
     std::vector<std::pair<double, std::string>> times_and_names;
     for (const auto &entry : written)
       times_and_names.push_back(entry.second);
-    std::ofstream pvd(folder.file("solution.pvd"));
-    DataOutBase::write_pvd_record(pvd, times_and_names);
+    on_first_rank(folder.communicator, [&]() {
+      std::ostringstream pvd;
+      DataOutBase::write_pvd_record(pvd, times_and_names);
+      write_atomically(folder.file("solution.pvd"), pvd.str());
+    });
   }
 
 

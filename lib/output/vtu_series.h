@@ -11,29 +11,38 @@ namespace Ricochet
 {
   /**
    * The fields of a body for ParaView: displacement, velocity, acceleration,
-   * elastic Cauchy stress (in 3D its von Mises stress too), the contact force of
-   * each node (N, on the body) and the contact pressure (Pa), as
-   * `solution/step-NNNNNN.vtu`, and `solution.pvd` that ties them to their times.
+   * elastic Cauchy stress and von Mises stress (Pa), the contact force of each
+   * node (N, on the body), the contact pressure (Pa) and the gap (m; not a number
+   * off the contact boundary), as `solution/step-NNNNNN.vtu` with their time, and
+   * `solution.pvd` that ties them to their times.
    */
   template <int dim>
   class VtuSeries
   {
   public:
-    VtuSeries(const Body<dim>     &body,
-              const Material<dim> &material,
-              ContactOperator     &contact,
-              RunFolder           &folder);
+    VtuSeries(const Body<dim>      &body,
+              const Material<dim>  &material,
+              ContactOperator      &contact,
+              const Obstacles<dim> &obstacles,
+              RunFolder            &folder);
 
     /// Write @p state as step number @p step. A step that is written again,
     /// after a resumed run, takes the place of the old one.
+    /// @throws ComputationError when the disk is full.
     void
     write(const State &state, const unsigned int step);
 
   private:
-    const Body<dim>    &body;
-    const Material<dim> material;
-    ContactOperator    &contact;
-    RunFolder          &folder;
+    /// The gap of each node of the contact boundary (m), in the place of its
+    /// first displacement; not a number elsewhere.
+    Vector
+    gap_field(const Vector &solution);
+
+    const Body<dim>      &body;
+    const Material<dim>   material;
+    ContactOperator      &contact;
+    ContactPointEvaluator nodes;
+    RunFolder            &folder;
     // Time and file name of each step written, by step.
     std::map<unsigned int, std::pair<double, std::string>> written;
   };

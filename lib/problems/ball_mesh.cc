@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <problems/ball_mesh.h>
+#include <problems/gmsh_file_check.h>
 #include <problems/gmsh_mesh.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,7 +11,6 @@
 #include <gmsh.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 
 namespace Ricochet
@@ -36,20 +36,19 @@ namespace Ricochet
   void
   read_ball(const std::string &file_name, Triangulation<3> &triangulation)
   {
-    std::ifstream file(file_name);
-    if (!file || std::filesystem::is_directory(file_name))
-      throw InputError("The mesh file '" + file_name + "' cannot be read.");
+    check_gmsh_file(file_name, 3);
     try
       {
-        GridIn<3> reader(triangulation);
+        std::ifstream file(file_name);
+        GridIn<3>     reader(triangulation);
         reader.read_msh(file);
       }
-    catch (const std::exception &exception)
+    catch (const std::exception &)
       {
-        throw InputError("The file '" + file_name +
-                         "' is not a mesh in three dimensions that deal.II can "
-                         "read (Gmsh's format 2.2 or 4.1, ASCII):\n" +
-                         exception.what());
+        // What is known to go wrong was looked for before.
+        throw InputError("The mesh file '" + file_name +
+                         "' cannot be made a mesh of: its cells do not fit "
+                         "together.");
       }
     const auto ids = triangulation.get_boundary_ids();
     if (std::find(ids.begin(), ids.end(), BallBoundary::lower_half) ==

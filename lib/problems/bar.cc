@@ -36,26 +36,10 @@ namespace Ricochet
   BarParameters::validate() const
   {
     impact.validate();
-
-    // On an interval of length h, h sigma_n(u)^2 <= degree^2 * modulus * (u', u')
-    // for polynomials of that degree; for the sum over both ends of one element
-    // the factor is degree (degree + 1). Below the bound the symmetric and the
-    // non-symmetric operators are not positive and energy can grow without
-    // bound.
-    const std::string &treatment = impact.contact.treatment;
-    if (treatment == "Nitsche" || treatment == "Nitsche-hybrid")
-      {
-        const double theta = impact.contact.nitsche_theta;
-        const double bound = .25 * (1. + theta) * (1. + theta) * modulus *
-          degree * (mesh_size > .99 ? degree + 1 : degree);
-        if (impact.contact.nitsche_gamma_0 <= bound)
-          throw InputError(
-            "Nitsche gamma0 = " + to_text(impact.contact.nitsche_gamma_0) +
-            " is too small for theta = " + to_text(theta) + " and degree " +
-            std::to_string(degree) +
-            ": the method is not stable. It must be larger than " +
-            to_text(bound) + ".");
-      }
+    // The exact solution is kept for each unit of time, with four numbers.
+    impact.check_size(degree / mesh_size,
+                      1,
+                      impact.time.final_time * 4. * sizeof(double));
 
     const double n_elements = 1. / mesh_size;
     if (std::abs(n_elements - std::round(n_elements)) > 1e-9 * n_elements)

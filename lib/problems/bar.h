@@ -28,7 +28,7 @@ namespace Ricochet
     add_parameters(dealii::ParameterHandler &parameters);
 
     /// @throws InputError mesh size that does not divide the bar, combination
-    /// without meaning, gamma_0 below the bound of stability.
+    /// without meaning.
     void
     validate() const;
   };

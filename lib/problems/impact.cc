@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
 #include <problems/impact.h>
@@ -20,6 +21,29 @@ namespace Ricochet
       for (const auto &obstacle : obstacles)
         ids.insert(obstacle.first);
       return ids;
+    }
+
+    /// The mesh has each of the @p boundaries. @return the mesh.
+    template <int dim>
+    const Triangulation<dim> &
+    with_boundaries(const Triangulation<dim>              &triangulation,
+                    const typename Body<dim>::BoundaryIds &boundaries,
+                    const MPI_Comm                         communicator)
+    {
+      for (const auto id : boundaries)
+        {
+          bool found = false;
+          for (const auto &cell : triangulation.active_cell_iterators())
+            if (cell->is_locally_owned())
+              for (const auto &face : cell->face_iterators())
+                found =
+                  found || (face->at_boundary() && face->boundary_id() == id);
+          if (Utilities::MPI::max(found ? 1 : 0, communicator) == 0)
+            throw InputError("The mesh has no boundary with the id " +
+                             std::to_string(id) +
+                             ", which should touch an obstacle or be held.");
+        }
+      return triangulation;
     }
 
     template <int dim>
@@ -47,7 +71,11 @@ namespace Ricochet
                       const Obstacles<dim>                  &obstacles,
                       const SemiDiscreteSystem::Load        &load,
                       const MPI_Comm                         communicator)
-    : body(triangulation,
+    : body(with_boundaries(with_boundaries(triangulation,
+                                           boundary_ids(obstacles),
+                                           communicator),
+                           clamped,
+                           communicator),
            degree,
            clamped,
            boundary_ids(obstacles),
@@ -59,6 +87,7 @@ namespace Ricochet
         parameters.redistributed_mass()
           ? std::make_unique<Matrix>(redistribute_mass(body, consistent_mass))
           : nullptr)
+    , obstacles(obstacles)
     , contact(make_contact(parameters.contact,
                            parameters.scheme.name,
                            body,

@@ -23,6 +23,8 @@ namespace Ricochet
      * @param clamped boundary ids with zero displacement.
      * @param obstacles the obstacle of each contact boundary.
      * @param load external load, empty for none.
+     * @throws InputError when the mesh has no boundary for an obstacle, and what
+     * redistribute_mass() and make_contact() throw.
      */
     Impact(const ImpactParameters                &parameters,
            const dealii::Triangulation<dim>      &triangulation,
@@ -39,6 +41,7 @@ namespace Ricochet
     const Matrix                        consistent_mass;
     /// Null with the consistent mass.
     const std::unique_ptr<const Matrix>    redistributed_mass;
+    const Obstacles<dim>                   obstacles;
     const std::unique_ptr<ContactOperator> contact;
     SemiDiscreteSystem                     system;
     const std::unique_ptr<TimeScheme>      scheme;

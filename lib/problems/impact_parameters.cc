@@ -15,6 +15,7 @@ namespace Ricochet
     time.add_parameters(parameters);
     newton.add_parameters(parameters);
     linear_solver.add_parameters(parameters);
+    limit.add_parameters(parameters);
     parameters.enter_subsection("Time");
     parameters.add_parameter(
       "Mass",
@@ -41,5 +42,29 @@ namespace Ricochet
       throw InputError("The final time " + to_text(time.final_time) +
                        " s is more than 1e8 time steps of " +
                        to_text(time.time_step) + " s away.");
+    if (time.time_step > (1. + 1e-9) * time.final_time)
+      throw InputError("The time step " + to_text(time.time_step) +
+                       " s is longer than the whole run of " +
+                       to_text(time.final_time) + " s.");
+  }
+
+
+
+  std::vector<UnusedParameter>
+  ImpactParameters::unused_parameters() const
+  {
+    std::vector<UnusedParameter> unused = contact.unused_parameters();
+    const auto                   need   = [&](const std::string &name,
+                          const std::string &scheme_name) {
+      if (scheme.name != scheme_name)
+        unused.push_back({"Time/" + name,
+                          "the time scheme " + scheme_name +
+                            "; Time/Scheme is " + scheme.name});
+    };
+    need("HHT alpha", "HHT");
+    need("TR-BDF2 gamma", "TR-BDF2");
+    need("ARKODE relative tolerance", "ARKODE");
+    need("ARKODE absolute tolerance", "ARKODE");
+    return unused;
   }
 } // namespace Ricochet

@@ -5,6 +5,7 @@
 #include <contact/contact_treatment.h>
 #include <solvers/linear_solver.h>
 #include <solvers/newton.h>
+#include <problems/size_limit.h>
 #include <problems/time_loop.h>
 #include <time_integration/time_scheme.h>
 
@@ -18,6 +19,7 @@ namespace Ricochet
     TimeLoop::Parameters     time;
     NewtonSolver::Parameters newton;
     LinearSolver::Parameters linear_solver;
+    SizeLimit                limit;
     /// "consistent" or "redistributed".
     std::string mass = "consistent";
 
@@ -29,6 +31,20 @@ namespace Ricochet
     void
     validate(const bool linear_material = true,
              const bool viscous         = false) const;
+
+    /// The parameters that have no effect with the others as they are.
+    std::vector<UnusedParameter>
+    unused_parameters() const;
+
+    /// Refuse what does not fit into memory: SizeLimit::check() for the number
+    /// of steps of the run.
+    void
+    check_size(const double       n_unknowns,
+               const unsigned int dim,
+               const double       more = 0.) const
+    {
+      limit.check(n_unknowns, dim, time.final_time / time.time_step, more);
+    }
 
     bool
     redistributed_mass() const

@@ -50,6 +50,17 @@ namespace Ricochet
 
 
 
+  std::vector<UnusedParameter>
+  ThrownBodyParameters::unused_parameters() const
+  {
+    std::vector<UnusedParameter> unused = impact.unused_parameters();
+    const auto                   own    = material.unused_parameters();
+    unused.insert(unused.end(), own.begin(), own.end());
+    return unused;
+  }
+
+
+
   void
   add_momentum_columns(const Momenta<2> &momenta,
                        const Body<2>    &body,

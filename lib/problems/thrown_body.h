@@ -35,6 +35,10 @@ namespace Ricochet
     void
     validate() const;
 
+    /// The parameters that have no effect with the others as they are.
+    std::vector<UnusedParameter>
+    unused_parameters() const;
+
     CellShape
     shape() const
     {

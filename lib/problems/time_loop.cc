@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <sstream>
 
 namespace Ricochet
@@ -81,7 +82,9 @@ namespace Ricochet
     ledger.add_column("kinetic_energy", "J");
     ledger.add_column("elastic_energy", "J");
     ledger.add_column("energy", "J");
-    ledger.add_column("modified_energy", "J");
+    ledger.add_column("modified_energy",
+                      "J",
+                      /* may be empty */ !system.contact.has_modified_energy());
     ledger.add_column("external_work", "J");
     ledger.add_column("contact_work", "J");
     ledger.add_column("friction_work", "J");
@@ -93,7 +96,8 @@ namespace Ricochet
     ledger.add_column("step_halvings", "1");
     for (const auto &[id, name] : contact_names)
       {
-        ledger.add_column("gap_" + name, "m");
+        ledger.add_column("mean_gap_" + name, "m");
+        ledger.add_column("smallest_gap_" + name, "m");
         ledger.add_column("penetration_" + name, "m");
         ledger.add_column("contact_force_" + name, "N");
         ledger.add_column("contact_pressure_" + name, "Pa");
@@ -141,6 +145,9 @@ namespace Ricochet
     StepReport report =
       advance(old_state, .5 * time_step, n_halvings_so_far + 1, middle);
     report += advance(middle, .5 * time_step, n_halvings_so_far + 1, new_state);
+    // A force over the step is the mean of those over its halves.
+    if (scheme.contact_force_is_of_step())
+      new_state.contact_force.sadd(.5, .5, middle.contact_force);
     return report;
   }
 
@@ -195,8 +202,10 @@ namespace Ricochet
                                energies.kinetic,
                                energies.stored,
                                energies.total(),
-                               energies.total() +
-                                 system.contact.potential(state.solution),
+                               system.contact.has_modified_energy()
+                                 ? energies.total() +
+                                   system.contact.potential(state.solution)
+                                 : std::numeric_limits<double>::quiet_NaN(),
                                sums.external_work,
                                sums.contact_work,
                                sums.friction_work,
@@ -213,6 +222,7 @@ namespace Ricochet
         const ContactSummary &contact = summaries.at(entry.first);
         row.insert(row.end(),
                    {contact.mean_gap,
+                    contact.smallest_gap,
                     contact.max_penetration,
                     contact.force,
                     contact.contact_pressure});
@@ -222,8 +232,8 @@ namespace Ricochet
       }
     for (const auto &value : own_columns)
       row.push_back(value(state));
-    for (const double value : row)
-      if (!std::isfinite(value))
+    for (unsigned int i = 0; i < row.size(); ++i)
+      if (!std::isfinite(row[i]) && !ledger.columns()[i].may_be_empty)
         throw ComputationError("The state at t = " + to_text(state.time) +
                                " s is not finite. All results up to then are "
                                "in the output folder.");
@@ -247,21 +257,88 @@ namespace Ricochet
         force += value("contact_force_" + entry.second);
         active += value("active_points_" + entry.second);
       }
+    char modified_energy[40] = "-";
+    if (system.contact.has_modified_energy())
+      std::snprintf(modified_energy,
+                    sizeof(modified_energy),
+                    "%.7e",
+                    value("modified_energy"));
     char line[160];
     std::snprintf(line,
                   sizeof(line),
-                  "%8u/%-8u %12.6g %14.7e %14.7e %10.2e %12.4e %7.0f %7.0f%s",
+                  "%8u/%-8u %12.6g %14.7e %14s %10.2e %12.4e %7.0f %7.0f%s",
                   step,
                   n_steps,
                   value("time"),
                   value("energy"),
-                  value("modified_energy"),
+                  modified_energy,
                   value("balance_residual"),
                   force,
                   active,
                   value("newton_iterations"),
                   remaining.c_str());
     folder.log(line);
+  }
+
+
+
+  void
+  TimeLoop::refuse_overlap(const State &initial_state) const
+  {
+    const auto summaries = system.contact.summary(initial_state.solution,
+                                                  initial_state.contact_force);
+    for (const auto &[id, name] : contact_names)
+      {
+        const ContactSummary &contact = summaries.at(id);
+        // The size of the boundary is the length to measure by.
+        const double size = system.unknowns.dim == 1
+          ? 1.
+          : std::pow(contact.area, 1. / (system.unknowns.dim - 1.));
+        if (contact.max_penetration > 1e-3 * size)
+          throw InputError(
+            "The body starts inside the obstacle: its boundary '" + name +
+            "' is " + to_text(contact.max_penetration) +
+            " m deep in it. Place it higher.");
+      }
+  }
+
+
+
+  void
+  TimeLoop::save(const State       &state,
+                 const unsigned int step,
+                 const Sums        &sums_of_state)
+  {
+    if (!positions)
+      positions = system.unknowns.canonical_positions();
+    Checkpoint{step, sums_of_state.to_list(), ledger.seal(), state}
+      .write(folder, *positions);
+  }
+
+
+
+  std::string
+  TimeLoop::save_what_there_is(const State       &state,
+                               const unsigned int step,
+                               const Sums        &sums_of_state)
+  {
+    // The checkpoint first: the rest can be made again from it.
+    std::string problems;
+    const auto  careful = [&](const std::function<void()> &action) {
+      try
+        {
+          action();
+        }
+      catch (const ComputationError &problem)
+        {
+          problems += std::string("\n") + problem.what();
+        }
+    };
+    careful([&]() { save(state, step, sums_of_state); });
+    careful([&]() { ledger.write_hdf5(); });
+    if (write_fields && parameters.fields_every > 0)
+      careful([&]() { write_fields(state, step); });
+    return problems;
   }
 
 
@@ -290,12 +367,17 @@ namespace Ricochet
             "= " +
             to_text(state.time) + " s, after the final time " +
             to_text(parameters.final_time) + " s.");
-        ledger.resume(step + 1);
+        ledger.resume(checkpoint.ledger);
+        AssertThrow(ledger.rows().size() == step + 1, ExcInternalError());
         folder.log("resumed after step " + std::to_string(step) +
                    ", t = " + to_text(state.time) + " s");
+        // Those of this step may be missing, if the run was killed.
+        if (fields && step % parameters.fields_every == 0)
+          write_fields(state, step);
       }
     else
       {
+        refuse_overlap(state);
         ledger.start();
         const Energies energies = energies_of(state);
         sums.initial_energy     = energies.total();
@@ -330,20 +412,15 @@ namespace Ricochet
                       TimerOutput::never,
                       TimerOutput::wall_times);
     State              new_state;
-    const auto         write_checkpoint = [&]() {
-      if (!positions)
-        positions = system.unknowns.canonical_positions();
-      Checkpoint{step, sums.to_list(), state}.write(folder, *positions);
-    };
     const Timer        stopwatch;
-    const unsigned int first_step  = step;
-    double             energy      = energies_of(state).total();
-    Sums               sums_before = sums;
+    const unsigned int first_step = step;
+    double             energy     = energies_of(state).total();
+    // Sums up to the last complete step.
+    Sums complete_sums = sums;
     try
       {
         while (step < n_steps)
           {
-            sums_before = sums;
             timer.enter_subsection("steps");
             const StepReport report =
               advance(state, parameters.time_step, 0, new_state);
@@ -376,6 +453,7 @@ namespace Ricochet
             // Only now is the step complete.
             std::swap(state, new_state);
             ++step;
+            complete_sums = sums;
             timer.leave_subsection();
 
             if (parameters.log_every > 0 && step % parameters.log_every == 0)
@@ -397,18 +475,21 @@ namespace Ricochet
               write_fields(state, step);
             if (parameters.checkpoint_every > 0 &&
                 (step % parameters.checkpoint_every == 0 || step == n_steps))
-              write_checkpoint();
+              save(state, step, complete_sums);
           }
       }
-    catch (const ComputationError &)
+    catch (const ComputationError &failure)
       {
-        // Everything up to the last complete step is safe on disk. A step that
-        // was not completed leaves no trace.
-        sums = sums_before;
-        ledger.write_hdf5();
-        if (fields)
-          write_fields(state, step);
-        write_checkpoint();
+        // A step that was not completed leaves no trace.
+        throw ComputationError(failure.what() +
+                               save_what_there_is(state, step, complete_sums));
+      }
+    catch (const std::exception &)
+      {
+        // Out of memory, or an error in a library: perhaps on this rank only, so
+        // that others cannot help to save. Their last checkpoint remains.
+        if (Utilities::MPI::n_mpi_processes(folder.communicator) == 1)
+          save_what_there_is(state, step, complete_sums);
         throw;
       }
     ledger.write_hdf5();

@@ -108,6 +108,10 @@ namespace Ricochet
             const unsigned int n_steps,
             const std::string &remaining) const;
 
+    /// @throws InputError when the body is in an obstacle from the start.
+    void
+    refuse_overlap(const State &initial_state) const;
+
     const Parameters                                        parameters;
     RunFolder                                              &folder;
     SemiDiscreteSystem                                     &system;
@@ -136,6 +140,19 @@ namespace Ricochet
       from_list(const std::vector<double> &list);
     };
     Sums sums;
+
+    /// Write the checkpoint of @p state, the end of step number @p step.
+    void
+    save(const State       &state,
+         const unsigned int step,
+         const Sums        &sums_of_state);
+
+    /// After a failure: checkpoint, table and fields. @return what could not be
+    /// written, in sentences that begin a line each.
+    std::string
+    save_what_there_is(const State       &state,
+                       const unsigned int step,
+                       const Sums        &sums_of_state);
 
     // For checkpoints, known when first needed: Body::canonical_positions().
     std::optional<std::vector<dealii::types::global_dof_index>> positions;

@@ -78,7 +78,8 @@ namespace Ricochet
       problem.residual(point, residual);
       const double norm = problem.norm(residual);
       const double size = problem.force_scale();
-      scale             = size > 0. ? size : 1.;
+      // A size that is not a number must not look like none.
+      scale = size == 0. ? 1. : size;
       return norm / scale;
     };
 

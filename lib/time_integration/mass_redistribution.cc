@@ -10,7 +10,9 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
+#include <set>
 
 namespace Ricochet
 {
@@ -25,7 +27,85 @@ namespace Ricochet
       unsigned int component;
       Point<dim>   position;
       bool         on_contact_boundary;
+      /// Number of the body that the DoF belongs to.
+      unsigned int body = 0;
     };
+
+    /**
+     * Which DoFs hang together through cells: moments are those of a body, and a
+     * mesh may hold several that do not touch. Every DoF gets the smallest index
+     * of its body: within a rank by joining sets, between ranks by exchange until
+     * nothing changes.
+     *
+     * @return number of bodies.
+     */
+    template <int dim>
+    unsigned int
+    number_bodies(const Body<dim>                             &body,
+                  std::map<types::global_dof_index, DoF<dim>> &dofs)
+    {
+      std::map<types::global_dof_index, types::global_dof_index> parent;
+      const auto root = [&](types::global_dof_index i) {
+        while (parent.at(i) != i)
+          i = parent[i] = parent.at(parent.at(i));
+        return i;
+      };
+      for (const auto &entry : dofs)
+        parent[entry.first] = entry.first;
+      std::vector<types::global_dof_index> indices(
+        body.dof_handler().get_fe().n_dofs_per_cell());
+      for (const auto &cell : body.dof_handler().active_cell_iterators())
+        if (!cell->is_artificial())
+          {
+            cell->get_dof_indices(indices);
+            for (const auto i : indices)
+              parent[root(body.system_index(i))] =
+                root(body.system_index(indices[0]));
+          }
+
+      std::map<types::global_dof_index, double> smallest;
+      for (const auto &entry : dofs)
+        smallest[root(entry.first)] = std::numeric_limits<double>::max();
+      Vector labels  = body.make_vector();
+      Vector ghosted = body.make_ghosted_vector();
+      for (const auto i : labels.locally_owned_elements())
+        labels(i) = i;
+      labels.compress(VectorOperation::insert);
+      unsigned int changed = 1;
+      while (changed)
+        {
+          ghosted = labels;
+          changed = 0;
+          for (const auto &entry : dofs)
+            {
+              double &label = smallest[root(entry.first)];
+              label =
+                std::min(label, static_cast<double>(ghosted(entry.first)));
+            }
+          for (const auto &entry : dofs)
+            if (body.owned_indices().is_element(entry.first))
+              {
+                const double label  = smallest[root(entry.first)];
+                changed             = changed || label < labels(entry.first);
+                labels(entry.first) = label;
+              }
+          labels.compress(VectorOperation::insert);
+          changed = Utilities::MPI::max(changed, body.communicator);
+        }
+
+      // From labels to numbers, the same on all ranks.
+      std::set<double>    all_labels;
+      std::vector<double> mine;
+      for (const auto &entry : smallest)
+        mine.push_back(entry.second);
+      for (const auto &list :
+           Utilities::MPI::all_gather(body.communicator, mine))
+        all_labels.insert(list.begin(), list.end());
+      for (auto &[index, dof] : dofs)
+        dof.body = std::distance(all_labels.begin(),
+                                 all_labels.find(smallest[root(index)]));
+      return all_labels.size();
+    }
 
     template <int dim>
     std::map<types::global_dof_index, DoF<dim>>
@@ -117,10 +197,12 @@ namespace Ricochet
       Utilities::MPI::sum(ArrayView<const double>(view), communicator, view);
     }
 
+    /// The moments of the body with the number @p body.
     template <int dim>
     Eigen::VectorXd
     moments(const Matrix                                      &mass,
             const std::map<types::global_dof_index, DoF<dim>> &dofs,
+            const unsigned int                                 body,
             const Point<dim>                                  &origin,
             const MPI_Comm                                     communicator)
     {
@@ -132,25 +214,29 @@ namespace Ricochet
                               const DoF<dim> &row,
                               const DoF<dim> &column,
                               const double    value) {
-                            if (row.component == 0)
+                            if (row.component == 0 && row.body == body)
                               sums +=
                                 value * moments_of_pair(row, column, origin);
                           });
       sum_over_ranks(sums, communicator);
       return sums;
     }
+
     /**
-     * The matrix without inertia on the contact boundary that keeps the moments of
-     * @p mass about @p centre: the nearest one, or, @p in_proportion, with each
-     * entry multiplied by a polynomial.
+     * Take the inertia from the contact boundary of the body with the number @p
+     * body in @p redistributed, a copy of @p mass, and keep its moments about @p
+     * centre: by the nearest matrix, or, @p in_proportion, with each entry
+     * multiplied by a polynomial.
      */
     template <int dim>
-    Matrix
-    with_moments_kept(const Matrix                                      &mass,
-                      const std::map<types::global_dof_index, DoF<dim>> &dofs,
-                      const Point<dim>                                  &centre,
-                      const bool     in_proportion,
-                      const MPI_Comm communicator)
+    void
+    redistribute(const Matrix                                      &mass,
+                 const std::map<types::global_dof_index, DoF<dim>> &dofs,
+                 const unsigned int                                 body,
+                 const Point<dim>                                  &centre,
+                 const bool     in_proportion,
+                 const MPI_Comm communicator,
+                 Matrix        &redistributed)
     {
       // What an entry may change, by its own value.
       const auto weight = [&](const double value) {
@@ -168,7 +254,7 @@ namespace Ricochet
                               const DoF<dim> &row,
                               const DoF<dim> &column,
                               const double    value) {
-                            if (row.component != 0)
+                            if (row.component != 0 || row.body != body)
                               return;
                             const Eigen::VectorXd products =
                               moments_of_pair(row, column, centre);
@@ -198,8 +284,6 @@ namespace Ricochet
       const Eigen::VectorXd multipliers = scale.asDiagonal() *
         factorisation.solve(Eigen::VectorXd(scale.asDiagonal() * missing));
 
-      Matrix redistributed;
-      redistributed.copy_from(mass);
       for_each_entry<dim>(
         mass,
         dofs,
@@ -208,6 +292,8 @@ namespace Ricochet
             const DoF<dim>               &row,
             const DoF<dim>               &column,
             const double                  value) {
+          if (row.body != body)
+            return;
           redistributed.set(
             row_index,
             column_index,
@@ -217,38 +303,55 @@ namespace Ricochet
                   multipliers.dot(moments_of_pair(row, column, centre)));
         });
       redistributed.compress(VectorOperation::insert);
-      return redistributed;
     }
 
     /**
      * Whether @p matrix is positive definite off the rows @p massless, where it
      * is zero. Conjugate gradients from a right hand side without structure
      * meet a direction of negative curvature if there is one, because the
-     * extreme eigenvalues show first; a mass matrix is so well conditioned that
-     * they converge in a few dozen steps otherwise.
+     * extreme eigenvalues show first. With the diagonal as preconditioner a mass
+     * matrix is so well conditioned that they converge in a few dozen steps,
+     * whatever the sizes of the elements (Wathen, IMA J. Numer. Anal. 7, 1987).
      */
     bool
     is_positive_definite(const Matrix   &matrix,
                          const IndexSet &massless,
                          const Vector   &layout)
     {
-      Vector residual(layout), direction(layout), product(layout);
+      Vector residual(layout), inverse_diagonal(layout), product(layout);
+      bool   positive = true;
       for (const auto i : residual.locally_owned_elements())
-        residual(i) =
-          massless.is_element(i) ? 0. : std::sin(1. + 12.9898 * i) + .1;
+        if (!massless.is_element(i))
+          {
+            const double diagonal = matrix.diag_element(i);
+            positive              = positive && diagonal > 0.;
+            inverse_diagonal(i)   = 1. / diagonal;
+            // All directions alike, in the scale of the preconditioned matrix.
+            residual(i) =
+              std::sqrt(std::abs(diagonal)) * (std::sin(1. + 12.9898 * i) + .1);
+          }
       residual.compress(VectorOperation::insert);
-      direction            = residual;
-      double       rho     = residual * residual;
+      inverse_diagonal.compress(VectorOperation::insert);
+      if (Utilities::MPI::min(positive ? 1 : 0,
+                              layout.get_mpi_communicator()) == 0)
+        return false;
+
+      Vector preconditioned(residual);
+      preconditioned.scale(inverse_diagonal);
+      Vector       direction(preconditioned);
+      double       rho     = residual * preconditioned;
       const double initial = rho;
-      for (unsigned int k = 0; k < 200 && rho > 1e-20 * initial; ++k)
+      for (unsigned int k = 0; k < 1000 && rho > 1e-20 * initial; ++k)
         {
           matrix.vmult(product, direction);
           const double curvature = direction * product;
           if (!(curvature > 0.))
             return false;
           residual.add(-rho / curvature, product);
-          const double new_rho = residual * residual;
-          direction.sadd(new_rho / rho, 1., residual);
+          preconditioned = residual;
+          preconditioned.scale(inverse_diagonal);
+          const double new_rho = residual * preconditioned;
+          direction.sadd(new_rho / rho, 1., preconditioned);
           rho = new_rho;
         }
       return rho <= 1e-20 * initial;
@@ -258,13 +361,18 @@ namespace Ricochet
 
 
   template <int dim>
-  std::array<double, n_mass_moments<dim>>
+  std::vector<std::array<double, n_mass_moments<dim>>>
   mass_moments(const Body<dim> &body, const Matrix &mass)
   {
-    const Eigen::VectorXd sums =
-      moments<dim>(mass, describe_dofs(body), Point<dim>(), body.communicator);
-    std::array<double, n_mass_moments<dim>> result;
-    std::copy(sums.data(), sums.data() + sums.size(), result.begin());
+    auto               dofs = describe_dofs(body);
+    const unsigned int n    = number_bodies(body, dofs);
+    std::vector<std::array<double, n_mass_moments<dim>>> result(n);
+    for (unsigned int b = 0; b < n; ++b)
+      {
+        const Eigen::VectorXd sums =
+          moments<dim>(mass, dofs, b, Point<dim>(), body.communicator);
+        std::copy(sums.data(), sums.data() + sums.size(), result[b].begin());
+      }
     return result;
   }
 
@@ -274,14 +382,25 @@ namespace Ricochet
   Matrix
   redistribute_mass(const Body<dim> &body, const Matrix &mass)
   {
-    const auto dofs = describe_dofs(body);
+    auto               dofs     = describe_dofs(body);
+    const unsigned int n_bodies = number_bodies(body, dofs);
+
+    // A body without contact boundary keeps its mass as it is.
+    std::vector<unsigned int> touches(n_bodies, 0);
+    for (const auto &entry : dofs)
+      if (entry.second.on_contact_boundary)
+        touches[entry.second.body] = 1;
+    Utilities::MPI::max(touches, body.communicator, touches);
 
     // About the centre of mass the small system is well conditioned.
-    const Eigen::VectorXd about_zero =
-      moments<dim>(mass, dofs, Point<dim>(), body.communicator);
-    Point<dim> centre;
-    for (unsigned int i = 0; i < dim; ++i)
-      centre[i] = about_zero[1 + i] / about_zero[0];
+    std::vector<Point<dim>> centres(n_bodies);
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      {
+        const Eigen::VectorXd about_zero =
+          moments<dim>(mass, dofs, b, Point<dim>(), body.communicator);
+        for (unsigned int i = 0; i < dim; ++i)
+          centres[b][i] = about_zero[1 + i] / about_zero[0];
+      }
 
     // The nearest matrix changes all entries by like amounts, small ones too, and
     // need not be positive where much of the mass sits on the contact boundary.
@@ -291,11 +410,17 @@ namespace Ricochet
     no_inertia.add_indices(body.multiplier_indices());
     for (const bool in_proportion : {false, true})
       {
-        Matrix redistributed = with_moments_kept(mass,
-                                                 dofs,
-                                                 centre,
-                                                 in_proportion,
-                                                 body.communicator);
+        Matrix redistributed;
+        redistributed.copy_from(mass);
+        for (unsigned int b = 0; b < n_bodies; ++b)
+          if (touches[b])
+            redistribute(mass,
+                         dofs,
+                         b,
+                         centres[b],
+                         in_proportion,
+                         body.communicator,
+                         redistributed);
         if (is_positive_definite(redistributed, no_inertia, body.make_vector()))
           return redistributed;
       }
@@ -314,10 +439,10 @@ namespace Ricochet
   redistribute_mass(const Body<2> &, const Matrix &);
   template Matrix
   redistribute_mass(const Body<3> &, const Matrix &);
-  template std::array<double, n_mass_moments<1>>
+  template std::vector<std::array<double, n_mass_moments<1>>>
   mass_moments(const Body<1> &, const Matrix &);
-  template std::array<double, n_mass_moments<2>>
+  template std::vector<std::array<double, n_mass_moments<2>>>
   mass_moments(const Body<2> &, const Matrix &);
-  template std::array<double, n_mass_moments<3>>
+  template std::vector<std::array<double, n_mass_moments<3>>>
   mass_moments(const Body<3> &, const Matrix &);
 } // namespace Ricochet

@@ -5,6 +5,7 @@
 #include <discretization/body.h>
 
 #include <array>
+#include <vector>
 
 namespace Ricochet
 {
@@ -13,7 +14,8 @@ namespace Ricochet
    * Renard 2008; paper C, section 2.4): the matrix that is nearest to @p mass
    * in the Frobenius norm among those with the same sparsity, zero rows and
    * columns on the contact boundary, and the same total mass, first and second
-   * moments.
+   * moments of each body. A body is what hangs together through cells: a mesh may
+   * hold several.
    *
    * With a_k, b_k the polynomials 1, x_i of the constraints, the result is
    * M_ij + sum_k l_k sym(a_k b_k^T)_ij on the entries off the contact boundary;
@@ -39,9 +41,10 @@ namespace Ricochet
   constexpr unsigned int n_mass_moments = 1 + dim + dim *(dim + 1) / 2;
 
   /// Total mass (kg), first moments (kg m) and second moments (kg m^2: xx, xy,
-  /// ..., in lexicographic order) of the scalar matrix behind @p mass.
+  /// ..., in lexicographic order) of the scalar matrix behind @p mass, for each
+  /// body.
   template <int dim>
-  std::array<double, n_mass_moments<dim>>
+  std::vector<std::array<double, n_mass_moments<dim>>>
   mass_moments(const Body<dim> &body, const Matrix &mass);
 } // namespace Ricochet
 

@@ -29,6 +29,12 @@ namespace Ricochet
          const double        time_step,
          State              &new_state) override;
 
+    bool
+    contact_force_is_of_step() const override
+    {
+      return true;
+    }
+
   private:
     Stage  stage;
     Vector work;

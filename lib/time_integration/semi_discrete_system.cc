@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace Ricochet
 {
@@ -88,9 +89,24 @@ namespace Ricochet
   void
   SemiDiscreteSystem::set_clamped_to_zero(Vector &vector) const
   {
+    // What is not a number stays so: it may be the mark of an element that is
+    // turned inside out.
     for (const auto i : unknowns.clamped)
-      vector(i) = 0.;
+      vector(i) = 0. * vector(i);
     vector.compress(VectorOperation::insert);
+  }
+
+
+
+  double
+  SemiDiscreteSystem::displacement_norm(const Vector &vector) const
+  {
+    // Multipliers are the last of each rank's unknowns.
+    const double      *values = vector.trilinos_vector()[0];
+    const unsigned int n =
+      vector.locally_owned_size() - unknowns.multipliers.n_elements();
+    const double square = std::inner_product(values, values + n, values, 0.);
+    return std::sqrt(Utilities::MPI::sum(square, mass.get_mpi_communicator()));
   }
 
 
@@ -201,7 +217,7 @@ namespace Ricochet
     mass.vmult(work, stage.inertia_origin);
     const double bulk_round_off = 4. * std::numeric_limits<double>::epsilon() *
       (stage.inertia * work.l2_norm() +
-       bulk.stiffness_scale() * stage.inertia_origin.l2_norm());
+       bulk.stiffness_scale() * displacement_norm(stage.inertia_origin));
 
     const auto residual = [&](const Vector &point, Vector &result) {
       const Stopwatch stopwatch(residual_seconds);

@@ -213,6 +213,11 @@ namespace Ricochet
     void
     set_clamped_to_zero(Vector &vector) const;
 
+    /// l2 norm of the displacements in a system vector (m): those of multipliers
+    /// are pressures.
+    double
+    displacement_norm(const Vector &vector) const;
+
     const Matrix &mass;
     const Matrix &invertible_mass;
     std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type> clamped_list;

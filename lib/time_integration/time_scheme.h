@@ -73,6 +73,14 @@ namespace Ricochet
          const State        &old_state,
          const double        time_step,
          State              &new_state) = 0;
+
+    /// Whether the contact force of a state acts over the whole step that leads
+    /// to it, and not at its end.
+    virtual bool
+    contact_force_is_of_step() const
+    {
+      return false;
+    }
   };
 
   /// Names of all schemes, as a pattern for Patterns::Selection.

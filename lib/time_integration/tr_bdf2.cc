@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <time_integration/tr_bdf2.h>
 
+#include <cmath>
+
 namespace Ricochet
 {
   TRBDF2::TRBDF2(const double gamma)
@@ -9,7 +11,12 @@ namespace Ricochet
     , a_old((1. - gamma) * (1. - gamma) / (gamma * (2. - gamma)))
     , a_rate((1. - gamma) / (2. - gamma))
     , trapezoidal_rule(0.)
-  {}
+  {
+    // At gamma = 2 - sqrt(2) both stages have the same matrix, if round-off does
+    // not come between them.
+    if (std::abs(a_rate - .5 * gamma) < 1e-14)
+      a_rate = .5 * gamma;
+  }
 
 
 
@@ -30,7 +37,10 @@ namespace Ricochet
     new_state.time     = old_state.time + dt;
     new_state.velocity = middle.velocity;
     new_state.velocity.sadd(a_middle, -a_old, old_state.velocity);
-    stage.inertia        = 1. / (a_rate * dt * a_rate * dt);
+    // In the order in which the trapezoidal rule multiplies, so that equal means
+    // equal to the last digit.
+    const double rate_step = a_rate * dt;
+    stage.inertia          = 1. / (rate_step * rate_step);
     stage.inertia_origin = middle.solution;
     stage.inertia_origin.sadd(a_middle, -a_old, old_state.solution);
     stage.inertia_origin.add(a_rate * dt, new_state.velocity);

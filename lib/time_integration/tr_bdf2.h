@@ -24,7 +24,8 @@ namespace Ricochet
   private:
     const double gamma;
     // y_new = a_middle y_middle - a_old y_old + a_rate dt y'_new
-    const double a_middle, a_old, a_rate;
+    const double a_middle, a_old;
+    double       a_rate;
     HHT          trapezoidal_rule;
     State        middle;
     Stage        stage;

@@ -114,7 +114,7 @@ BarSD::run(RunFolder &folder)
   add_bar_end_columns(BarEnds::left, bar.body, exact, loop);
   add_bar_error_column(bar.body, exact, loop);
 
-  VtuSeries<1> fields(bar.body, material, *bar.contact, folder);
+  VtuSeries<1> fields(bar.body, material, *bar.contact, bar.obstacles, folder);
   loop.write_fields = [&](const State &state, const unsigned int step) {
     fields.write(state, step);
   };
@@ -144,5 +144,6 @@ main(int argc, char **argv)
      "left end\n(paper C, section 4.1).",
      [&](ParameterHandler &prm) { program.parameters.add_parameters(prm); },
      [&]() { program.parameters.validate(); },
-     [&](RunFolder &folder) { program.run(folder); }});
+     [&](RunFolder &folder) { program.run(folder); },
+     [&]() { return program.parameters.impact.unused_parameters(); }});
 }

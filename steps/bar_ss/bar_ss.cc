@@ -112,7 +112,7 @@ BarSS::run(RunFolder &folder)
   add_bar_end_columns(BarEnds::right, bar.body, exact, loop);
   add_bar_error_column(bar.body, exact, loop);
 
-  VtuSeries<1> fields(bar.body, material, *bar.contact, folder);
+  VtuSeries<1> fields(bar.body, material, *bar.contact, bar.obstacles, folder);
   loop.write_fields = [&](const State &state, const unsigned int step) {
     fields.write(state, step);
   };
@@ -142,5 +142,6 @@ main(int argc, char **argv)
      "section 4.2).",
      [&](ParameterHandler &prm) { program.parameters.add_parameters(prm); },
      [&]() { program.parameters.validate(); },
-     [&](RunFolder &folder) { program.run(folder); }});
+     [&](RunFolder &folder) { program.run(folder); },
+     [&]() { return program.parameters.impact.unused_parameters(); }});
 }

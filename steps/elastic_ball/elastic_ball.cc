@@ -57,6 +57,12 @@ public:
   void
   validate() const;
 
+  std::vector<UnusedParameter>
+  unused_parameters() const
+  {
+    return parameters.unused_parameters();
+  }
+
   void
   run(RunFolder &folder);
 
@@ -130,6 +136,13 @@ void
 ElasticBall::validate() const
 {
   parameters.validate();
+  // Quadrilaterals come in squares of the boundary's.
+  const double n_vertices = parameters.shape() == CellShape::triangles
+    ? n_nodes
+    : n_boundary_nodes * (n_boundary_nodes / 12.);
+  parameters.impact.check_size(2. * n_vertices * parameters.degree *
+                                 parameters.degree,
+                               2);
   // Building the mesh is the check of its numbers.
   Triangulation<2> triangulation;
   make_grid(triangulation);
@@ -202,7 +215,11 @@ ElasticBall::run(RunFolder &folder)
                            /* small strains */ material.linear.has_value());
   add_momentum_columns(momenta, ball.body, loop);
 
-  VtuSeries<2> fields(ball.body, material, *ball.contact, folder);
+  VtuSeries<2> fields(ball.body,
+                      material,
+                      *ball.contact,
+                      ball.obstacles,
+                      folder);
   loop.write_fields = [&](const State &state, const unsigned int step) {
     fields.write(state, step);
   };
@@ -225,5 +242,6 @@ main(int argc, char **argv)
                         program.add_parameters(prm);
                       },
                       [&]() { program.validate(); },
-                      [&](RunFolder &folder) { program.run(folder); }});
+                      [&](RunFolder &folder) { program.run(folder); },
+                      [&]() { return program.unused_parameters(); }});
 }

@@ -53,6 +53,12 @@ public:
   void
   validate() const;
 
+  std::vector<UnusedParameter>
+  unused_parameters() const
+  {
+    return parameters.unused_parameters();
+  }
+
   void
   run(RunFolder &folder);
 
@@ -127,6 +133,9 @@ void
 HyperelasticRing::validate() const
 {
   parameters.validate();
+  parameters.impact.check_size(2. * n_nodes_around * n_nodes_across *
+                                 parameters.degree * parameters.degree,
+                               2);
   // Building the mesh is the check of its numbers.
   Triangulation<2> triangulation;
   make_grid(triangulation);
@@ -194,7 +203,11 @@ HyperelasticRing::run(RunFolder &folder)
                            /* small strains */ material.linear.has_value());
   add_momentum_columns(momenta, ring.body, loop);
 
-  VtuSeries<2> fields(ring.body, material, *ring.contact, folder);
+  VtuSeries<2> fields(ring.body,
+                      material,
+                      *ring.contact,
+                      ring.obstacles,
+                      folder);
   loop.write_fields = [&](const State &state, const unsigned int step) {
     fields.write(state, step);
   };
@@ -217,5 +230,6 @@ main(int argc, char **argv)
                         program.add_parameters(prm);
                       },
                       [&]() { program.validate(); },
-                      [&](RunFolder &folder) { program.run(folder); }});
+                      [&](RunFolder &folder) { program.run(folder); },
+                      [&]() { return program.unused_parameters(); }});
 }

@@ -26,9 +26,9 @@
 // The limits for large (omega dt)^2 are (1 - |alpha|)/(1 + |alpha|) for HHT, 1
 // for Crank-Nicolson and 0 for TR-BDF2.
 
+#include <base/exceptions.h>
 #include <base/parameter_file.h>
 #include <base/program.h>
-#include <output/energy_ledger.h>
 #include <problems/bar.h>
 
 #include <deal.II/base/function_signed_distance.h>
@@ -37,6 +37,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
+#include <sstream>
 
 using namespace dealii;
 using namespace Ricochet;
@@ -46,6 +47,10 @@ class SpectralRadius
 public:
   void
   add_parameters(ParameterHandler &prm);
+
+  /// @throws InputError
+  void
+  validate() const;
 
   void
   run(RunFolder &folder);
@@ -112,6 +117,17 @@ SpectralRadius::add_parameters(ParameterHandler &prm)
                     Patterns::Double(.01, .99));
   prm.set("TR-BDF2 gamma", "0.5857864376269049");
   prm.leave_subsection();
+}
+
+
+
+void
+SpectralRadius::validate() const
+{
+  if (!(smallest < largest))
+    throw InputError("Smallest omega tilde, " + to_text(smallest) +
+                     ", must be less than largest omega tilde, " +
+                     to_text(largest) + ".");
 }
 
 
@@ -236,9 +252,7 @@ SpectralRadius::run(RunFolder &folder)
   const auto write = [&](const std::string                      &name,
                          const std::string                      &first_column,
                          const std::vector<std::vector<double>> &rows) {
-    if (!folder.is_root)
-      return;
-    std::ofstream out(folder.file(name));
+    std::ostringstream out;
     out.precision(15);
     out << first_column;
     for (const Entry &entry : entries)
@@ -247,7 +261,10 @@ SpectralRadius::run(RunFolder &folder)
     for (const auto &row : rows)
       for (unsigned int i = 0; i < row.size(); ++i)
         out << row[i] << (i + 1 < row.size() ? "," : "\n");
+    on_first_rank(folder.communicator,
+                  [&]() { write_atomically(folder.file(name), out.str()); });
   };
+  folder.begin();
 
   std::vector<std::vector<double>> rows;
   for (unsigned int p = 0; p < n_points; ++p)
@@ -315,6 +332,6 @@ main(int argc, char **argv)
      "Spectral radii and orders of the time schemes (paper C, figures 3 and "
      "4).",
      [&](ParameterHandler &prm) { program.add_parameters(prm); },
-     []() {},
+     [&]() { program.validate(); },
      [&](RunFolder &folder) { program.run(folder); }});
 }

@@ -65,6 +65,9 @@ public:
   void
   validate() const;
 
+  std::vector<UnusedParameter>
+  unused_parameters() const;
+
   void
   run(RunFolder &folder);
 
@@ -118,7 +121,8 @@ Sphere::add_parameters(ParameterHandler &prm)
     mesh_file,
     "Mesh file of Gmsh (format 2.2 or 4.1, ASCII) whose physical "
     "surface 1 is what can touch the foundation; empty to make a "
-    "mesh.");
+    "mesh. In a parameter file the path counts from the folder of that file.",
+    Patterns::FileName());
   prm.add_parameter("Cells",
                     cell_shape,
                     "Shape of the cells, when no file is given.",
@@ -160,12 +164,30 @@ void
 Sphere::validate() const
 {
   impact.validate();
+  // Reading the mesh is the check of its file. A mesh that is to be made has some
+  // 3.6 unknowns in each cube of the mesh size with degree 1 and 27 with degree 2.
   if (!mesh_file.empty())
-    {
-      // Reading the mesh is the check of its file.
+    on_first_rank(MPI_COMM_WORLD, [&]() {
       Triangulation<3> mesh;
       make_whole_mesh(mesh);
-    }
+    });
+  else
+    impact.check_size(4. / 3. * numbers::PI * std::pow(radius / mesh_size, 3) *
+                        (degree == 1 ? 3.6 : 27.),
+                      3);
+}
+
+
+
+std::vector<UnusedParameter>
+Sphere::unused_parameters() const
+{
+  std::vector<UnusedParameter> unused = impact.unused_parameters();
+  if (!mesh_file.empty())
+    for (const std::string name : {"Mesh/Cells", "Mesh/Mesh size"})
+      unused.push_back(
+        {name, "meshes that are made; Mesh/File is " + mesh_file});
+  return unused;
 }
 
 
@@ -247,7 +269,11 @@ Sphere::run(RunFolder &folder)
     return lowest.value(state.velocity, 2);
   });
 
-  VtuSeries<3> fields(sphere.body, material, *sphere.contact, folder);
+  VtuSeries<3> fields(sphere.body,
+                      material,
+                      *sphere.contact,
+                      sphere.obstacles,
+                      folder);
   loop.write_fields = [&](const State &state, const unsigned int step) {
     fields.write(state, step);
   };
@@ -270,5 +296,6 @@ main(int argc, char **argv)
                         program.add_parameters(prm);
                       },
                       [&]() { program.validate(); },
-                      [&](RunFolder &folder) { program.run(folder); }});
+                      [&](RunFolder &folder) { program.run(folder); },
+                      [&]() { return program.unused_parameters(); }});
 }

@@ -64,7 +64,7 @@ class Ledger:
             rows = list(csv.reader(file))
         self.names = [cell.split(" [")[0] for cell in rows[0]]
         self.units = [cell.split(" [")[1].rstrip("]") for cell in rows[0]]
-        values = [[float(x) for x in row] for row in rows[1:]]
+        values = [[float(x or "nan") for x in row] for row in rows[1:]]
         self.columns = dict(zip(self.names, zip(*values)))
 
     def __getitem__(self, name):

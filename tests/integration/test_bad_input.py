@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Bad input: a clear sentence, a non-zero exit code, and no time spent."""
 
+import re
 import time
 
 from common import *
@@ -139,7 +140,7 @@ class BadInput(Refusal):
                     parameters=["Time/Final time=1e10"])
 
     def test_assignment_without_value(self):
-        self.refuse("expected the form", parameters=["Time/Time step"])
+        self.refuse("Expected the form", parameters=["Time/Time step"])
 
     def test_validate_says_so_and_computes_nothing(self):
         code, out, _ = self.attempt("bar_ss", options=["--validate"])
@@ -156,6 +157,109 @@ class BadInput(Refusal):
                                           options=["--print-parameters"])
         self.assertEqual(code, 0, msg=error)
         self.assertEqual(again, out)
+
+
+class BadSettings(Refusal):
+    """Settings that mean nothing, or that nobody would notice."""
+
+    def test_forms_of_set(self):
+        for text in ("=1", "/Time/Time step=0.1", "Time//Time step=0.1", "=",
+                     "Time/=1", " =1", "Time", ""):
+            with self.subTest(text):
+                self.refuse("--set", parameters=[text])
+
+    def test_empty_file_name(self):
+        self.refuse("The name of the parameter file is empty", prm="")
+
+    def test_a_file_that_never_ends(self):
+        self.refuse("is larger than", prm="/dev/zero")
+
+    def test_a_file_with_a_mark_of_its_encoding(self):
+        file = self.write("")
+        file.write_bytes(b"\xef\xbb\xbfsubsection Time\r\n  set Final time = 1"
+                         b"\r\nend\r\n")
+        code, _, error = self.attempt("bar_sd", prm=file, options=["--validate"])
+        self.assertEqual(code, 0, msg=error)
+
+    def test_output_that_cannot_be_written(self):
+        for option in ("--print-parameters", "--help", "--version"):
+            with open("/dev/full", "w") as full:
+                result = subprocess.run([program_path("bar_sd"), option],
+                                        stdout=full, stderr=subprocess.PIPE,
+                                        text=True)
+            self.assertEqual(result.returncode, 2, msg=result.stderr)
+            self.assertIn("standard output cannot be written", result.stderr)
+
+    def test_parameters_without_effect(self):
+        for program, parameters, message in (
+                ("bar_sd", ["Time/HHT alpha=0.1"],
+                 "belongs to the time scheme HHT; Time/Scheme is Crank-Nicolson"),
+                ("bar_sd", ["Contact/Penalty epsilon0=1"],
+                 "belongs to penalty; Contact/Treatment is Nitsche"),
+                ("elastic_ball", ["Material/c1=1"],
+                 "belongs to the law Ciarlet-Geymonat"),
+                ("hyperelastic_ring", ["Material/Young modulus=1e6"],
+                 "belongs to the other laws"),
+                ("elastic_ball", ["Contact/Tangential compliance=1"],
+                 "Contact/Friction coefficient is 0"),
+                ("sphere", [f"Mesh/File={ROOT / 'meshes' / 'sphere_h4.msh'}",
+                            "Mesh/Mesh size=3"], "belongs to meshes that are made")):
+            self.refuse("has no effect", message, program=program,
+                        parameters=parameters)
+        # With what it belongs to, or at its default, it is fine.
+        for parameters in (["Time/HHT alpha=0.1", "Time/Scheme=HHT"],
+                           ["Time/HHT alpha=0.05"]):
+            code, _, error = self.attempt("bar_sd", parameters,
+                                          options=["--validate"])
+            self.assertEqual(code, 0, msg=error)
+        # A file may set what belongs together; it is told.
+        code, out, error = self.attempt(
+            "bar_sd", options=["--validate"],
+            prm=self.write("subsection Time\nset HHT alpha = 0.1\nend\n"))
+        self.assertEqual(code, 0, msg=error)
+        self.assertIn("given.prm, line 2: 'Time/HHT alpha' is set to '0.1' and "
+                      "has no effect", out)
+
+    def test_the_file_of_another_program(self):
+        self.refuse("this file is for the program 'hyperelastic_ring', not for "
+                    "'bar_sd'",
+                    prm=ROOT / "parameter_files/hyperelastic_ring/default.prm")
+
+    def test_a_step_longer_than_the_run(self):
+        self.refuse("The time step 0.5 s is longer than the whole run of 0.1 s",
+                    parameters=["Time/Time step=0.5", "Time/Final time=0.1"])
+
+    def test_sizes_beyond_memory(self):
+        for program, parameters in (
+                ("bar_sd", ["Time/Final time=1e30", "Time/Time step=1e29"]),
+                ("elastic_ball", ["Mesh/Nodes=2147483647"]),
+                ("hyperelastic_ring", ["Mesh/Nodes around=65536",
+                                       "Mesh/Nodes across=65536"]),
+                ("sphere", ["Mesh/Mesh size=0.1"])):
+            self.refuse("GB of memory", "unknowns", "Limits/Memory",
+                        program=program, parameters=parameters)
+        # The limit can be set.
+        self.refuse("0.001 GB are allowed", program="elastic_ball",
+                    parameters=["Limits/Memory=0.001"])
+
+    def test_nitsche_below_its_bound_on_any_mesh(self):
+        """Default 5 Pa against a body of 10 GPa, and the ball at half its bound."""
+        ball = BALL + ["Contact/Treatment=Nitsche", "Material/Plane state=plane strain"]
+        error = self.refuse("Contact/Nitsche gamma0 = 5 Pa is too small",
+                            "It must be larger than", program="elastic_ball",
+                            parameters=ball + ["Contact/Nitsche gamma0=5"])
+        bound = float(re.search(r"larger than ([0-9.e+]+)", error).group(1))
+        # For constant strains h^2/area times a modulus: some GPa times a few.
+        self.assertGreater(bound, 1.6e10)
+        self.assertLess(bound, 2e11)
+        self.refuse("is too small", program="elastic_ball",
+                    parameters=ball + [f"Contact/Nitsche gamma0={.99 * bound}"])
+        code, _, error = self.attempt(
+            "elastic_ball", ball + NO_FIELDS +
+            [f"Contact/Nitsche gamma0={1.01 * bound}", "Time/Final time=2e-3"])
+        self.assertEqual(code, 0, msg=error)
+        self.refuse("is too small", program="sphere", folder=self.folder / "sphere",
+                    parameters=["Mesh/Mesh size=10", "Contact/Nitsche gamma0=10"])
 
 
 class FailureWhileRunning(ProgramTest):
@@ -228,8 +332,9 @@ class BadThrownBodies(Refusal):
         # Exact friction needs none.
         code, _, error = self.attempt(
             "elastic_ball", ["Contact/Friction coefficient=0.1",
-                             "Contact/Tangential compliance=0",
                              "Contact/Treatment=persistent contact"],
+            prm=self.write("subsection Contact\n"
+                           "set Tangential compliance = 0\nend\n"),
             options=["--validate"])
         self.assertEqual(code, 0, msg=error)
 

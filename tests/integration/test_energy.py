@@ -7,7 +7,7 @@ from common import *
 def in_flight(ledger, end):
     """Steps that begin and end without contact at the end's boundary, and with
     no contact in any stage between: gaps larger than any step could close."""
-    gap = ledger[f"gap_{end}"]
+    gap = ledger[f"mean_gap_{end}"]
     return [n for n in range(1, len(gap)) if gap[n - 1] > .06 and gap[n] > .06]
 
 
@@ -127,6 +127,26 @@ class Energy(ProgramTest):
                             ledger["exact_displacement_left"]))
             ends.append(error)
         self.assertLess(max(ends), .02)
+
+
+class HalvedSteps(ProgramTest):
+
+    def test_the_force_of_a_halved_step_is_that_of_the_whole_step(self):
+        """Newton's second law over each step: the momentum that the body gains is
+        the contact force of the ledger times the step, also where the step was
+        halved because Newton's method may make few iterations only."""
+        for treatment in ("persistent contact", "improved normal compliance"):
+            with self.subTest(treatment):
+                ledger = self.run_program(
+                    "elastic_ball", BALL + NO_FIELDS +
+                    [f"Contact/Treatment={treatment}", "Time/Final time=0.02",
+                     "Newton/Maximum iterations=2", "Time/Maximum halvings=10"])
+                self.assertGreater(ledger["step_halvings"][-1], 0)
+                scale = abs(ledger["momentum_y"][0])
+                for n in range(1, len(ledger["time"])):
+                    gained = ledger["momentum_y"][n] - ledger["momentum_y"][n - 1]
+                    impulse = ledger["contact_force_foundation"][n] * 1e-3
+                    self.assertLess(abs(gained - impulse), 1e-9 * scale, msg=n)
 
 
 if __name__ == "__main__":

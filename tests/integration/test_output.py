@@ -33,8 +33,46 @@ class Output(ProgramTest):
                          [0, .2, .4, .6, .8, 1])
         for entry in sets:
             text = (run / entry.get("file")).read_text()
-            for field in ("displacement", "velocity", "acceleration", "stress"):
+            for field in ("displacement", "velocity", "acceleration", "stress",
+                          "contact_pressure", "gap", "TIME"):
                 self.assertIn(f'Name="{field}"', text)
+
+    def test_fields_in_the_plane(self):
+        """Von Mises stress in 2D too; a second run writes the same bytes."""
+        parameters = BALL + ["Time/Final time=0.002", "Output/Fields every=2"]
+        self.run_program("elastic_ball", parameters)
+        file = self.folder / "run" / "solution" / "step-000002.vtu"
+        before = file.read_bytes()
+        for field in (b"von_mises", b"gap", b"contact_pressure"):
+            self.assertIn(b'Name="%s"' % field, before)
+        self.run_program("elastic_ball", parameters)
+        self.assertEqual(file.read_bytes(), before)
+
+    def test_gaps(self):
+        """The smallest gap of the ball is the parameter; the mean one is that of
+        its whole circle, radius + gap."""
+        ledger = self.run_program(
+            "elastic_ball", BALL + NO_FIELDS + ["Time/Final time=0.002"])
+        self.assertAlmostEqual(ledger["smallest_gap_foundation"][0], .0155)
+        self.assertAlmostEqual(ledger["mean_gap_foundation"][0], 10.0155)
+        # It falls by 10 m/s, free of forces.
+        self.assertAlmostEqual(ledger["smallest_gap_foundation"][1], .0055)
+
+    def test_a_method_without_potential_has_no_modified_energy(self):
+        for theta in ("-1", "0"):
+            self.run_program("bar_sd", NO_FIELDS + [
+                "Time/Final time=1.5", f"Contact/Nitsche theta={theta}"])
+            table = (self.folder / "run" / "energy.csv").read_text().splitlines()
+            column = [name.split(" [")[0] for name in
+                      table[0].split(",")].index("modified_energy")
+            self.assertEqual({row.split(",")[column] for row in table[1:]}, {""})
+        # It is resumed all the same.
+        self.run_program("bar_sd", NO_FIELDS + [
+            "Time/Final time=2", "Contact/Nitsche theta=0",
+            "Output/Checkpoint every=10"])
+        self.run_program("bar_sd", NO_FIELDS + [
+            "Time/Final time=3", "Contact/Nitsche theta=0"],
+            options=["--resume"])
 
     def test_hdf5_holds_the_same_table(self):
         ledger = self.run_program("bar_sd", ["Time/Final time=1"] + NO_FIELDS)
@@ -65,6 +103,24 @@ class Output(ProgramTest):
             self.assertEqual(line[-2:], ["of", "2"])
             if following[1] == "0":
                 self.assertLess(float(line[3]), 1e-12)
+
+    def test_newton_stops_where_it_was_told_to_with_multipliers(self):
+        """Pressures are not lengths: the round-off that is forgiven is that of
+        displacements (with pressures among them it was 1e-5)."""
+        for treatment in ("Signorini multipliers", "proximal augmented Lagrangian"):
+            self.run_program("elastic_ball", BALL + NO_FIELDS + [
+                f"Contact/Treatment={treatment}", "Output/Newton table=true",
+                "Time/Final time=0.02"])
+            lines = [line.split() for line in
+                     (self.folder / "run" / "log.txt").read_text().splitlines()
+                     if line.lstrip().startswith("Newton")]
+            checked = 0
+            for line, following in zip(lines, lines[1:] + [["Newton", "0"]]):
+                # In free flight all forces are round-off.
+                if following[1] == "0" and line[7] != "0":
+                    self.assertLess(float(line[3]), 1e-11)
+                    checked += 1
+            self.assertGreater(checked, 5)
 
     def test_help_and_version(self):
         for program in ("bar_sd", "bar_ss", "spectral_radius"):

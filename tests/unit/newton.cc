@@ -21,7 +21,8 @@ namespace
         const std::function<double(double)> &derivative,
         const double                         start,
         const NewtonSolver::Parameters      &parameters,
-        double                              *root = nullptr)
+        double                              *root  = nullptr,
+        const double                         scale = 1.)
   {
     Vector x(dealii::complete_index_set(4), MPI_COMM_SELF);
     x = start;
@@ -42,7 +43,7 @@ namespace
     problem.norm        = [](const Vector &v) { return v.linfty_norm(); };
     problem.active_set  = []() { return std::string("none"); };
     problem.accept      = []() {};
-    problem.force_scale = []() { return 1.; };
+    problem.force_scale = [=]() { return scale; };
     problem.round_off   = []() { return 0.; };
 
     NewtonSolver newton(parameters);
@@ -118,6 +119,19 @@ BOOST_AUTO_TEST_CASE(never_returns_what_is_not_converged)
                           [](double x) { return 2. * x; },
                           2.,
                           {1e-14, 2, 10}),
+                    NewtonFailure);
+}
+
+// Forces that are not a number are no forces of size zero: with the scale 1 in
+// their place any residual below the tolerance would pass.
+BOOST_AUTO_TEST_CASE(a_force_scale_that_is_not_a_number_never_converges)
+{
+  BOOST_CHECK_THROW(solve([](double) { return 1e-20; },
+                          [](double) { return 1.; },
+                          0.,
+                          {1e-12, 5, 10},
+                          nullptr,
+                          std::numeric_limits<double>::quiet_NaN()),
                     NewtonFailure);
 }
 

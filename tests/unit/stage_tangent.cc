@@ -10,7 +10,14 @@
 
 #include <base/exceptions.h>
 #include <contact/contact_treatment.h>
+#include <contact/nitsche_bound.h>
 #include <contact/pointwise_contact.h>
+#include <discretization/hyperelastic_bulk.h>
+#include <discretization/linear_bulk.h>
+#include <materials/laws/neo_hookean.h>
+#include <time_integration/semi_discrete_system.h>
+
+#include <deal.II/base/function_lib.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -36,6 +43,7 @@ namespace
     ContactParameters         parameters;
     parameters.treatment              = treatment;
     parameters.nitsche_theta          = theta;
+    parameters.nitsche_gamma_0        = 50.;
     parameters.compliance_coefficient = 20.;
     parameters.compliance_exponent    = 2.5;
     parameters.friction_coefficient   = friction;
@@ -177,6 +185,215 @@ BOOST_AUTO_TEST_CASE(in_3d)
 {
   check_all<3>(false, 1);
   check_all<3>(true, 1);
+}
+
+// The pressure field of a state depends on that state alone, whatever iterates
+// came in between: after a failed step it is still that of the last good one.
+BOOST_AUTO_TEST_CASE(pressure_fields_do_not_remember_iterates)
+{
+  const CubeAbovePlane<2> cube(false);
+  for (const std::string treatment :
+       {"Hauret-Le Tallec", "improved normal compliance", "penalty"})
+    {
+      ContactParameters parameters;
+      parameters.treatment              = treatment;
+      parameters.compliance_coefficient = 20.;
+      const Body<2> body(cube.triangulation,
+                         1,
+                         {},
+                         {1},
+                         MultiplierSpace::none,
+                         MPI_COMM_WORLD);
+      const auto    contact =
+        make_contact(parameters, "midpoint", body, material, cube.plane(0.));
+      Vector zero = body.make_vector(), residual(zero), velocity(zero);
+      Vector pressed(zero), failed(zero);
+      pressed = -.01;
+      failed  = -.3;
+      const ContactStart start{zero, zero, velocity, .1};
+      contact->begin_stage(start, 1.);
+      contact->complete_residual(pressed, residual);
+      contact->accept_iterate();
+      const Vector force(contact->contact_force());
+      const Vector before = contact->pressure_field(pressed, force);
+      BOOST_CHECK_GT(before.linfty_norm(), .1);
+      residual = 0.;
+      contact->complete_residual(failed, residual);
+      Vector after = contact->pressure_field(pressed, force);
+      after -= before;
+      BOOST_CHECK_EQUAL(after.linfty_norm(), 0.);
+    }
+}
+
+// Curved obstacles would be frozen in their tangent planes.
+BOOST_AUTO_TEST_CASE(curved_obstacles_are_refused)
+{
+  const CubeAbovePlane<2> cube(false);
+  const Body<2>           body(cube.triangulation,
+                     1,
+                     {},
+                     {1},
+                     MultiplierSpace::none,
+                     MPI_COMM_WORLD);
+  const Obstacles<2>      disk = {
+         {1,
+          std::make_shared<dealii::Functions::SignedDistance::Sphere<2>>(
+       dealii::Point<2>(.5, -2.),
+       1.9)}};
+  for (const std::string treatment : {"penalty", "improved normal compliance"})
+    {
+      ContactParameters parameters;
+      parameters.treatment = treatment;
+      BOOST_CHECK_THROW(
+        make_contact(parameters, "midpoint", body, material, disk),
+        InputError);
+      BOOST_CHECK_NO_THROW(
+        make_contact(parameters, "midpoint", body, material, cube.plane(.1)));
+    }
+}
+
+// Vertices of quadratic tetrahedra have no boundary mass, and not one that
+// round-off makes positive or negative.
+BOOST_AUTO_TEST_CASE(boundary_masses_of_quadratic_tetrahedra)
+{
+  const CubeAbovePlane<3> cube(true);
+  const Body<3>           body(cube.triangulation,
+                     2,
+                     {},
+                     {1},
+                     MultiplierSpace::none,
+                     MPI_COMM_WORLD);
+  const ContactPoints     nodes  = make_contact_nodes(body, cube.plane(0.));
+  unsigned int            n_zero = 0;
+  double                  area   = 0.;
+  for (const ContactPoint &point : nodes.points)
+    {
+      n_zero += point.weight == 0.;
+      area += point.weight;
+      BOOST_CHECK(point.weight == 0. || point.weight > 1e-3);
+    }
+  BOOST_CHECK_CLOSE(dealii::Utilities::MPI::sum(area, MPI_COMM_WORLD),
+                    1.,
+                    1e-10);
+  // 3 x 3 vertices.
+  BOOST_CHECK_EQUAL(dealii::Utilities::MPI::sum(n_zero, MPI_COMM_WORLD), 9u);
+  BOOST_CHECK_THROW(make_nodal_contact_points(body, cube.plane(0.)),
+                    InputError);
+}
+
+// A contact point that needs an unknown which the rank does not know is an error,
+// and not a read from anywhere.
+BOOST_AUTO_TEST_CASE(unknowns_of_contact_points_are_checked)
+{
+  const CubeAbovePlane<2> cube(false);
+  const Body<2>           body(cube.triangulation,
+                     1,
+                     {},
+                     {1},
+                     MultiplierSpace::none,
+                     MPI_COMM_WORLD);
+  ContactPoints           points;
+  points.points.emplace_back();
+  points.add_displacement(100000,
+                          dealii::Tensor<1, 3>({0., 1., 0.}),
+                          1,
+                          1.,
+                          0.);
+  points.points.back().end = 1;
+  BOOST_CHECK_THROW(ContactPointEvaluator(body, points), std::exception);
+}
+
+// The constant of the trace inequality, by hand. A bar of modulus E in elements of
+// degree k: k^2 E. A square cell of edge a with one edge in contact and lambda = 0:
+// a constant stress 2 mu e has h_T a (2 mu e)^2 on the edge, with h_T = sqrt(2) a,
+// against the energy 2 mu e^2 a^2; so the constant is at least sqrt(2) 2 mu.
+BOOST_AUTO_TEST_CASE(trace_constants)
+{
+  {
+    const CubeAbovePlane<1> bar(false, 4);
+    for (const unsigned int degree : {1, 2, 3})
+      {
+        const Body<1> body(bar.triangulation,
+                           degree,
+                           {},
+                           {1},
+                           MultiplierSpace::none,
+                           MPI_COMM_WORLD);
+        BOOST_CHECK_CLOSE(nitsche_trace_constant(body,
+                                                 LinearElastic{1., 2.},
+                                                 bar.plane(0.)),
+                          5. * degree * degree,
+                          1e-8);
+      }
+  }
+  {
+    const CubeAbovePlane<2> square(false, 3);
+    const Body<2>           body(square.triangulation,
+                       1,
+                       {},
+                       {1},
+                       MultiplierSpace::none,
+                       MPI_COMM_WORLD);
+    const double            constant =
+      nitsche_trace_constant(body, LinearElastic{0., 1.}, square.plane(0.));
+    BOOST_CHECK_GE(constant, 2. * std::sqrt(2.) * (1. - 1e-10));
+    BOOST_CHECK_LT(constant, 4. * 2. * std::sqrt(2.));
+  }
+}
+
+// An element that is turned inside out makes the force not a number, also where
+// its mark sits in an unknown that is clamped.
+BOOST_AUTO_TEST_CASE(inverted_elements_next_to_clamped_unknowns)
+{
+  const CubeAbovePlane<2> cube(false);
+  for (const unsigned int clamped : {0, 1, 2})
+    {
+      const Body<2>             body(cube.triangulation,
+                         1,
+                         {clamped},
+                         {},
+                         MultiplierSpace::none,
+                         MPI_COMM_WORLD);
+      const HyperelasticBulk<2> bulk(
+        body,
+        Material<2>(std::make_shared<Hyperelastic<2>>(
+          std::make_shared<HyperelasticLawImplementation<NeoHookean>>(
+            NeoHookean{1., 1.}),
+          PlaneState::plane_strain)));
+      ContactParameters parameters;
+      parameters.treatment                 = "penalty";
+      const auto                   contact = make_contact<2>(parameters,
+                                           "midpoint",
+                                           body,
+                                           std::nullopt,
+                                           Obstacles<2>());
+      const Matrix                 mass    = assemble_mass_matrix(body, 1.);
+      SemiDiscreteSystem::Unknowns unknowns;
+      unknowns.massless    = dealii::IndexSet(mass.m());
+      unknowns.multipliers = dealii::IndexSet(mass.m());
+      unknowns.clamped     = body.clamped_indices();
+      unknowns.dim         = 2;
+      unknowns.pattern     = &body.sparsity_pattern();
+      const SemiDiscreteSystem system(mass,
+                                      mass,
+                                      bulk,
+                                      *contact,
+                                      unknowns,
+                                      {},
+                                      NewtonSolver::Parameters(),
+                                      LinearSolver::Parameters());
+      // Upside down.
+      Vector inverted = body.make_vector(), zero(inverted), force(inverted);
+      body.interpolate(dealii::Functions::ConstantFunction<2>(
+                         std::vector<double>{0., 1.}),
+                       inverted);
+      Vector               heights(inverted);
+      dealii::Tensor<1, 2> up({0., 1.});
+      body.interpolate(dealii::Functions::Monomial<2>(up, 2), heights);
+      inverted.add(-2., heights);
+      system.total_force(inverted, zero, 0., force);
+      BOOST_CHECK(std::isnan(force.l2_norm()));
+    }
 }
 
 // Factorisations are found again by a hash of the branches of all contact

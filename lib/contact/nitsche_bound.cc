@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/nitsche_bound.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The largest eigenvalue of @p traction against @p energy, a positive
+    /// semi-definite matrix, off its kernel: that of rigid motions, in which there
+    /// is no traction either.
+    double
+    largest_eigenvalue(const Eigen::MatrixXd &traction,
+                       const Eigen::MatrixXd &energy)
+    {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(energy);
+      const double stiffest = modes.eigenvalues().maxCoeff();
+      Eigen::Index n_rigid  = 0;
+      while (n_rigid < energy.rows() &&
+             modes.eigenvalues()[n_rigid] < 1e-10 * stiffest)
+        ++n_rigid;
+      const Eigen::Index    n           = energy.rows() - n_rigid;
+      const Eigen::MatrixXd unit_energy = modes.eigenvectors().rightCols(n) *
+        modes.eigenvalues().tail(n).cwiseSqrt().cwiseInverse().asDiagonal();
+      return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+               unit_energy.transpose() * traction * unit_energy,
+               Eigen::EigenvaluesOnly)
+        .eigenvalues()
+        .maxCoeff();
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  double
+  nitsche_trace_constant(const Body<dim>      &body,
+                         const LinearElastic  &material,
+                         const Obstacles<dim> &obstacles)
+  {
+    const FEValuesExtractors::Vector displacement(0);
+    const FiniteElement<dim>        &element = body.dof_handler().get_fe();
+    FEValues<dim>                    cell_values(body.mapping(),
+                              element,
+                              body.cell_quadrature(),
+                              update_gradients | update_JxW_values);
+    FEFaceValues<dim>                face_values(body.mapping(),
+                                  element,
+                                  body.face_quadrature(),
+                                  update_gradients | update_quadrature_points |
+                                    update_normal_vectors | update_JxW_values);
+    const unsigned int               n = element.n_dofs_per_cell();
+    Eigen::MatrixXd                  traction(n, n), energy(n, n);
+    Eigen::VectorXd                  pressure(n);
+    double                           largest = 0.;
+    for (const auto &cell : body.dof_handler().active_cell_iterators())
+      {
+        if (!cell->is_locally_owned())
+          continue;
+        traction.setZero();
+        for (const unsigned int f : cell->face_indices())
+          {
+            const auto obstacle = obstacles.find(cell->face(f)->boundary_id());
+            if (!cell->face(f)->at_boundary() || obstacle == obstacles.end())
+              continue;
+            face_values.reinit(cell, f);
+            for (const unsigned int q : face_values.quadrature_point_indices())
+              {
+                const Tensor<1, dim> gradient =
+                  obstacle->second->gradient(face_values.quadrature_point(q));
+                for (unsigned int i = 0; i < n; ++i)
+                  pressure[i] = gradient *
+                    (material.stress(
+                       face_values[displacement].symmetric_gradient(i, q)) *
+                     face_values.normal_vector(q)) /
+                    gradient.norm();
+                traction.noalias() += cell->diameter() * face_values.JxW(q) *
+                  pressure * pressure.transpose();
+              }
+          }
+        if (traction.isZero(0.))
+          continue;
+        cell_values.reinit(cell);
+        energy.setZero();
+        for (const unsigned int q : cell_values.quadrature_point_indices())
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              const SymmetricTensor<2, dim> stress = material.stress(
+                cell_values[displacement].symmetric_gradient(i, q));
+              for (unsigned int j = 0; j < n; ++j)
+                energy(i, j) += cell_values.JxW(q) *
+                  (stress * cell_values[displacement].symmetric_gradient(j, q));
+            }
+        largest = std::max(largest, largest_eigenvalue(traction, energy));
+      }
+    return Utilities::MPI::max(largest, body.communicator);
+  }
+
+
+  template double
+  nitsche_trace_constant(const Body<1> &,
+                         const LinearElastic &,
+                         const Obstacles<1> &);
+  template double
+  nitsche_trace_constant(const Body<2> &,
+                         const LinearElastic &,
+                         const Obstacles<2> &);
+  template double
+  nitsche_trace_constant(const Body<3> &,
+                         const LinearElastic &,
+                         const Obstacles<3> &);
+} // namespace Ricochet

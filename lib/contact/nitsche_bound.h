@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_nitsche_bound_h
+#define ricochet_contact_nitsche_bound_h
+
+#include <contact/contact_points.h>
+
+namespace Ricochet
+{
+  /**
+   * The constant C (Pa) of the discrete trace inequality
+   *
+   *     h_T (p, p)_F  <=  C (sigma(v), epsilon(v))_T
+   *
+   * for all displacements v of a cell T with contact faces F, p being the normal
+   * pressure of its stress: the largest eigenvalue of that pair of forms over all
+   * cells. Nitsche's method is stable when gamma_0 > (1 + theta)^2/4 C (Chouly,
+   * Hild and Renard, Math. Comp. 84, 2015); on a bar C is the square of the degree
+   * times the modulus. It is enough for stability, and a little less may do,
+   * because cells do not deform alone.
+   *
+   * Collective. Zero without contact boundary.
+   */
+  template <int dim>
+  double
+  nitsche_trace_constant(const Body<dim>      &body,
+                         const LinearElastic  &material,
+                         const Obstacles<dim> &obstacles);
+} // namespace Ricochet
+
+#endif

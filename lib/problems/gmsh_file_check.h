@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_problems_gmsh_file_check_h
+#define ricochet_problems_gmsh_file_check_h
+
+#include <string>
+
+namespace Ricochet
+{
+  /**
+   * Check that @p file_name is a whole ASCII mesh of Gmsh (format 2.2 or 4.1)
+   * that deal.II can read as a mesh of dimension @p dim, which is 2 or 3.
+   * deal.II's reader trusts its input: damaged files make it crash, hang, or
+   * fail without a word on where. It should see only files that pass here.
+   *
+   * A file passes with
+   * - the sections $MeshFormat, $PhysicalNames (optional), $Entities (optional,
+   *   only in format 4.1), $Nodes and $Elements, each once, in this order,
+   *   whole and with what their counts promise; others may only follow these;
+   * - one entry per line, as Gmsh writes it;
+   * - nodes with unique numbers and finite coordinates;
+   * - elements of first order that have nodes of the file, no node twice, and
+   *   at most one physical group, whose number is not negative;
+   * - cells of one shape: triangles or quadrilaterals in 2D, tetrahedra or
+   *   hexahedra in 3D, each once, with a volume that is not zero, and no face
+   *   in more than two of them;
+   * - elements of dimension @p dim - 1 that are faces of the boundary, those of
+   *   one face in one physical group; in 3D no lines within the body.
+   *
+   * Nodes that no element has are allowed, and cells of negative orientation
+   * too, which deal.II turns around. Time is that of sorting the elements, and
+   * memory a small multiple of the file's size, whatever the file says.
+   *
+   * @throws InputError with the file, the line and the reason.
+   */
+  void
+  check_gmsh_file(const std::string &file_name, const unsigned int dim);
+} // namespace Ricochet
+
+#endif

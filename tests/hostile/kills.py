@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Kind 8: runs that are killed, resumed, killed again, until they end."""
+
+import os
+import signal
+import time
+
+import contract
+from case import ACCEPTED, HANG
+from programs import BARS, THROWN, small, steps
+
+NUMBERS_OF_KILLS = [1, 1, 1, 2, 2, 3, 5]
+PATIENCE = 20.
+
+# Methods of different kinds, and longer runs than elsewhere: a kill should come
+# while something is computed.
+STEPS = {"bar_sd": 240, "bar_ss": 240, "elastic_ball": 60, "hyperelastic_ring": 40}
+VARIANTS = {
+    "bar_sd": [{}, {"Contact/Treatment": "Signorini active set",
+                    "Time/Scheme": "HHT"}],
+    "bar_ss": [{"Time/Scheme": "TR-BDF2"},
+               {"Contact/Treatment": "proximal augmented Lagrangian"}],
+    "elastic_ball": [{}, {"Contact/Treatment": "persistent contact"}],
+    "hyperelastic_ring": [{}, {"Contact/Treatment": "Signorini active set",
+                               "Contact/Friction coefficient": "0.2"}],
+}
+
+
+def settings_for(rng, program):
+    settings = small(program)
+    settings.update(steps(program, STEPS[program]))
+    settings.update(rng.choice(VARIANTS[program]))
+    return settings
+
+
+def signature(folder):
+    """Changes as soon as the run writes anything."""
+    marks = []
+    for name in ("energy.csv", "log.txt", "checkpoint.bin", "solution.pvd"):
+        try:
+            status = os.stat(folder / name)
+            marks.append((status.st_mtime_ns, status.st_size))
+        except OSError:
+            marks.append(None)
+    return marks
+
+
+def wait_for_the_moment(case, process, delay, from_start):
+    """Sleep from the start, or from when the run first writes something."""
+    before = signature(case.run_folder)
+    end = time.monotonic() + HANG
+    while not from_start and process.poll() is None \
+            and signature(case.run_folder) == before and time.monotonic() < end:
+        time.sleep(.002)
+    end = time.monotonic() + delay
+    while process.poll() is None and time.monotonic() < end:
+        time.sleep(min(.005, max(0., end - time.monotonic())))
+
+
+def ranks_of(mpirun):
+    """The processes that mpirun started."""
+    children = []
+    for entry in os.listdir("/proc"):
+        if entry.isdigit():
+            try:
+                with open(f"/proc/{entry}/stat", encoding="utf-8",
+                          errors="replace") as file:
+                    parent = int(file.read().rsplit(")", 1)[1].split()[1])
+            except (OSError, ValueError, IndexError):
+                continue
+            if parent == mpirun:
+                children.append(int(entry))
+    return children
+
+
+def strike(case, process, n_ranks):
+    """Kill the run, or one of its ranks. Returns whether it was still there."""
+    if process.poll() is not None:
+        return False
+    victims = ranks_of(process.pid) if n_ranks > 1 else [process.pid]
+    if not victims:
+        return False
+    try:
+        os.kill(case.rng.choice(victims), signal.SIGKILL)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def killed_run(case, program, words, n_ranks, duration):
+    """Start, strike, and see what is left. Returns the result, or None if it was
+    killed."""
+    from_start = case.rng.random() < .2
+    delay = case.rng.random() * (1. if from_start else duration)
+    began = time.monotonic()
+    started = case.start(words)
+    process = started[0]
+    wait_for_the_moment(case, process, delay, from_start)
+    struck = strike(case, process, n_ranks)
+    when = "after its start" if from_start else "after it first wrote something"
+    case.note(f"SIGKILL to {'a rank' if n_ranks > 1 else 'it'} {delay:.4f} s {when}"
+              if struck else "ended by itself")
+    killed_at = time.monotonic()
+    result = case.finish(started, PATIENCE if struck else HANG, began)
+    if not struck:
+        return result
+    if n_ranks > 1:
+        if result.timed_out:
+            case.finding("mpirun does not end after a rank was killed",
+                         f"{time.monotonic() - killed_at:.0f} s")
+        elif result.code == 0 and not contract.check_results(program,
+                                                             case.run_folder):
+            # The rank was struck when its work was done.
+            return result
+        elif result.code == 0:
+            case.finding("success although a rank was killed")
+    return None
+
+
+def run(case):
+    rng = case.rng
+    program = rng.choice(BARS + THROWN)
+    n_ranks = rng.choice([2, 3]) if rng.random() < 1 / 6 else 1
+    settings = settings_for(rng, program)
+    reference = case.undisturbed(program, dict(settings,
+                                               **{"Output/Fields every": "0"}),
+                                 n_ranks)
+    if reference is None:
+        return
+    settings["Output/Checkpoint every"] = str(rng.randrange(1, 8))
+    fields_every = rng.choice([0, 0, 1, 7])
+    settings["Output/Fields every"] = str(fields_every)
+    duration = .5 if fields_every != 1 else 1.
+    options, n_kills = [], rng.choice(NUMBERS_OF_KILLS)
+    for attempt in range(2 * max(NUMBERS_OF_KILLS)):
+        words = case.command(program, settings, n_ranks=n_ranks, options=options)
+        if attempt < n_kills:
+            result = killed_run(case, program, words, n_ranks, duration)
+        else:
+            result = case.execute(words, n_ranks=n_ranks)
+        if result is None:
+            options = ["--resume"]
+        elif result.code == 1 and options and "does not exist" in result.err:
+            # Killed before the first checkpoint: there is nothing to go on from.
+            if (case.run_folder / "checkpoint.bin").exists():
+                case.judge(result, program, ACCEPTED, n_ranks=n_ranks)
+                return
+            options = []
+        else:
+            break
+    else:
+        case.finding("a killed run does not come to its end", f"{attempt} attempts")
+        return
+    case.judge(result, program, ACCEPTED, case.run_folder, n_ranks)
+    if result.code == 0:
+        case.expect_same_ledger(case.run_folder, reference)
+        check_number_of_fields(case, fields_every, program)
+
+
+def check_number_of_fields(case, fields_every, program):
+    """No file of a field is lost on the way."""
+    if fields_every == 0:
+        return
+    expected = STEPS[program] // fields_every + 1
+    found = (case.run_folder / "solution.pvd").read_text().count("<DataSet")
+    if found < expected:
+        case.finding("solution.pvd has lost fields", f"{found} of {expected}")
