@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Sourced by demo.sh and test.sh: packages, configure, build.
+# Sourced by demo.sh, test.sh and sanitize.sh: packages, configure, build.
 
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -27,13 +27,16 @@ install_packages()
     apt-get install -y -qq --no-install-recommends $missing >/dev/null
 }
 
-# build TYPE: configure and build build/release or build/debug.
+# build NAME [OPTION...]: configure and build in build/name. NAME is the build type,
+# Release or Debug, or any other with the options of CMake after it.
 build()
 {
-  local folder
+  local folder type="$1"
   folder="build/$(echo "$1" | tr '[:upper:]' '[:lower:]')"
+  shift
+  [ "$#" -eq 0 ] || type="Release"
   # Debian's interpreter is the one that sees Debian's matplotlib and h5py.
-  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE="$1" \
+  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE="$type" "$@" \
     -DPython3_EXECUTABLE=/usr/bin/python3 >"/tmp/ricochet-cmake-$$.log" ||
     { cat "/tmp/ricochet-cmake-$$.log"; exit 1; }
   rm -f "/tmp/ricochet-cmake-$$.log"

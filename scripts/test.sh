@@ -1,11 +1,38 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# From a fresh Debian 12 to all tests passed: install, build, test. The debug
-# build runs with all assertions of deal.II; the release build also compares with
-# stored outputs and makes the figures, whose numbers are checked.
+# From a fresh Debian 12 to all tests passed: install, build, test.
+#
+#   test.sh           what has to pass before anything is merged (below 30 minutes
+#                     on 2 cores): the debug build with all assertions of deal.II,
+#                     and the release build, which also compares with stored outputs
+#                     and makes the figures, whose numbers are checked
+#   test.sh --quick   while you work: the release build, unit tests, stored outputs,
+#                     bad input, files (8 minutes with the build)
+#   test.sh --full    once before an issue is closed (below 90 minutes): all of the
+#                     above, sanitizers, hostile inputs and kills, and deliberate
+#                     errors in the library, all of which the tests must find. They
+#                     come in portions: TEST_PORTION=2/3 for the second third.
 
+case "${1:-}" in
+  "" | --quick | --full) ;;
+  *) echo "usage: test.sh [--quick | --full]" >&2; exit 1 ;;
+esac
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+
+if [ "${1:-}" = "--quick" ]; then
+  build Release
+  ctest --test-dir build/release --output-on-failure -j 2 -L quick
+  exit
+fi
+
 build Debug
 build Release
 ctest --test-dir build/debug --output-on-failure -j 2
 ctest --test-dir build/release --output-on-failure -j 2
+
+if [ "${1:-}" = "--full" ]; then
+  bash scripts/sanitize.sh
+  tests/hostile/hostile.py --programs build/release --inputs 2000 --kills 300
+  tests/mutations/mutations.py --source . --build-dir build/mutations \
+    --portion "${TEST_PORTION:-1/3}"
+fi

@@ -5,5 +5,5 @@ deal_ii_pickup_tests()
 get_property(regressions DIRECTORY PROPERTY TESTS)
 if(regressions)
   set_tests_properties(${regressions} PROPERTIES
-    ENVIRONMENT "${TEST_ENVIRONMENT}" RESOURCE_LOCK build_tool)
+    ENVIRONMENT "${TEST_ENVIRONMENT}" RESOURCE_LOCK build_tool LABELS quick)
 endif()

@@ -124,6 +124,15 @@ namespace Ricochet
       std::error_code error;
       return std::filesystem::exists(file, error);
     }
+
+    /// Whether both names are there and mean one file.
+    bool
+    same_file(const std::string &a, const std::string &b)
+    {
+      std::error_code error;
+      return !a.empty() && !b.empty() &&
+        std::filesystem::equivalent(a, b, error) && !error;
+    }
   } // namespace
 
 
@@ -210,11 +219,14 @@ namespace Ricochet
       {
         const std::string other =
           entry(read_file(file(identity_file)), "parameter file = ");
-        if (!other.empty())
+        // A parameter file that lies in the folder itself is no copy.
+        if (!other.empty() && !same_file(file(name_of_copy(other)), other))
           names.push_back(name_of_copy(other));
       }
     for (const std::string &name : names)
       {
+        if (same_file(file(name), options.parameter_file))
+          continue;
         std::error_code error;
         fs::remove(file(name), error);
         if (error)
@@ -223,11 +235,11 @@ namespace Ricochet
         fs::remove(file(name + ".new"), error);
       }
     std::error_code error;
-    for (const auto &entry : fs::directory_iterator(file("solution"), error))
+    for (const auto &field : fs::directory_iterator(file("solution"), error))
       {
-        const std::string name = entry.path().filename().string();
+        const std::string name = field.path().filename().string();
         if (name.compare(0, 5, "step-") == 0)
-          fs::remove(entry.path(), error);
+          fs::remove(field.path(), error);
       }
   }
 
@@ -248,9 +260,9 @@ namespace Ricochet
         {
           remove_earlier_results();
           write_atomically(file(identity_file), identity);
-          if (!options.parameter_file.empty())
-            write_atomically(file(name_of_copy(options.parameter_file)),
-                             read_file(options.parameter_file));
+          const std::string &given = options.parameter_file;
+          if (!given.empty() && !same_file(file(name_of_copy(given)), given))
+            write_atomically(file(name_of_copy(given)), read_file(given));
           write_atomically(file("parameters.prm"), all_parameters);
         }
       log_file.open(file("log.txt"), /* keep */ resume);

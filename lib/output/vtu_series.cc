@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <regex>
 #include <sstream>
@@ -137,6 +138,20 @@ namespace Ricochet
       }
     };
 
+    /// A file of fields that was written to its end.
+    bool
+    is_whole(const std::string &file)
+    {
+      constexpr std::streamoff length = 40;
+      std::ifstream            in(file, std::ios::binary | std::ios::ate);
+      if (!in || in.tellg() < length)
+        return false;
+      std::string end(length, '\0');
+      in.seekg(-length, std::ios::end);
+      in.read(end.data(), length);
+      return end.find("</VTKFile>") != std::string::npos;
+    }
+
     /// In 1D a field of one component is a scalar to VTU files.
     template <int dim>
     std::vector<DataComponentInterpretation::DataComponentInterpretation>
@@ -163,8 +178,7 @@ namespace Ricochet
     , nodes(body, make_contact_nodes(body, obstacles))
     , folder(folder)
   {
-    if (!folder.is_root || !folder.resume ||
-        !std::filesystem::exists(folder.file("solution.pvd")))
+    if (!folder.resume || !std::filesystem::exists(folder.file("solution.pvd")))
       return;
     // Take over the list of an earlier part of the run.
     std::istringstream in(read_file(folder.file("solution.pvd")));
@@ -184,8 +198,11 @@ namespace Ricochet
                      .ec == std::errc();
           };
           if (read(match[3], step) && read(match[1], time) &&
-              std::filesystem::exists(folder.file(match[2])))
+              is_whole(folder.file(match[2])))
             written[step] = {time, match[2]};
+          else
+            folder.log("note: '" + match[2].str() +
+                       "' is missing or damaged and is not listed any more");
         }
   }
 

@@ -283,28 +283,6 @@ namespace Ricochet
 
 
   void
-  TimeLoop::refuse_overlap(const State &initial_state) const
-  {
-    const auto summaries = system.contact.summary(initial_state.solution,
-                                                  initial_state.contact_force);
-    for (const auto &[id, name] : contact_names)
-      {
-        const ContactSummary &contact = summaries.at(id);
-        // The size of the boundary is the length to measure by.
-        const double size = system.unknowns.dim == 1
-          ? 1.
-          : std::pow(contact.area, 1. / (system.unknowns.dim - 1.));
-        if (contact.max_penetration > 1e-3 * size)
-          throw InputError(
-            "The body starts inside the obstacle: its boundary '" + name +
-            "' is " + to_text(contact.max_penetration) +
-            " m deep in it. Place it higher.");
-      }
-  }
-
-
-
-  void
   TimeLoop::save(const State       &state,
                  const unsigned int step,
                  const Sums        &sums_of_state)
@@ -320,7 +298,8 @@ namespace Ricochet
   std::string
   TimeLoop::save_what_there_is(const State       &state,
                                const unsigned int step,
-                               const Sums        &sums_of_state)
+                               const Sums        &sums_of_state,
+                               const std::string &known_problem)
   {
     // The checkpoint first: the rest can be made again from it.
     std::string problems;
@@ -331,7 +310,8 @@ namespace Ricochet
         }
       catch (const ComputationError &problem)
         {
-          problems += std::string("\n") + problem.what();
+          if (known_problem.find(problem.what()) == std::string::npos)
+            problems += std::string("\n") + problem.what();
         }
     };
     careful([&]() { save(state, step, sums_of_state); });
@@ -377,7 +357,6 @@ namespace Ricochet
       }
     else
       {
-        refuse_overlap(state);
         ledger.start();
         const Energies energies = energies_of(state);
         sums.initial_energy     = energies.total();
@@ -481,15 +460,16 @@ namespace Ricochet
     catch (const ComputationError &failure)
       {
         // A step that was not completed leaves no trace.
-        throw ComputationError(failure.what() +
-                               save_what_there_is(state, step, complete_sums));
+        const std::string text = failure.what();
+        throw ComputationError(
+          text + save_what_there_is(state, step, complete_sums, text));
       }
-    catch (const std::exception &)
+    catch (const std::exception &failure)
       {
         // Out of memory, or an error in a library: perhaps on this rank only, so
         // that others cannot help to save. Their last checkpoint remains.
         if (Utilities::MPI::n_mpi_processes(folder.communicator) == 1)
-          save_what_there_is(state, step, complete_sums);
+          save_what_there_is(state, step, complete_sums, failure.what());
         throw;
       }
     ledger.write_hdf5();

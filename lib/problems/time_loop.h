@@ -108,10 +108,6 @@ namespace Ricochet
             const unsigned int n_steps,
             const std::string &remaining) const;
 
-    /// @throws InputError when the body is in an obstacle from the start.
-    void
-    refuse_overlap(const State &initial_state) const;
-
     const Parameters                                        parameters;
     RunFolder                                              &folder;
     SemiDiscreteSystem                                     &system;
@@ -148,11 +144,13 @@ namespace Ricochet
          const Sums        &sums_of_state);
 
     /// After a failure: checkpoint, table and fields. @return what could not be
-    /// written, in sentences that begin a line each.
+    /// written and is not part of @p known_problem, in sentences that begin a line
+    /// each.
     std::string
     save_what_there_is(const State       &state,
                        const unsigned int step,
-                       const Sums        &sums_of_state);
+                       const Sums        &sums_of_state,
+                       const std::string &known_problem);
 
     // For checkpoints, known when first needed: Body::canonical_positions().
     std::optional<std::vector<dealii::types::global_dof_index>> positions;

@@ -33,6 +33,8 @@
 //     mpirun -n 2 sphere parameter_files/sphere/default.prm
 //     sphere --help
 
+#include <base/exceptions.h>
+#include <base/parameter_file.h>
 #include <base/program.h>
 #include <discretization/distributed_mesh.h>
 #include <output/node_probe.h>
@@ -170,6 +172,16 @@ Sphere::validate() const
     on_first_rank(MPI_COMM_WORLD, [&]() {
       Triangulation<3> mesh;
       make_whole_mesh(mesh);
+      double lowest = 0.;
+      for (const auto &cell : mesh.active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          if (face->boundary_id() == BallBoundary::lower_half)
+            for (const unsigned int v : face->vertex_indices())
+              lowest = std::min(lowest, face->vertex(v)[2]);
+      if (lowest < -1e-3 * radius)
+        throw InputError("The mesh '" + mesh_file + "' starts inside the " +
+                         "obstacle: it reaches " + to_text(-lowest) +
+                         " m below the foundation at x_3 = 0. Move it up.");
     });
   else
     impact.check_size(4. / 3. * numbers::PI * std::pow(radius / mesh_size, 3) *

@@ -97,8 +97,11 @@ class ProgramTest(unittest.TestCase):
         return result.returncode, result.stdout, result.stderr
 
     def run_program(self, program, parameters=(), folder=None, **kwargs):
-        """Run, insist on success, return the ledger."""
+        """Run, insist on success, return the ledger. Whatever another test case
+        has left in the folder is overwritten."""
         folder = folder or self.folder / "run"
+        if "--resume" not in kwargs.get("options", ()):
+            kwargs["options"] = [*kwargs.get("options", ()), "--overwrite"]
         code, out, err = self.attempt(program, parameters, folder, **kwargs)
         self.assertEqual(code, 0, msg=f"{program} {parameters}\n{out}\n{err}")
         return Ledger(folder)

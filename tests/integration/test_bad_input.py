@@ -174,6 +174,9 @@ class BadSettings(Refusal):
     def test_a_file_that_never_ends(self):
         self.refuse("is larger than", prm="/dev/zero")
 
+    def test_a_file_that_cannot_be_read_to_its_end(self):
+        self.refuse("cannot be read", prm="/proc/self/mem")
+
     def test_a_file_with_a_mark_of_its_encoding(self):
         file = self.write("")
         file.write_bytes(b"\xef\xbb\xbfsubsection Time\r\n  set Final time = 1"

@@ -33,6 +33,8 @@ class DocumentedCommands(ProgramTest):
                 if words[0] in SHORTENED and len(words) > 1:
                     words += ["--set", SHORTENED[words[0]]]
                 words[0] = program_path(words[0])
+                # All of them write to one folder.
+                words += ["--overwrite"]
                 if "--output-dir" not in words and "--help" not in words:
                     words += ["--output-dir", str(self.folder / "run")]
                 elif "--output-dir" in words:

@@ -47,11 +47,11 @@ class Safety(ProgramTest):
         for program, parameters, limit, name in (
                 ("bar_sd", [], 100, "parameters.prm"),
                 ("bar_sd", ["Output/Log every=0"], 40000, "energy.csv"),
-                ("elastic_ball", ball, 40000, "step-000000.vtu"),
+                ("elastic_ball", ball, 30000, ".vtu"),
                 ("spectral_radius", ["Spectrum/Points=100"], 6000,
                  "spectral_radii.csv")):
             with self.subTest(f"{program} {name}"):
-                run = self.folder / f"{program}-{name}"
+                run = self.folder / f"{program}-{limit}"
                 code, error = self.attempt_limited(limit, program, parameters, run)
                 self.assertEqual(code, 2, msg=error)
                 self.assertIn(f"{name}' cannot be written", error)
@@ -145,11 +145,12 @@ class Safety(ProgramTest):
             self.assertEqual((run / "energy.csv").read_bytes(), table)
         # The same file again, also from another place; and the other one when
         # asked to.
-        self.run_program("bar_sd", prm=mine)
         moved = self.folder / "elsewhere"
         moved.mkdir()
         shutil.copy(mine, moved / "mine.prm")
-        self.run_program("bar_sd", prm=moved / "mine.prm")
+        for prm in (mine, moved / "mine.prm"):
+            code, _, error = self.attempt("bar_sd", prm=prm)
+            self.assertEqual(code, 0, msg=error)
         ledger = self.run_program("bar_sd", prm=other, options=["--overwrite"])
         self.assertEqual(ledger["time"][-1], 2)
         self.assertFalse((run / "mine.prm").exists())
@@ -157,6 +158,22 @@ class Safety(ProgramTest):
                                       options=["--overwrite", "--resume"])
         self.assertEqual(code, 1)
         self.assertIn("give one of them", error)
+
+    def test_a_parameter_file_in_the_output_folder_is_kept(self):
+        run = self.folder / "run"
+        run.mkdir()
+        mine, text = run / "mine.prm", "subsection Time\n set Final time = 1\nend\n"
+        mine.write_text(text)
+        for options in ([], [], ["--overwrite"]):
+            code, _, error = self.attempt("bar_sd", prm=mine, options=options)
+            self.assertEqual(code, 0, msg=error)
+            self.assertEqual(mine.read_text(), text)
+        # Also when another file's run takes its place, and when the values of a
+        # run are run again where they are.
+        self.run_program("bar_sd", SHORT)
+        self.assertEqual(mine.read_text(), text)
+        ledger = self.run_program("bar_sd", prm=run / "parameters.prm")
+        self.assertEqual(ledger["time"][-1], 3)
 
     def test_the_default_folder_is_named_after_program_and_file(self):
         given = self.folder / "a_case.prm"

@@ -138,12 +138,43 @@ class Sphere(ProgramTest):
         no_mesh = self.folder / "text.msh"
         no_mesh.write_text("not a mesh\n")
         for file, words in ((self.folder / "missing.msh", "cannot be read"),
-                            (no_mesh, "not a mesh"),
-                            (no_boundary, "no physical surface 1")):
+                            (no_mesh, "line 1: 'not a mesh' stands where"),
+                            (no_boundary, "no physical surface 1"),
+                            *self.damaged_meshes()):
             with self.subTest(file.name):
                 code, _, error = self.attempt("sphere", [f"Mesh/File={file}"])
-                self.assertEqual(code, 1)
+                self.assertEqual(code, 1, msg=error)
                 self.assertIn(words, error)
+                self.assertNotIn("grid_in", error)
+
+    def damaged_meshes(self):
+        """Files on which deal.II's reader crashes, hangs or says where in its own
+        code it stopped; and a body that is not where the obstacle is."""
+        text = MESH.read_text()
+        lines = text.split("\n")
+        nodes = lines.index("$Nodes") + 1
+
+        def lowered(line):
+            words = line.split()
+            return " ".join(words[:3] + [repr(float(words[3]) - 52)])
+
+        n_nodes = int(lines[nodes])
+        for name, damaged, words in (
+                ("version41", text.replace("2.2 0 8", "4.1 0 8"), "line"),
+                ("version50", text.replace("2.2 0 8", "5.0 0 8"), "5.0"),
+                ("version99", text.replace("2.2 0 8", "9.9 0 8"), "9.9"),
+                ("absurd", text.replace(f"$Nodes\n{n_nodes}",
+                                        "$Nodes\n99999999999999"), "line"),
+                ("negative", text.replace(f"$Nodes\n{n_nodes}", "$Nodes\n-1"),
+                 "line"),
+                ("cut", text[:len(text) // 2], "line"),
+                ("below", "\n".join(
+                    lines[:nodes + 1] +
+                    [lowered(l) for l in lines[nodes + 1:nodes + 1 + n_nodes]] +
+                    lines[nodes + 1 + n_nodes:]), "starts inside the obstacle")):
+            file = self.folder / f"{name}.msh"
+            file.write_text(damaged)
+            yield file, words
 
 
 if __name__ == "__main__":

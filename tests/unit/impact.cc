@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Setting up an impact and running it: what is refused, and what is saved when
+// something goes wrong that nobody has foreseen.
+
+#include "meshes.h"
+
+#include <base/exceptions.h>
+#include <problems/impact.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <unistd.h>
+
+#include <filesystem>
+
+using namespace Ricochet;
+
+namespace
+{
+  Impact<1>
+  make_bar(const CubeAbovePlane<1>         &bar,
+           const dealii::types::boundary_id clamped)
+  {
+    ImpactParameters parameters;
+    parameters.contact.treatment = "penalty";
+    return Impact<1>(parameters,
+                     bar.triangulation,
+                     /* degree */ 1,
+                     LinearElastic{0., .5},
+                     /* density */ 1.,
+                     {clamped},
+                     bar.plane(.1),
+                     {},
+                     MPI_COMM_WORLD);
+  }
+} // namespace
+
+
+BOOST_AUTO_TEST_SUITE(impact)
+
+// Boundary 1 looks at the plane, 2 is the other end.
+BOOST_AUTO_TEST_CASE(boundaries_that_the_mesh_has_not_are_refused)
+{
+  const CubeAbovePlane<1> bar(false, 8);
+  BOOST_CHECK_NO_THROW(make_bar(bar, 2));
+  BOOST_CHECK_THROW(make_bar(bar, 7), InputError);
+  ImpactParameters parameters;
+  BOOST_CHECK_THROW(Impact<1>(parameters,
+                              bar.triangulation,
+                              1,
+                              LinearElastic{0., .5},
+                              1.,
+                              {},
+                              {{5, bar.plane(.1).at(1)}},
+                              {},
+                              MPI_COMM_WORLD),
+                    InputError);
+}
+
+// An error of a library in the middle of a run is not one of ours; the checkpoint
+// and the table of energies are saved all the same.
+BOOST_AUTO_TEST_CASE(errors_that_nobody_foresaw_leave_a_checkpoint)
+{
+  const std::string path = (std::filesystem::temp_directory_path() /
+                            ("ricochet-impact-" + std::to_string(::getpid())))
+                             .string();
+  {
+    const CubeAbovePlane<1> bar(false, 8);
+    Impact<1>               impact = make_bar(bar, 2);
+    RunFolder               folder({path, "unit_tests", "", false, false, true},
+                     MPI_COMM_WORLD);
+    TimeLoop::Parameters    parameters;
+    parameters.time_step    = .1;
+    parameters.final_time   = 1.;
+    parameters.fields_every = 3;
+    TimeLoop loop(parameters,
+                  folder,
+                  impact.system,
+                  *impact.scheme,
+                  {{1, "plane"}});
+    loop.write_fields = [](const State &, const unsigned int step) {
+      if (step == 6)
+        throw std::logic_error("an error of a library");
+    };
+    BOOST_CHECK_THROW(loop.run(
+                        impact.state_in_flight(dealii::Tensor<1, 1>({-.5}))),
+                      std::logic_error);
+    BOOST_CHECK_EQUAL(loop.energy_ledger().rows().size(), 7);
+    for (const std::string name : {"checkpoint.bin", "energy.h5", "energy.csv"})
+      BOOST_CHECK(std::filesystem::exists(folder.file(name)));
+  }
+  std::filesystem::remove_all(path);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
