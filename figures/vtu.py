@@ -36,6 +36,9 @@ def read(path):
     arrays = {}
     for attributes, text in ARRAY.findall(path.read_text(encoding="utf-8")):
         attribute = dict(re.findall(r'(\w+)="([^"]*)"', attributes))
+        # The time is written in plain text, and is no field.
+        if attribute.get("format") == "ascii":
+            continue
         values = _decode(text, TYPES[attribute["type"]])
         if "NumberOfComponents" in attribute:
             values = values.reshape(-1, int(attribute["NumberOfComponents"]))

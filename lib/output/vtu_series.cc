@@ -5,6 +5,7 @@
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
@@ -212,8 +213,12 @@ namespace Ricochet
   Vector
   VtuSeries<dim>::gap_field(const Vector &solution)
   {
-    Vector field(solution);
-    field = std::numeric_limits<double>::quiet_NaN();
+    // deal.II's own assignment insists on numbers.
+    Vector  field(solution);
+    double *values = field.trilinos_vector()[0];
+    std::fill(values,
+              values + field.locally_owned_size(),
+              std::numeric_limits<double>::quiet_NaN());
     std::vector<ContactPointState<>> states;
     nodes.evaluate(solution, states);
     for (unsigned int p = 0; p < states.size(); ++p)

@@ -129,6 +129,25 @@ class Energy(ProgramTest):
         self.assertLess(max(ends), .02)
 
 
+class ExactColumns(ProgramTest):
+
+    def test_the_bar_beside_its_exact_solution(self):
+        """In flight the end moves at -1/2 and nothing presses; in contact it rests,
+        with the pressure 1/2 (paper C, 4.1); the error is integrated over time."""
+        ledger = self.run_program("bar_sd", NO_FIELDS + ["Time/Final time=3"])
+        for time, velocity, pressure in ((.5, -.5, 0), (1.5, 0, .5), (2.5, .5, 0)):
+            n = round(time / .05)
+            self.assertAlmostEqual(ledger["time"][n], time)
+            self.assertAlmostEqual(ledger["exact_velocity_left"][n], velocity)
+            self.assertAlmostEqual(ledger["exact_pressure_left"][n], pressure)
+        mean = sum(ledger["velocity_left"][4:18]) / 14
+        self.assertLess(abs(mean + .5), .02)
+        log = (self.folder / "run" / "log.txt").read_text()
+        error = float(log.split("L2(0,T;H1) error: ")[1].split(",")[0])
+        square = .05 * sum(e * e for e in ledger["h1_error"][1:])
+        self.assertAlmostEqual(error, square ** .5, places=9)
+
+
 class HalvedSteps(ProgramTest):
 
     def test_the_force_of_a_halved_step_is_that_of_the_whole_step(self):

@@ -48,6 +48,36 @@ class Output(ProgramTest):
         self.run_program("elastic_ball", parameters)
         self.assertEqual(file.read_bytes(), before)
 
+    def test_fields_agree_with_the_table(self):
+        """Sums over the nodes of a picture are columns of the table: forces on the
+        body point up, gaps are known on the contact boundary only."""
+        sys.path.insert(0, str(ROOT / "figures"))
+        try:
+            import numpy
+            import vtu
+        except ImportError:
+            self.skipTest("numpy (Debian's python3-numpy) is missing")
+        ledger = self.run_program("elastic_ball", BALL + [
+            "Time/Final time=0.01", "Output/Fields every=10"])
+        points, _, fields = vtu.read(
+            self.folder / "run" / "solution" / "step-000010.vtu")
+        force = fields["contact_force"].sum(axis=0)
+        self.assertGreater(ledger["contact_force_foundation"][-1], 0)
+        self.assertAlmostEqual(force[1] / ledger["contact_force_foundation"][-1], 1,
+                               places=5)
+        self.assertLess(abs(force[0]), 1e-5 * force[1])
+        gap = fields["gap"].reshape(-1)
+        # Of 64 nodes on the circle; the height of the deformed ball there.
+        known = numpy.isfinite(gap)
+        self.assertEqual(known.sum(), 64)
+        self.assertAlmostEqual(gap[known].min(),
+                               ledger["smallest_gap_foundation"][-1], places=6)
+        height = points[known, 1] + fields["displacement"][known, 1]
+        self.assertLess(abs(gap[known] - height).max(), 1e-5)
+        pressure = fields["contact_pressure"].reshape(-1)
+        self.assertEqual(pressure.argmax(), fields["contact_force"][:, 1].argmax())
+        self.assertGreater(fields["von_mises"].max(), 0)
+
     def test_gaps(self):
         """The smallest gap of the ball is the parameter; the mean one is that of
         its whole circle, radius + gap."""

@@ -13,6 +13,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -104,9 +105,13 @@ class Test:
         try:
             output, _ = process.communicate(timeout=TIME_LIMIT)
         except subprocess.TimeoutExpired:
-            # With all that it has started.
-            os.killpg(process.pid, 9)
-            process.communicate()
+            # With all that it has started; mpirun takes its ranks along.
+            os.killpg(process.pid, signal.SIGTERM)
+            try:
+                process.communicate(timeout=20)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.communicate()
             return "time limit"
         if process.returncode == 0:
             return ""
