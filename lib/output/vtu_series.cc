@@ -5,7 +5,6 @@
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
 
-#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
@@ -92,6 +91,58 @@ namespace Ricochet
       const Material<dim> material;
     };
 
+    /// The distance of each point to the nearest obstacle.
+    template <int dim>
+    class Gap : public DataPostprocessorScalar<dim>
+    {
+    public:
+      explicit Gap(const Obstacles<dim> &obstacles)
+        : DataPostprocessorScalar<dim>("gap",
+                                       update_values | update_quadrature_points)
+        , obstacles(obstacles)
+      {}
+
+      void
+      evaluate_vector_field(
+        const DataPostprocessorInputs::Vector<dim> &inputs,
+        std::vector<dealii::Vector<double>>        &gaps) const override
+      {
+        for (unsigned int p = 0; p < gaps.size(); ++p)
+          {
+            Point<dim> position = inputs.evaluation_points[p];
+            for (unsigned int i = 0; i < dim; ++i)
+              position[i] += inputs.solution_values[p][i];
+            gaps[p][0] = nearest(position);
+          }
+      }
+
+      /// In 1D deal.II takes a field of one component for a scalar.
+      void
+      evaluate_scalar_field(
+        const DataPostprocessorInputs::Scalar<dim> &inputs,
+        std::vector<dealii::Vector<double>>        &gaps) const override
+      {
+        for (unsigned int p = 0; p < gaps.size(); ++p)
+          {
+            Point<dim> position = inputs.evaluation_points[p];
+            position[0] += inputs.solution_values[p];
+            gaps[p][0] = nearest(position);
+          }
+      }
+
+    private:
+      double
+      nearest(const Point<dim> &position) const
+      {
+        double gap = std::numeric_limits<double>::max();
+        for (const auto &obstacle : obstacles)
+          gap = std::min(gap, obstacle.second->value(position));
+        return gap;
+      }
+
+      const Obstacles<dim> obstacles;
+    };
+
     /// Hands out a scalar that stands in the first component of a vector field.
     template <int dim>
     class FirstComponent : public DataPostprocessorScalar<dim>
@@ -176,7 +227,7 @@ namespace Ricochet
     : body(body)
     , material(material)
     , contact(contact)
-    , nodes(body, make_contact_nodes(body, obstacles))
+    , obstacles(obstacles)
     , folder(folder)
   {
     if (!folder.resume || !std::filesystem::exists(folder.file("solution.pvd")))
@@ -210,29 +261,6 @@ namespace Ricochet
 
 
   template <int dim>
-  Vector
-  VtuSeries<dim>::gap_field(const Vector &solution)
-  {
-    // deal.II's own assignment insists on numbers.
-    Vector  field(solution);
-    double *values = field.trilinos_vector()[0];
-    std::fill(values,
-              values + field.locally_owned_size(),
-              std::numeric_limits<double>::quiet_NaN());
-    std::vector<ContactPointState<>> states;
-    nodes.evaluate(solution, states);
-    for (unsigned int p = 0; p < states.size(); ++p)
-      {
-        const ContactPoint &point = nodes.contact_points()[p];
-        field(nodes.coefficients().index[point.begin]) = states[p].gap;
-      }
-    field.compress(VectorOperation::insert);
-    return field;
-  }
-
-
-
-  template <int dim>
   void
   VtuSeries<dim>::write(const State &state, const unsigned int step)
   {
@@ -248,10 +276,9 @@ namespace Ricochet
 
     const StressPostprocessor<dim> stress(material);
     const FirstComponent<dim>      contact_pressure("contact_pressure");
-    const FirstComponent<dim>      gap("gap");
+    const Gap<dim>                 gap(obstacles);
     const VonMises<dim>            von_mises(material);
-    const Vector     gaps = body.displacement_part(gap_field(state.solution));
-    PieceOfFile<dim> data_out;
+    PieceOfFile<dim>               data_out;
     data_out.attach_dof_handler(body.dof_handler());
     const auto add = [&](const Vector &vector, const std::string &name) {
       data_out.add_data_vector(body.dof_handler(),
@@ -267,7 +294,7 @@ namespace Ricochet
     if constexpr (dim > 1)
       data_out.add_data_vector(body.dof_handler(), displacement, von_mises);
     data_out.add_data_vector(body.dof_handler(), pressure, contact_pressure);
-    data_out.add_data_vector(body.dof_handler(), gaps, gap);
+    data_out.add_data_vector(body.dof_handler(), displacement, gap);
     data_out.build_patches(body.mapping(), body.dof_handler().get_fe().degree);
 
     const std::string name =

@@ -12,9 +12,9 @@ namespace Ricochet
   /**
    * The fields of a body for ParaView: displacement, velocity, acceleration,
    * elastic Cauchy stress and von Mises stress (Pa), the contact force of each
-   * node (N, on the body), the contact pressure (Pa) and the gap (m; not a number
-   * off the contact boundary), as `solution/step-NNNNNN.vtu` with their time, and
-   * `solution.pvd` that ties them to their times.
+   * node (N, on the body), the contact pressure (Pa) and the gap (m; of all points
+   * of the body, to the nearest obstacle), as `solution/step-NNNNNN.vtu` with their
+   * time, and `solution.pvd` that ties them to their times.
    */
   template <int dim>
   class VtuSeries
@@ -33,16 +33,11 @@ namespace Ricochet
     write(const State &state, const unsigned int step);
 
   private:
-    /// The gap of each node of the contact boundary (m), in the place of its
-    /// first displacement; not a number elsewhere.
-    Vector
-    gap_field(const Vector &solution);
-
-    const Body<dim>      &body;
-    const Material<dim>   material;
-    ContactOperator      &contact;
-    ContactPointEvaluator nodes;
-    RunFolder            &folder;
+    const Body<dim>     &body;
+    const Material<dim>  material;
+    ContactOperator     &contact;
+    const Obstacles<dim> obstacles;
+    RunFolder           &folder;
     // Time and file name of each step written, by step.
     std::map<unsigned int, std::pair<double, std::string>> written;
   };
