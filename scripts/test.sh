@@ -7,8 +7,8 @@
 #                     and the release build, which also compares with stored outputs
 #                     and makes the figures, whose numbers are checked
 #   test.sh --quick   while you work: the release build, unit tests, stored outputs,
-#                     bad input, files (8 minutes with the build)
-#   test.sh --full    once before an issue is closed (below 90 minutes): all of the
+#                     bad input, files (meant to take 8 minutes with the build)
+#   test.sh --full    once before an issue is closed (meant to take 90 minutes): all of the
 #                     above, sanitizers, hostile inputs and kills, and deliberate
 #                     errors in the library, all of which the tests must find. They
 #                     come in portions: TEST_PORTION=2/3 for the second third.

@@ -8,6 +8,7 @@ import shlex
 import shutil
 import signal
 import subprocess
+import tempfile
 import threading
 import time
 from dataclasses import dataclass
@@ -66,6 +67,12 @@ class Context:
             environment["LD_LIBRARY_PATH"] = os.environ["LD_LIBRARY_PATH"]
         (self.work / "tmp").mkdir(parents=True)
         return environment
+
+    def process_environment(self):
+        """That of one process. Open MPI's session folder is its own: processes
+        without a daemon would share one, and the first to end takes it away."""
+        folder = tempfile.mkdtemp(dir=self.work / "tmp")
+        return dict(self.environment, OMPI_MCA_orte_tmpdir_base=folder)
 
     def _try_mount(self):
         """May this user mount a small file system?"""
@@ -186,7 +193,7 @@ class Case:
         They go to files: whoever outlives the process cannot hold them open."""
         if self.context.verbose:
             print("$ " + shlex.join(words), flush=True)
-        everything = dict(self.context.environment)
+        everything = self.context.process_environment()
         everything.update(environment or {})
         self.commands.append(self._shell_line(words, cwd, environment))
         number = len(list(self.folder.glob("stdout-*")))
@@ -242,7 +249,7 @@ class Case:
         self.commands.append(self._shell_line(words, None, None))
         began = time.monotonic()
         process = subprocess.Popen(
-            words, cwd=self.folder, env=self.context.environment,
+            words, cwd=self.folder, env=self.context.process_environment(),
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.PIPE, start_new_session=True)
         timed_out = False
@@ -291,7 +298,7 @@ class Case:
             began = time.monotonic()
             with open(folder / "output", "wb") as output:
                 code = subprocess.run(words, cwd=folder, stdout=output,
-                                      env=self.context.environment,
+                                      env=self.context.process_environment(),
                                       stderr=output, timeout=300).returncode
             return folder / "run", code, time.monotonic() - began
 
