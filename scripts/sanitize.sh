@@ -19,7 +19,9 @@ $programs/tests/unit_tests
 run()
 {
   echo "sanitize: $*"
-  "$programs/$1" "${@:2}" --quiet --overwrite --output-dir "$runs/$1" \
+  local overwrite=--overwrite
+  [[ " $* " == *" --resume "* ]] && overwrite=
+  "$programs/$1" "${@:2}" --quiet $overwrite --output-dir "$runs/$1" \
     --set "Output/Checkpoint every=5" --set "Output/Fields every=2"
 }
 run bar_sd --set "Time/Final time=2"

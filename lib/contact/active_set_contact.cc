@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <contact/active_set_contact.h>
-#include <contact/pointwise_contact.h>
+#include <contact/active_set_signature.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -43,9 +43,7 @@ namespace Ricochet
         case Closing::mean_gap:
           return .5 * (old_state[p].gap + state[p].gap);
         default:
-          // From displacements, so that nothing cancels far from the origin.
-          return evaluator.contact_points()[p].obstacle_normal *
-            (displacement[p] - old_displacement[p]);
+          return kinematics->geometry(p).gap_increment;
       }
   }
 
@@ -57,21 +55,18 @@ namespace Ricochet
     weight         = weight_;
     first_in_stage = true;
     pass           = 0;
-    evaluator.evaluate(start.solution, old_state);
-    evaluator.evaluate_displacement(start.solution, old_displacement);
-    if (condition == Condition::persistent)
-      evaluator.evaluate_displacement(start.mean_velocity, mean_velocity);
+    kinematics->begin_step(start, old_state);
     for (unsigned int p = 0; p < nodes.size(); ++p)
       {
         Node &node            = nodes[p];
         node.initial_reaction = -1. * evaluator.at_node(p, start.contact_force);
         node.candidate        = true;
+        // Along a curved surface the mean velocity leads away from it, and
+        // nodes that are pressed would be let go.
         if (condition == Condition::persistent)
-          node.candidate = old_state[p].gap +
-              .5 * start.time_step *
-                (evaluator.contact_points()[p].obstacle_normal *
-                 mean_velocity[p]) <=
-            0.;
+          node.candidate = kinematics->predicted_gap(p) <= 0. ||
+            (!kinematics->has_constant_rows() &&
+             node.initial_reaction.norm_square() > 0.);
       }
   }
 
@@ -107,18 +102,22 @@ namespace Ricochet
   void
   ActiveSetContact::complete_residual(const Vector &solution, Vector &residual)
   {
-    evaluator.evaluate(solution, state);
-    evaluator.evaluate_displacement(solution, displacement);
+    kinematics->evaluate(solution, state);
     const ContactPoints &coefficients = evaluator.coefficients();
 
     force         = 0.;
     friction_part = 0.;
     for (unsigned int p = 0; p < nodes.size(); ++p)
       {
-        Node               &node   = nodes[p];
-        const ContactPoint &point  = coefficients.points[p];
-        const Tensor<1, 3> &normal = point.obstacle_normal;
-        const double        scale  = constraint_scale(p);
+        Node &node  = nodes[p];
+        node.status = Status::open;
+        if (!node.candidate)
+          continue;
+        kinematics->update_geometry(p);
+        const PointGeometry &geometry = kinematics->geometry(p);
+        const ContactPoint  &point    = coefficients.points[p];
+        const Tensor<1, 3>  &normal   = geometry.normal;
+        const double         scale    = constraint_scale(p);
 
         // The reaction of the last iterate: what the equation of motion leaves
         // over in the nodes that were active. In the first iteration it is the
@@ -135,17 +134,16 @@ namespace Ricochet
           node.reaction = normal_reaction * normal;
 
         const double trial = normal_reaction - scale * closing(p);
-        node.status        = Status::open;
-        if (!node.candidate || !(trial > 0.))
+        if (!(trial > 0.))
           continue;
 
+        node.excess             = excess;
         node.status             = Status::slip;
         node.friction_direction = 0.;
         node.friction_ratio     = 0.;
         const Tensor<1, 3> tangential_reaction =
           node.reaction - normal_reaction * normal;
-        const Tensor<1, 3> slip =
-          tangent_plane(normal) * (displacement[p] - old_displacement[p]);
+        const Tensor<1, 3> slip = geometry.slip();
         if (friction_coefficient > 0.)
           {
             const Tensor<1, 3> friction_trial =
@@ -208,7 +206,7 @@ namespace Ricochet
         if (node.status == Status::open)
           continue;
         const ContactPoint     &point  = coefficients.points[p];
-        const Tensor<1, 3>     &normal = point.obstacle_normal;
+        const Tensor<1, 3>     &normal = kinematics->geometry(p).normal;
         const unsigned int      n_rows = point.end - point.begin;
         const double            scale  = constraint_scale(p);
         std::array<double *, 3> rows{};
@@ -244,6 +242,8 @@ namespace Ricochet
               plane - across - friction_coefficient * outer_product(d, normal);
             own += scale * weight * across;
           }
+        if (!kinematics->has_constant_rows())
+          add_turning(p, own);
         new_rows.assign(n_rows * n_entries, 0.);
         for (unsigned int a = 0; a < n_rows; ++a)
           for (unsigned int b = 0; b < n_rows; ++b)
@@ -263,6 +263,48 @@ namespace Ricochet
 
 
 
+  void
+  ActiveSetContact::add_turning(const unsigned int p, Tensor<2, 3> &own) const
+  {
+    const Node          &node     = nodes[p];
+    const PointGeometry &geometry = kinematics->geometry(p);
+    const Tensor<1, 3>  &normal   = geometry.normal;
+    const double         scale    = constraint_scale(p);
+
+    // scale closing n: the gap has a gradient of its own, and n turns.
+    const Tensor<2, 3> turning = geometry.normal_derivative();
+    const double       closing_derivative =
+      closing_kind() == Closing::mean_gap ? .5 : 1.;
+    own += closing_derivative * scale *
+        outer_product(normal, geometry.gap_gradient - normal) +
+      scale * closing(p) * turning;
+
+    // The slip instead of the way of the node alone.
+    const Tensor<2, 3> plane = tangent_plane(normal);
+    const Tensor<2, 3> slip_derivative =
+      plane * geometry.relative_way_derivative +
+      geometry.projection_derivative(geometry.relative_way);
+    if (node.status == Status::stick)
+      {
+        own += scale * (slip_derivative - plane);
+        return;
+      }
+    // P excess - mu (n . excess) d, with the direction of friction d.
+    const Tensor<1, 3> &direction = node.friction_direction;
+    own += geometry.projection_derivative(node.excess) -
+      friction_coefficient * outer_product(direction, node.excess * turning);
+    // d is the unit vector of P reaction - scale slip.
+    const Tensor<2, 3> across = weight * node.friction_ratio *
+      (Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) -
+       outer_product(direction, direction));
+    own += across *
+        (scale * slip_derivative -
+         geometry.projection_derivative(node.reaction)) -
+      across * plane * scale;
+  }
+
+
+
   double
   ActiveSetContact::round_off() const
   {
@@ -270,14 +312,13 @@ namespace Ricochet
     for (unsigned int p = 0; p < nodes.size(); ++p)
       if (nodes[p].status != Status::open)
         {
-          const double force = constraint_scale(p) *
-            gap_round_off(evaluator.contact_points()[p], state[p].gap);
+          const double force =
+            constraint_scale(p) * kinematics->gap_round_off(p, state[p].gap);
           square += force * force;
           if (nodes[p].status == Status::stick)
             {
-              const double stick = constraint_scale(p) *
-                gap_round_off(evaluator.contact_points()[p],
-                              displacement[p].norm());
+              const double stick =
+                constraint_scale(p) * kinematics->way_round_off(p);
               square += stick * stick;
             }
         }
@@ -335,37 +376,53 @@ namespace Ricochet
 
 
 
-  void
-  ActiveSetContact::force_at(const Vector & /*solution*/, Vector &result)
+  double
+  ActiveSetContact::friction_dissipation() const
   {
-    result = 0.;
+    if (friction_coefficient == 0.)
+      return 0.;
+    double sum = 0.;
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      if (nodes[p].status != Status::open)
+        sum -= nodes[p].reaction * kinematics->geometry(p).slip();
+    return dealii::Utilities::MPI::sum(sum, evaluator.communicator);
   }
 
 
 
   Vector
-  ActiveSetContact::pressure_field(const Vector & /*solution*/,
-                                   const Vector &contact_force)
+  ActiveSetContact::pressure_field(const Vector &solution,
+                                   const Vector &contact_force,
+                                   const double  time)
   {
+    kinematics->begin_instant(time);
+    kinematics->evaluate(solution, state);
     std::vector<double> pressures;
     for (unsigned int p = 0; p < nodes.size(); ++p)
-      pressures.push_back(evaluator.nodal_normal_force(p, contact_force) /
-                          evaluator.contact_points()[p].weight);
+      {
+        kinematics->update_geometry(p);
+        pressures.push_back(kinematics->nodal_normal_force(p, contact_force) /
+                            evaluator.contact_points()[p].weight);
+      }
     return evaluator.nodal_averages(pressures);
   }
 
 
 
-  std::map<dealii::types::boundary_id, ContactSummary>
-  ActiveSetContact::summary(const Vector &solution, const Vector &contact_force)
+  ContactSummaries
+  ActiveSetContact::summary(const Vector &solution,
+                            const Vector &contact_force,
+                            const double  time)
   {
-    evaluator.evaluate(solution, state);
-    std::map<dealii::types::boundary_id, ContactSummary> sums;
+    kinematics->begin_instant(time);
+    kinematics->evaluate(solution, state);
+    ContactSummaries sums;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         const ContactPoint &point = evaluator.contact_points()[p];
-        const double        node_reaction =
-          evaluator.nodal_normal_force(p, contact_force);
+        kinematics->update_geometry(p);
+        const double node_reaction =
+          kinematics->nodal_normal_force(p, contact_force);
         sums[point.boundary_id].add(point,
                                     state[p].gap,
                                     node_reaction,

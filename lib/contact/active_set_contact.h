@@ -4,6 +4,8 @@
 
 #include <contact/contact_operator.h>
 
+#include <memory>
+
 namespace Ricochet
 {
   /**
@@ -56,7 +58,12 @@ namespace Ricochet
                      const Condition  condition,
                      const double     augmentation,
                      const double     friction_coefficient)
-      : evaluator(body, std::move(nodes))
+      : kinematics(make_kinematics(body,
+                                   std::move(nodes),
+                                   {/* way */ true,
+                                    /* prediction */ condition ==
+                                      Condition::persistent}))
+      , evaluator(kinematics->evaluator)
       , stress_evaluator(body, std::move(stress_points))
       , condition(condition)
       , augmentation(augmentation)
@@ -121,15 +128,29 @@ namespace Ricochet
       return friction_coefficient > 0. ? &friction_part : nullptr;
     }
 
+    double
+    friction_dissipation() const override;
+
     /// No force: outside of a stage the constraint has no reaction. Initial
     /// states are expected not to be pressed.
     void
-    force_at(const Vector &solution, Vector &force) override;
+    force_at(const Vector & /*solution*/,
+             const double /*time*/,
+             Vector &force) override
+    {
+      force = 0.;
+    }
 
     double
-    potential(const Vector & /*solution*/) override
+    potential(const Vector & /*solution*/, const double /*time*/) override
     {
       return 0.;
+    }
+
+    bool
+    has_moving_obstacles() const override
+    {
+      return kinematics->has_moving_obstacles();
     }
 
     const Vector &
@@ -144,12 +165,15 @@ namespace Ricochet
       return stress_evaluator.has_points();
     }
 
-    std::map<dealii::types::boundary_id, ContactSummary>
-    summary(const Vector &solution, const Vector &contact_force) override;
+    ContactSummaries
+    summary(const Vector &solution,
+            const Vector &contact_force,
+            const double  time) override;
 
     Vector
     pressure_field(const Vector &solution,
-                   const Vector &contact_force) override;
+                   const Vector &contact_force,
+                   const double  time) override;
 
   private:
     enum class Status
@@ -168,6 +192,8 @@ namespace Ricochet
       bool candidate = true;
       /// Reaction (N) on the body with which the sets were chosen.
       dealii::Tensor<1, 3> reaction;
+      /// What the residual of the body leaves over in the node (N).
+      dealii::Tensor<1, 3> excess;
       /// Unit vector of tangential reaction - r slip; zero without friction.
       dealii::Tensor<1, 3> friction_direction;
       /// mu times the normal reaction over |tangential reaction - r slip|, at
@@ -194,6 +220,12 @@ namespace Ricochet
     Closing
     closing_kind() const;
 
+    /// What curved or moving obstacles add to the rows of an active node in the
+    /// columns of the node, beside what planes have: normal and gap depend on
+    /// where the node is.
+    void
+    add_turning(const unsigned int p, dealii::Tensor<2, 3> &own) const;
+
     /// @return what the condition keeps at zero (m).
     double
     closing(const unsigned int p) const;
@@ -202,20 +234,20 @@ namespace Ricochet
     std::vector<int>
     statuses() const;
 
-    ContactPointEvaluator evaluator;
-    ContactPointEvaluator stress_evaluator;
-    const Condition       condition;
-    const double          augmentation;
-    const double          friction_coefficient;
-    double                weight         = 1.;
-    bool                  first_in_stage = true;
-    unsigned int          pass           = 0;
+    const std::unique_ptr<ContactKinematics> kinematics;
+    // That of the kinematics.
+    ContactPointEvaluator &evaluator;
+    ContactPointEvaluator  stress_evaluator;
+    const Condition        condition;
+    const double           augmentation;
+    const double           friction_coefficient;
+    double                 weight         = 1.;
+    bool                   first_in_stage = true;
+    unsigned int           pass           = 0;
 
-    std::vector<ContactPointState<>>  state, old_state, stress_state;
-    std::vector<dealii::Tensor<1, 3>> displacement, old_displacement;
-    std::vector<dealii::Tensor<1, 3>> mean_velocity;
-    Vector                            force, friction_part, scaling;
-    std::vector<Node>                 nodes;
+    std::vector<ContactPointState<>> state, old_state, stress_state;
+    Vector                           force, friction_part, scaling;
+    std::vector<Node>                nodes;
     // Work space of complete_tangent(): the rows of a node.
     mutable std::vector<double> normal_row, new_rows;
   };

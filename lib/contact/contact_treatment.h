@@ -77,7 +77,7 @@ namespace Ricochet
                const std::string                  &scheme,
                const Body<dim>                    &body,
                const std::optional<LinearElastic> &material,
-               const Obstacles<dim>               &obstacles);
+               const Obstacles                    &obstacles);
 } // namespace Ricochet
 
 #endif

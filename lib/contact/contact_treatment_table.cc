@@ -355,7 +355,7 @@ namespace Ricochet
     check_nitsche_bound(const ContactParameters &parameters,
                         const Body<dim>         &body,
                         const LinearElastic     &material,
-                        const Obstacles<dim>    &obstacles)
+                        const Obstacles         &obstacles)
     {
       const double theta = parameters.nitsche_theta;
       const double bound = .25 * (1. + theta) * (1. + theta) *
@@ -380,7 +380,7 @@ namespace Ricochet
                const std::string                  &scheme,
                const Body<dim>                    &body,
                const std::optional<LinearElastic> &material,
-               const Obstacles<dim>               &obstacles)
+               const Obstacles                    &obstacles)
   {
     const Treatment &treatment = find(parameters);
     if (treatment.traits.uses_stress)
@@ -486,17 +486,17 @@ namespace Ricochet
                const std::string &,
                const Body<1> &,
                const std::optional<LinearElastic> &,
-               const Obstacles<1> &);
+               const Obstacles &);
   template std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &,
                const std::string &,
                const Body<2> &,
                const std::optional<LinearElastic> &,
-               const Obstacles<2> &);
+               const Obstacles &);
   template std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &,
                const std::string &,
                const Body<3> &,
                const std::optional<LinearElastic> &,
-               const Obstacles<3> &);
+               const Obstacles &);
 } // namespace Ricochet

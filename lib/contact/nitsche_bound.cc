@@ -43,9 +43,9 @@ namespace Ricochet
 
   template <int dim>
   double
-  nitsche_trace_constant(const Body<dim>      &body,
-                         const LinearElastic  &material,
-                         const Obstacles<dim> &obstacles)
+  nitsche_trace_constant(const Body<dim>     &body,
+                         const LinearElastic &material,
+                         const Obstacles     &obstacles)
   {
     const FEValuesExtractors::Vector displacement(0);
     const FiniteElement<dim>        &element = body.dof_handler().get_fe();
@@ -75,14 +75,19 @@ namespace Ricochet
             face_values.reinit(cell, f);
             for (const unsigned int q : face_values.quadrature_point_indices())
               {
-                const Tensor<1, dim> gradient =
-                  obstacle->second->gradient(face_values.quadrature_point(q));
+                const Tensor<1, 3> along = stress_direction(
+                  *obstacle->second,
+                  obstacle->second->normal(in_space<dim>(
+                                             face_values.quadrature_point(q)),
+                                           0.),
+                  in_space(face_values.normal_vector(q)));
                 for (unsigned int i = 0; i < n; ++i)
-                  pressure[i] = gradient *
-                    (material.stress(
-                       face_values[displacement].symmetric_gradient(i, q)) *
-                     face_values.normal_vector(q)) /
-                    gradient.norm();
+                  pressure[i] =
+                    along *
+                    in_space(
+                      material.stress(
+                        face_values[displacement].symmetric_gradient(i, q)) *
+                      face_values.normal_vector(q));
                 traction.noalias() += cell->diameter() * face_values.JxW(q) *
                   pressure * pressure.transpose();
               }
@@ -109,13 +114,13 @@ namespace Ricochet
   template double
   nitsche_trace_constant(const Body<1> &,
                          const LinearElastic &,
-                         const Obstacles<1> &);
+                         const Obstacles &);
   template double
   nitsche_trace_constant(const Body<2> &,
                          const LinearElastic &,
-                         const Obstacles<2> &);
+                         const Obstacles &);
   template double
   nitsche_trace_constant(const Body<3> &,
                          const LinearElastic &,
-                         const Obstacles<3> &);
+                         const Obstacles &);
 } // namespace Ricochet

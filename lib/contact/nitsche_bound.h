@@ -2,7 +2,7 @@
 #ifndef ricochet_contact_nitsche_bound_h
 #define ricochet_contact_nitsche_bound_h
 
-#include <contact/contact_points.h>
+#include <contact/kinematics/contact_points.h>
 
 namespace Ricochet
 {
@@ -22,9 +22,9 @@ namespace Ricochet
    */
   template <int dim>
   double
-  nitsche_trace_constant(const Body<dim>      &body,
-                         const LinearElastic  &material,
-                         const Obstacles<dim> &obstacles);
+  nitsche_trace_constant(const Body<dim>     &body,
+                         const LinearElastic &material,
+                         const Obstacles     &obstacles);
 } // namespace Ricochet
 
 #endif

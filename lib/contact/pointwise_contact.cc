@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/active_set_signature.h>
 #include <contact/pointwise_contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -9,6 +10,11 @@ namespace Ricochet
 {
   using dealii::VectorOperation;
 
+  namespace
+  {
+    const dealii::Tensor<2, 3> identity(dealii::unit_symmetric_tensor<3>());
+  }
+
   void
   PointwiseContact::begin_stage(const ContactStart &start, const double weight_)
   {
@@ -16,9 +22,7 @@ namespace Ricochet
     time_step  = start.time_step;
     n_iterates = 0;
     point_force.assign(evaluator.contact_points().size(), {});
-    evaluator.evaluate(start.solution, old_state);
-    if (friction.coefficient > 0.)
-      evaluator.evaluate_displacement(start.solution, old_displacement);
+    kinematics->begin_step(start, old_state);
   }
 
 
@@ -175,24 +179,24 @@ namespace Ricochet
   void
   PointwiseContact::complete_residual(const Vector &solution, Vector &residual)
   {
-    evaluator.evaluate(solution, state);
+    kinematics->evaluate(solution, state);
     choose_linearisation();
     force = 0.;
     point_force.resize(state.size());
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         point_force[p] = linearised_force(p);
+        if (point_force[p].gap != 0.)
+          kinematics->update_geometry(p);
         evaluator.add(p, point_force[p], force);
       }
     force.compress(VectorOperation::add);
     if (friction.coefficient > 0.)
       {
-        evaluator.evaluate_displacement(solution, displacement);
-        slip_rate.resize(state.size());
+        slip_rate.assign(state.size(), dealii::Tensor<1, 3>());
         for (unsigned int p = 0; p < state.size(); ++p)
-          slip_rate[p] =
-            tangent_plane(evaluator.contact_points()[p].obstacle_normal) *
-            (displacement[p] - old_displacement[p]) / time_step;
+          if (kinematics->has_constant_rows() || friction_pressure(p) > 0.)
+            slip_rate[p] = kinematics->geometry(p).slip() / time_step;
         choose_friction_branches();
         friction_part = 0.;
         for (unsigned int p = 0; p < state.size(); ++p)
@@ -215,6 +219,22 @@ namespace Ricochet
 
 
 
+  double
+  PointwiseContact::friction_dissipation() const
+  {
+    if (friction.coefficient == 0.)
+      return 0.;
+    double sum = 0.;
+    for (unsigned int p = 0; p < state.size(); ++p)
+      if (const double pressure = friction_pressure(p); pressure > 0.)
+        sum += evaluator.contact_points()[p].weight * time_step *
+          (friction.traction_on(friction_branch[p], pressure, slip_rate[p]) *
+           slip_rate[p]);
+    return dealii::Utilities::MPI::sum(sum, evaluator.communicator);
+  }
+
+
+
   std::optional<PointwiseContact::FrictionDerivatives>
   PointwiseContact::friction_derivatives(const unsigned int p) const
   {
@@ -222,14 +242,20 @@ namespace Ricochet
       friction.coefficient > 0. ? friction_pressure(p) : 0.;
     if (pressure == 0.)
       return {};
-    FrictionDerivatives derivatives;
+    FrictionDerivatives  derivatives;
+    const PointGeometry &geometry = kinematics->geometry(p);
+    const bool           constant = kinematics->has_constant_rows();
     friction.derivatives(friction_branch[p],
                          pressure,
                          slip_rate[p],
-                         tangent_plane(
-                           evaluator.contact_points()[p].obstacle_normal),
+                         constant ? tangent_plane(geometry.normal) : identity,
                          derivatives.with_slip_rate,
                          derivatives.with_pressure);
+    // Slip follows the way, and the turning of the plane in which it is.
+    if (!constant)
+      derivatives.with_slip_rate = derivatives.with_slip_rate *
+        (tangent_plane(geometry.normal) * geometry.relative_way_derivative +
+         geometry.projection_derivative(geometry.relative_way));
     return derivatives;
   }
 
@@ -243,7 +269,10 @@ namespace Ricochet
         const ContactPoint       &point = evaluator.contact_points()[p];
         const ContactPointTangent law_tangent =
           law->tangent(linearisation[p], old_state[p], point.cell_diameter);
+        if (law_tangent[0].norm_square() > 0. || point_force[p].gap != 0.)
+          kinematics->update_geometry(p);
         evaluator.add(p, weight, law_tangent, tangent);
+        add_turning(p, tangent);
 
         if (const auto derivatives = friction_derivatives(p))
           {
@@ -258,6 +287,21 @@ namespace Ricochet
           }
       }
     tangent.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  PointwiseContact::add_turning(const unsigned int p, Matrix &tangent) const
+  {
+    if (kinematics->has_constant_rows() || point_force[p].gap == 0.)
+      return;
+    evaluator.add(p,
+                  weight,
+                  point_force[p].gap *
+                    kinematics->geometry(p).direction_derivative,
+                  {},
+                  tangent);
   }
 
 
@@ -319,7 +363,7 @@ namespace Ricochet
   PointwiseContact::find_directions()
   {
     // Whether the law is of that kind does not depend on h_T.
-    if (!closing_directions(1.) ||
+    if (!kinematics->has_constant_rows() || !closing_directions(1.) ||
         (friction.coefficient > 0. &&
          (law->traits().uses_stress || law->traits().needs_multiplier)))
       return;
@@ -393,7 +437,8 @@ namespace Ricochet
     structure.is_nearly_symmetric = !structure.has_multipliers;
     const auto closing            = closing_directions(1.);
     structure.is_symmetric        = structure.is_nearly_symmetric && closing &&
-      closing->test == closing->trial && friction.coefficient == 0.;
+      closing->test == closing->trial && friction.coefficient == 0. &&
+      kinematics->has_constant_rows();
     return structure;
   }
 
@@ -453,7 +498,7 @@ namespace Ricochet
                    std::abs(tangent[2][0]) *
                      law->multiplier_scale(point.cell_diameter));
         const double force =
-          point.weight * stiffness * gap_round_off(point, state[p].gap);
+          point.weight * stiffness * kinematics->gap_round_off(p, state[p].gap);
         square += force * force;
         // Slip is a difference of displacements over a step.
         if (friction.coefficient > 0. && friction_branch[p].sticks &&
@@ -461,7 +506,7 @@ namespace Ricochet
           {
             const double friction_force = point.weight *
               friction.tangential_compliance / time_step *
-              gap_round_off(point, displacement[p].norm());
+              kinematics->way_round_off(p);
             square += friction_force * friction_force;
           }
       }
@@ -489,15 +534,17 @@ namespace Ricochet
   {
     // Without contact every law is linear.
     const std::vector<int> values = branches();
-    if (!law->traits().piecewise_linear || friction.coefficient > 0.)
+    const bool             turns  = !kinematics->has_constant_rows();
+    if (!law->traits().piecewise_linear || friction.coefficient > 0. || turns)
       {
         bool active = std::any_of(values.begin(),
                                   values.end(),
                                   [](const int value) { return value != 0; });
         // A multiplier presses until the stage is solved, whatever the branch.
-        if (friction.coefficient > 0.)
+        if (friction.coefficient > 0. || turns)
           for (unsigned int p = 0; p < state.size(); ++p)
-            active = active || friction_pressure(p) > 0.;
+            active = active || friction_pressure(p) > 0. ||
+              (turns && point_force[p].gap != 0.);
         if (dealii::Utilities::MPI::max(active ? 1 : 0,
                                         evaluator.communicator) == 1)
           return {};
@@ -527,17 +574,24 @@ namespace Ricochet
 
 
   void
-  PointwiseContact::force_at(const Vector &solution, Vector &result)
+  PointwiseContact::force_at(const Vector &solution,
+                             const double  time,
+                             Vector       &result)
   {
     // With both states the same, a discrete derivative is the derivative.
-    evaluator.evaluate(solution, state);
+    kinematics->begin_instant(time);
+    kinematics->evaluate(solution, state);
     result = 0.;
     for (unsigned int p = 0; p < state.size(); ++p)
-      evaluator.add(p,
-                    law->force(state[p],
-                               state[p],
-                               evaluator.contact_points()[p].cell_diameter),
-                    result);
+      {
+        const ContactPointForce<> point_force =
+          law->force(state[p],
+                     state[p],
+                     evaluator.contact_points()[p].cell_diameter);
+        if (point_force.gap != 0.)
+          kinematics->update_geometry(p);
+        evaluator.add(p, point_force, result);
+      }
     result.compress(VectorOperation::add);
     clear_multipliers(result);
   }
@@ -545,9 +599,10 @@ namespace Ricochet
 
 
   double
-  PointwiseContact::potential(const Vector &solution)
+  PointwiseContact::potential(const Vector &solution, const double time)
   {
-    evaluator.evaluate(solution, state);
+    kinematics->begin_instant(time);
+    kinematics->evaluate(solution, state);
     double sum = 0.;
     for (unsigned int p = 0; p < state.size(); ++p)
       sum += evaluator.contact_points()[p].weight *
@@ -583,23 +638,26 @@ namespace Ricochet
 
   double
   PointwiseContact::normal_force(const unsigned int p,
-                                 const Vector      &contact_force) const
+                                 const Vector      &contact_force)
   {
     // In nodes the force of the step can be read off the vector; elsewhere the
     // pressure is that of the law at the end of the step.
     const ContactPoint &point = evaluator.contact_points()[p];
-    return law->traits().nodal
-      ? evaluator.nodal_normal_force(p, contact_force)
-      : point.weight * law->pressure(state[p], point.cell_diameter);
+    if (!law->traits().nodal)
+      return point.weight * law->pressure(state[p], point.cell_diameter);
+    kinematics->update_geometry(p);
+    return kinematics->nodal_normal_force(p, contact_force);
   }
 
 
 
   Vector
   PointwiseContact::pressure_field(const Vector &solution,
-                                   const Vector &contact_force)
+                                   const Vector &contact_force,
+                                   const double  time)
   {
-    evaluator.evaluate(solution, state);
+    kinematics->begin_instant(time);
+    kinematics->evaluate(solution, state);
     std::vector<double> pressures(state.size());
     for (unsigned int p = 0; p < state.size(); ++p)
       pressures[p] =
@@ -609,12 +667,15 @@ namespace Ricochet
 
 
 
-  std::map<dealii::types::boundary_id, ContactSummary>
-  PointwiseContact::summary(const Vector &solution, const Vector &contact_force)
+  ContactSummaries
+  PointwiseContact::summary(const Vector &solution,
+                            const Vector &contact_force,
+                            const double  time)
   {
     const ContactLawTraits traits = law->traits();
-    evaluator.evaluate(solution, state);
-    std::map<dealii::types::boundary_id, ContactSummary> sums;
+    kinematics->begin_instant(time);
+    kinematics->evaluate(solution, state);
+    ContactSummaries sums;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         const ContactPoint &point = evaluator.contact_points()[p];
@@ -627,98 +688,5 @@ namespace Ricochet
       }
     add_stress_pressure(solution, stress_evaluator, stress_state, sums);
     return reduce_summaries(sums, evaluator.communicator);
-  }
-
-
-
-  void
-  add_stress_pressure(
-    const Vector                                         &solution,
-    ContactPointEvaluator                                &evaluator,
-    std::vector<ContactPointState<>>                     &work,
-    std::map<dealii::types::boundary_id, ContactSummary> &sums)
-  {
-    evaluator.evaluate(solution, work);
-    for (unsigned int p = 0; p < work.size(); ++p)
-      sums[evaluator.contact_points()[p].boundary_id].stress_pressure +=
-        evaluator.contact_points()[p].weight * work[p].stress_pressure;
-  }
-
-
-
-  std::map<dealii::types::boundary_id, ContactSummary>
-  reduce_summaries(
-    const std::map<dealii::types::boundary_id, ContactSummary> &my_sums,
-    const MPI_Comm                                              communicator)
-  {
-    using namespace dealii::Utilities::MPI;
-
-    // Ranks hold different boundaries: agree on the list of ids first.
-    std::vector<dealii::types::boundary_id> my_ids;
-    for (const auto &entry : my_sums)
-      my_ids.push_back(entry.first);
-    std::set<dealii::types::boundary_id> ids;
-    for (const auto &list : all_gather(communicator, my_ids))
-      ids.insert(list.begin(), list.end());
-
-    std::map<dealii::types::boundary_id, ContactSummary> summaries;
-    for (const auto id : ids)
-      {
-        const auto           mine = my_sums.find(id);
-        const ContactSummary sum =
-          mine == my_sums.end() ? ContactSummary() : mine->second;
-        ContactSummary &total = summaries[id];
-        total.area  = dealii::Utilities::MPI::sum(sum.area, communicator);
-        total.force = dealii::Utilities::MPI::sum(sum.force, communicator);
-        total.mean_gap =
-          dealii::Utilities::MPI::sum(sum.mean_gap, communicator) / total.area;
-        total.smallest_gap     = min(sum.smallest_gap, communicator);
-        total.max_penetration  = max(sum.max_penetration, communicator);
-        total.contact_pressure = total.force / total.area;
-        total.stress_pressure =
-          dealii::Utilities::MPI::sum(sum.stress_pressure, communicator) /
-          total.area;
-        total.active_points =
-          dealii::Utilities::MPI::sum(sum.active_points, communicator);
-      }
-    return summaries;
-  }
-
-
-
-  std::string
-  count_active(const std::vector<int> &values, const MPI_Comm communicator)
-  {
-    unsigned int n_active = 0;
-    for (const int value : values)
-      n_active += value != 0;
-    const std::vector<unsigned int> my_counts = {n_active,
-                                                 static_cast<unsigned int>(
-                                                   values.size())};
-    std::vector<unsigned int>       counts(2);
-    dealii::Utilities::MPI::sum(my_counts, communicator, counts);
-    return std::to_string(counts[0]) + " of " + std::to_string(counts[1]);
-  }
-
-
-
-  std::uint64_t
-  global_hash(const std::vector<int> &values, const MPI_Comm communicator)
-  {
-    // A chain of full mixings (splitmix64) over rank, number of values and
-    // values on each rank; the sum over the ranks is then as good as a random
-    // number. Without the mixing, changes on two ranks could cancel.
-    const auto mix = [](std::uint64_t x) {
-      x += 0x9e3779b97f4a7c15ull;
-      x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-      x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-      return x ^ (x >> 31);
-    };
-    std::uint64_t hash =
-      mix(dealii::Utilities::MPI::this_mpi_process(communicator) + 1);
-    hash = mix(hash ^ values.size());
-    for (const int value : values)
-      hash = mix(hash ^ static_cast<std::uint64_t>(value));
-    return dealii::Utilities::MPI::sum(hash, communicator);
   }
 } // namespace Ricochet

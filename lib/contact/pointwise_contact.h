@@ -5,6 +5,8 @@
 #include <contact/contact_operator.h>
 #include <contact/coulomb_friction.h>
 
+#include <memory>
+
 namespace Ricochet
 {
   /**
@@ -12,6 +14,7 @@ namespace Ricochet
    * penalty, augmented Lagrangian, multipliers, normal compliance. It runs
    * through the contact points and asks the law; Coulomb's friction with a
    * tangential compliance comes beside it, with the mean slip rate of the step.
+   * Forces act along the directions that the kinematics gives.
    *
    * A stiff power law is a poor thing to linearise at a gap: from far too deep a
    * penetration, or from contact at a point that leaves, Newton's method comes
@@ -44,7 +47,11 @@ namespace Ricochet
       , friction(friction)
       , augmentation(augmentation)
       , modified_energy(modified_energy)
-      , evaluator(body, std::move(points))
+      , kinematics(
+          make_kinematics(body,
+                          std::move(points),
+                          {/* way */ friction.coefficient > 0., false}))
+      , evaluator(kinematics->evaluator)
       , stress_evaluator(body, std::move(stress_points))
       , force(body.make_vector())
       , friction_part(body.make_vector())
@@ -104,16 +111,25 @@ namespace Ricochet
       return friction.coefficient > 0. ? &friction_part : nullptr;
     }
 
+    double
+    friction_dissipation() const override;
+
     void
-    force_at(const Vector &solution, Vector &force) override;
+    force_at(const Vector &solution, const double time, Vector &force) override;
 
     double
-    potential(const Vector &solution) override;
+    potential(const Vector &solution, const double time) override;
 
     bool
     has_modified_energy() const override
     {
       return modified_energy;
+    }
+
+    bool
+    has_moving_obstacles() const override
+    {
+      return kinematics->has_moving_obstacles();
     }
 
     const Vector &
@@ -128,17 +144,20 @@ namespace Ricochet
       return stress_evaluator.has_points();
     }
 
-    std::map<dealii::types::boundary_id, ContactSummary>
-    summary(const Vector &solution, const Vector &contact_force) override;
+    ContactSummaries
+    summary(const Vector &solution,
+            const Vector &contact_force,
+            const double  time) override;
 
     Vector
     pressure_field(const Vector &solution,
-                   const Vector &contact_force) override;
+                   const Vector &contact_force,
+                   const double  time) override;
 
   private:
     /// The normal force (N) in a point, at #state.
     double
-    normal_force(const unsigned int p, const Vector &contact_force) const;
+    normal_force(const unsigned int p, const Vector &contact_force);
 
     /// The law's branch in each point at the last complete_residual().
     std::vector<int>
@@ -184,6 +203,11 @@ namespace Ricochet
     ContactPointForce<>
     linearised_force(const unsigned int p) const;
 
+    /// What the direction of the force in a point adds to its tangent: nothing
+    /// where it stays the same.
+    void
+    add_turning(const unsigned int p, Matrix &tangent) const;
+
     /// The pressure that friction sees (Pa).
     double
     friction_pressure(const unsigned int p) const;
@@ -204,16 +228,18 @@ namespace Ricochet
     void
     choose_friction_branches();
 
-    const std::unique_ptr<ContactLaw> law;
-    const CoulombFriction             friction;
-    const double                      augmentation;
-    const bool                        modified_energy;
-    ContactPointEvaluator             evaluator;
-    ContactPointEvaluator             stress_evaluator;
-    double                            weight     = 1.;
-    double                            time_step  = 0.;
-    unsigned int                      n_iterates = 0;
-    std::vector<ContactPointState<>>  state, old_state, stress_state;
+    const std::unique_ptr<ContactLaw>        law;
+    const CoulombFriction                    friction;
+    const double                             augmentation;
+    const bool                               modified_energy;
+    const std::unique_ptr<ContactKinematics> kinematics;
+    // That of the kinematics.
+    ContactPointEvaluator           &evaluator;
+    ContactPointEvaluator            stress_evaluator;
+    double                           weight     = 1.;
+    double                           time_step  = 0.;
+    unsigned int                     n_iterates = 0;
+    std::vector<ContactPointState<>> state, old_state, stress_state;
     // Where the law is linearised: now, and at the last accepted iterate.
     std::vector<ContactPointState<>> linearisation, accepted_linearisation;
     // Force of the law per area (Pa) and slip rate (m/s) at the last
@@ -222,10 +248,8 @@ namespace Ricochet
     std::vector<dealii::Tensor<1, 3>> slip_rate;
     // The same as for the law, for friction.
     std::vector<CoulombFriction::Branch> friction_branch, accepted_branch;
-    // Displacements of the points, for slip; empty without friction.
-    std::vector<dealii::Tensor<1, 3>> displacement, old_displacement;
-    Vector                            force, friction_part, scaling;
-    const unsigned int                n_displacements_owned;
+    Vector                               force, friction_part, scaling;
+    const unsigned int                   n_displacements_owned;
 
     // The functionals of a point: of the law (test and trial, often the same),
     // and of the displacement along the foundation, with friction.
@@ -239,32 +263,6 @@ namespace Ricochet
     std::vector<PointDirections>                 directions;
     std::optional<ContactStructure::ActsThrough> acts_through;
   };
-
-
-
-  /// Complete the entries of @p summaries that are means or totals over all
-  /// ranks, from weighted sums on each rank.
-  std::map<dealii::types::boundary_id, ContactSummary>
-  reduce_summaries(
-    const std::map<dealii::types::boundary_id, ContactSummary> &my_sums,
-    const MPI_Comm                                              communicator);
-
-  /// Add the weighted stress pressures of @p evaluator to @p sums.
-  void
-  add_stress_pressure(
-    const Vector                                         &solution,
-    ContactPointEvaluator                                &evaluator,
-    std::vector<ContactPointState<>>                     &work,
-    std::map<dealii::types::boundary_id, ContactSummary> &sums);
-
-  /// "3 of 20": the number of entries of @p values that are not zero, and of
-  /// all, on all ranks.
-  std::string
-  count_active(const std::vector<int> &values, const MPI_Comm communicator);
-
-  /// Hash of a sequence of small integers on all ranks, the same on all.
-  std::uint64_t
-  global_hash(const std::vector<int> &values, const MPI_Comm communicator);
 } // namespace Ricochet
 
 #endif

@@ -96,10 +96,12 @@ namespace Ricochet
     class Gap : public DataPostprocessorScalar<dim>
     {
     public:
-      explicit Gap(const Obstacles<dim> &obstacles)
+      /// @param time s
+      Gap(const Obstacles &obstacles, const double time)
         : DataPostprocessorScalar<dim>("gap",
                                        update_values | update_quadrature_points)
         , obstacles(obstacles)
+        , time(time)
       {}
 
       void
@@ -136,11 +138,13 @@ namespace Ricochet
       {
         double gap = std::numeric_limits<double>::max();
         for (const auto &obstacle : obstacles)
-          gap = std::min(gap, obstacle.second->value(position));
+          gap =
+            std::min(gap, obstacle.second->gap(in_space<dim>(position), time));
         return gap;
       }
 
-      const Obstacles<dim> obstacles;
+      const Obstacles obstacles;
+      const double    time;
     };
 
     /// Hands out a scalar that stands in the first component of a vector field.
@@ -219,11 +223,11 @@ namespace Ricochet
 
 
   template <int dim>
-  VtuSeries<dim>::VtuSeries(const Body<dim>      &body,
-                            const Material<dim>  &material,
-                            ContactOperator      &contact,
-                            const Obstacles<dim> &obstacles,
-                            RunFolder            &folder)
+  VtuSeries<dim>::VtuSeries(const Body<dim>     &body,
+                            const Material<dim> &material,
+                            ContactOperator     &contact,
+                            const Obstacles     &obstacles,
+                            RunFolder           &folder)
     : body(body)
     , material(material)
     , contact(contact)
@@ -272,11 +276,11 @@ namespace Ricochet
     const Vector force_on_body = body.displacement_part(contact_force);
 
     const Vector pressure = body.displacement_part(
-      contact.pressure_field(state.solution, state.contact_force));
+      contact.pressure_field(state.solution, state.contact_force, state.time));
 
     const StressPostprocessor<dim> stress(material);
     const FirstComponent<dim>      contact_pressure("contact_pressure");
-    const Gap<dim>                 gap(obstacles);
+    const Gap<dim>                 gap(obstacles, state.time);
     const VonMises<dim>            von_mises(material);
     PieceOfFile<dim>               data_out;
     data_out.attach_dof_handler(body.dof_handler());

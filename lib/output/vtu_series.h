@@ -20,11 +20,11 @@ namespace Ricochet
   class VtuSeries
   {
   public:
-    VtuSeries(const Body<dim>      &body,
-              const Material<dim>  &material,
-              ContactOperator      &contact,
-              const Obstacles<dim> &obstacles,
-              RunFolder            &folder);
+    VtuSeries(const Body<dim>     &body,
+              const Material<dim> &material,
+              ContactOperator     &contact,
+              const Obstacles     &obstacles,
+              RunFolder           &folder);
 
     /// Write @p state as step number @p step. A step that is written again,
     /// after a resumed run, takes the place of the old one.
@@ -33,11 +33,11 @@ namespace Ricochet
     write(const State &state, const unsigned int step);
 
   private:
-    const Body<dim>     &body;
-    const Material<dim>  material;
-    ContactOperator     &contact;
-    const Obstacles<dim> obstacles;
-    RunFolder           &folder;
+    const Body<dim>    &body;
+    const Material<dim> material;
+    ContactOperator    &contact;
+    const Obstacles     obstacles;
+    RunFolder          &folder;
     // Time and file name of each step written, by step.
     std::map<unsigned int, std::pair<double, std::string>> written;
   };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/obstacles/half_space.h>
 #include <base/exceptions.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
 #include <problems/impact.h>
 #include <time_integration/mass_redistribution.h>
 
-#include <deal.II/base/function_signed_distance.h>
 
 namespace Ricochet
 {
@@ -15,7 +15,7 @@ namespace Ricochet
   {
     template <int dim>
     typename Body<dim>::BoundaryIds
-    boundary_ids(const Obstacles<dim> &obstacles)
+    boundary_ids(const Obstacles &obstacles)
     {
       typename Body<dim>::BoundaryIds ids;
       for (const auto &obstacle : obstacles)
@@ -68,17 +68,17 @@ namespace Ricochet
                       const Material<dim>                   &material,
                       const double                           density,
                       const typename Body<dim>::BoundaryIds &clamped,
-                      const Obstacles<dim>                  &obstacles,
+                      const Obstacles                       &obstacles,
                       const SemiDiscreteSystem::Load        &load,
                       const MPI_Comm                         communicator)
     : body(with_boundaries(with_boundaries(triangulation,
-                                           boundary_ids(obstacles),
+                                           boundary_ids<dim>(obstacles),
                                            communicator),
                            clamped,
                            communicator),
            degree,
            clamped,
-           boundary_ids(obstacles),
+           boundary_ids<dim>(obstacles),
            multiplier_space(parameters.contact),
            communicator)
     , bulk(make_bulk(body, material))
@@ -138,23 +138,20 @@ namespace Ricochet
 
 
   template <int dim>
-  Obstacles<dim>
+  Obstacles
   foundation_below(const types::boundary_id boundary_id)
   {
     Tensor<1, dim> up;
     up[dim - 1] = 1.;
-    return {
-      {boundary_id,
-       std::make_shared<Functions::SignedDistance::Plane<dim>>(Point<dim>(),
-                                                               up)}};
+    return {{boundary_id, half_space_at_rest<dim>(Point<dim>(), up)}};
   }
 
 
   template struct Impact<1>;
   template struct Impact<2>;
   template struct Impact<3>;
-  template Obstacles<2>
-  foundation_below(const types::boundary_id);
-  template Obstacles<3>
-  foundation_below(const types::boundary_id);
+  template Obstacles
+  foundation_below<2>(const types::boundary_id);
+  template Obstacles
+  foundation_below<3>(const types::boundary_id);
 } // namespace Ricochet

@@ -32,7 +32,7 @@ namespace Ricochet
            const Material<dim>                   &material,
            const double                           density,
            const typename Body<dim>::BoundaryIds &clamped,
-           const Obstacles<dim>                  &obstacles,
+           const Obstacles                       &obstacles,
            const SemiDiscreteSystem::Load        &load,
            const MPI_Comm                         communicator);
 
@@ -41,7 +41,7 @@ namespace Ricochet
     const Matrix                        consistent_mass;
     /// Null with the consistent mass.
     const std::unique_ptr<const Matrix>    redistributed_mass;
-    const Obstacles<dim>                   obstacles;
+    const Obstacles                        obstacles;
     const std::unique_ptr<ContactOperator> contact;
     SemiDiscreteSystem                     system;
     const std::unique_ptr<TimeScheme>      scheme;
@@ -58,7 +58,7 @@ namespace Ricochet
   /// The half space below x_dim = 0, as the obstacle of the boundary @p
   /// boundary_id.
   template <int dim>
-  Obstacles<dim>
+  Obstacles
   foundation_below(const dealii::types::boundary_id boundary_id);
 } // namespace Ricochet
 

@@ -204,7 +204,8 @@ namespace Ricochet
                                energies.total(),
                                system.contact.has_modified_energy()
                                  ? energies.total() +
-                                   system.contact.potential(state.solution)
+                                   system.contact.potential(state.solution,
+                                                            state.time)
                                  : std::numeric_limits<double>::quiet_NaN(),
                                sums.external_work,
                                sums.contact_work,
@@ -216,7 +217,7 @@ namespace Ricochet
                                static_cast<double>(report.linear_solves),
                                static_cast<double>(sums.n_halvings)};
     const auto          summaries =
-      system.contact.summary(state.solution, state.contact_force);
+      system.contact.summary(state.solution, state.contact_force, state.time);
     for (const auto &entry : contact_names)
       {
         const ContactSummary &contact = summaries.at(entry.first);

@@ -66,7 +66,7 @@ namespace Ricochet
     integrator.explicit_function =
       [&](const double time, const BlockVector &y, BlockVector &rate) {
         rate.block(0) = y.block(1);
-        system.contact.force_at(y.block(0), contact_force);
+        system.contact.force_at(y.block(0), time, contact_force);
         system.total_force(y.block(0), contact_force, time, force);
         force *= -1.;
         system.solve_mass(force, rate.block(1));
@@ -91,7 +91,9 @@ namespace Ricochet
     new_state.time     = old_state.time + time_step;
     new_state.solution = solution.block(0);
     new_state.velocity = solution.block(1);
-    system.contact.force_at(new_state.solution, new_state.contact_force);
+    system.contact.force_at(new_state.solution,
+                            new_state.time,
+                            new_state.contact_force);
     system.total_force(new_state.solution,
                        new_state.contact_force,
                        new_state.time,
@@ -100,8 +102,9 @@ namespace Ricochet
     force *= -1.;
     system.solve_mass(force, new_state.acceleration);
 
-    report.contact_work = system.contact.potential(new_state.solution) -
-      system.contact.potential(old_state.solution);
+    report.contact_work =
+      system.contact.potential(new_state.solution, new_state.time) -
+      system.contact.potential(old_state.solution, old_state.time);
     // The trapezoidal rule is exact for the loads that exist: constant ones.
     Vector mean_load(force), new_load(force);
     system.external_load(old_state.time, mean_load);

@@ -25,6 +25,7 @@ namespace Ricochet
 
     // u_new = inertia_origin + beta dt^2 a_new
     stage.inertia        = 1. / (beta * dt * dt);
+    stage.end_time       = new_state.time;
     stage.inertia_origin = old_state.solution;
     stage.inertia_origin.add(dt,
                              old_state.velocity,

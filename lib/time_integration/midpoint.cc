@@ -18,6 +18,7 @@ namespace Ricochet
     stage.inertia_origin = old_state.solution;
     stage.inertia_origin.add(dt, old_state.velocity);
     stage.time_step          = dt;
+    stage.end_time           = new_state.time;
     stage.bulk_step_force    = true;
     stage.contact_weight_new = 1.;
     stage.contact_weight_old = 0.;
@@ -53,7 +54,11 @@ namespace Ricochet
     // The scheme dissipates nothing: M (v_new - v_old)/dt times u_new - u_old
     // is the difference of kinetic energies.
     if (const Vector *friction_force = system.contact.friction_force())
-      report.friction_work = *friction_force * work;
+      // What a moving obstacle drags along is work of contact, as all that it
+      // does to the body.
+      report.friction_work = system.contact.has_moving_obstacles()
+        ? system.contact.friction_dissipation()
+        : *friction_force * work;
     report.contact_work = new_state.contact_force * work - report.friction_work;
     report.viscous_dissipation =
       system.bulk.viscous_dissipation(old_state.solution,

@@ -16,9 +16,9 @@ namespace Ricochet
     /// Clamped unknowns (@p clamped of this rank) have equations of their own,
     /// in which contact has no part.
     ContactStructure
-    contact_structure(const ContactOperator &contact,
-                      const IndexSet        &my_clamped,
-                      const MPI_Comm         communicator)
+    contact_structure(const TangentContact &contact,
+                      const IndexSet       &my_clamped,
+                      const MPI_Comm        communicator)
     {
       ContactStructure structure = contact.tangent_structure();
       if (structure.functionals)
@@ -178,7 +178,7 @@ namespace Ricochet
     state.scheme_force.reinit(displacement);
     state.mean_velocity = state.velocity;
 
-    contact.force_at(state.solution, state.contact_force);
+    contact.force_at(state.solution, time, state.contact_force);
     total_force(state.solution, state.contact_force, time, force);
     force *= -1.;
     solve_mass(force, state.acceleration);
@@ -286,16 +286,16 @@ namespace Ricochet
         else
           bulk.add_tangent(bulk_weight, solution, matrix);
       };
-      const auto complete = [&](void (ContactOperator::*add)(Matrix &) const) {
+      const auto complete = [&](void (TangentContact::*add)(Matrix &) const) {
         return [this, add](Matrix &matrix) {
           const Stopwatch stopwatch(tangent_seconds);
           (contact.*add)(matrix);
           matrix.clear_rows(clamped_list, 1.);
         };
       };
-      tangent.complete_contact = complete(&ContactOperator::complete_tangent);
+      tangent.complete_contact = complete(&TangentContact::complete_tangent);
       tangent.complete_open_contact =
-        complete(&ContactOperator::complete_open_tangent);
+        complete(&TangentContact::complete_open_tangent);
       tangent.contact_change = [&](std::vector<FunctionalRow> &change) {
         const Stopwatch stopwatch(tangent_seconds);
         contact.tangent_change(change);
@@ -330,7 +330,8 @@ namespace Ricochet
     const ContactStart start{old_state.solution,
                              old_state.contact_force,
                              old_state.mean_velocity,
-                             stage.time_step};
+                             stage.time_step,
+                             stage.end_time};
     const auto         solve_all_passes = [&]() {
       linear_solver.begin_stage();
       factored_active_set.reset();

@@ -56,6 +56,8 @@ namespace Ricochet
     /// Length of the step (s); needed by step forces, slip and predictors of the
     /// gap, so by the midpoint scheme only.
     double time_step = 0.;
+    /// Time of the new point (s), at which obstacles are where they are.
+    double end_time = 0.;
 
     /// The bulk force is that of a step; its weights are not used.
     bool   bulk_step_force = false;

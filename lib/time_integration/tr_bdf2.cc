@@ -41,7 +41,8 @@ namespace Ricochet
     // equal to the last digit.
     const double rate_step = a_rate * dt;
     stage.inertia          = 1. / (rate_step * rate_step);
-    stage.inertia_origin = middle.solution;
+    stage.end_time         = new_state.time;
+    stage.inertia_origin   = middle.solution;
     stage.inertia_origin.sadd(a_middle, -a_old, old_state.solution);
     stage.inertia_origin.add(a_rate * dt, new_state.velocity);
     stage.load.reinit(old_state.solution, true);

@@ -34,11 +34,11 @@
 // of the left end over the first contact (t = 1.00 ... 2.10) of 5.0e-4; the
 // penalty method has -3.8e-3: it lets the bar penetrate.
 
+#include <contact/obstacles/half_space.h>
 #include <base/program.h>
 #include <output/vtu_series.h>
 #include <problems/bar.h>
 
-#include <deal.II/base/function_signed_distance.h>
 
 using namespace dealii;
 using namespace Ricochet;
@@ -69,11 +69,8 @@ BarSD::run(RunFolder &folder)
   // left end is its displacement.
   const LinearElastic material{/* lambda */ 0., /* mu */ .5};
   const double        density   = 1.;
-  const Obstacles<1>  obstacles = {
-     {BarEnds::left,
-      std::make_shared<Functions::SignedDistance::Plane<1>>(Point<1>(0.),
-                                                           Tensor<1, 1>(
-                                                             {1.}))}};
+  const Obstacles     obstacles = {
+        {BarEnds::left, half_space_at_rest<1>(Point<1>(0.), Tensor<1, 1>({1.}))}};
 
   // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
   Impact<1> bar(impact,

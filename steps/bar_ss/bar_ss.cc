@@ -28,11 +28,11 @@
 // No end is clamped: the program also shows that nothing in the library needs
 // a body to be held.
 
+#include <contact/obstacles/half_space.h>
 #include <base/program.h>
 #include <output/vtu_series.h>
 #include <problems/bar.h>
 
-#include <deal.II/base/function_signed_distance.h>
 
 using namespace dealii;
 using namespace Ricochet;
@@ -62,14 +62,10 @@ BarSS::run(RunFolder &folder)
   // > 3/2; the normal of each points to the bar.
   const LinearElastic material{/* lambda */ 0., /* mu */ .5};
   const double        density   = 1.;
-  const Obstacles<1>  obstacles = {
-     {BarEnds::left,
-      std::make_shared<Functions::SignedDistance::Plane<1>>(Point<1>(0.),
-                                                           Tensor<1, 1>({1.}))},
-     {BarEnds::right,
-      std::make_shared<Functions::SignedDistance::Plane<1>>(Point<1>(1.5),
-                                                           Tensor<1, 1>(
-                                                             {-1.}))}};
+  const Obstacles     obstacles = {
+        {BarEnds::left, half_space_at_rest<1>(Point<1>(0.), Tensor<1, 1>({1.}))},
+        {BarEnds::right,
+         half_space_at_rest<1>(Point<1>(1.5), Tensor<1, 1>({-1.}))}};
 
   // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
   Impact<1> bar(impact,

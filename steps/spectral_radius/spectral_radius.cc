@@ -26,12 +26,12 @@
 // The limits for large (omega dt)^2 are (1 - |alpha|)/(1 + |alpha|) for HHT, 1
 // for Crank-Nicolson and 0 for TR-BDF2.
 
+#include <contact/obstacles/half_space.h>
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
 #include <base/program.h>
 #include <problems/bar.h>
 
-#include <deal.II/base/function_signed_distance.h>
 #include <deal.II/grid/grid_generator.h>
 
 #include <Eigen/Eigenvalues>
@@ -162,11 +162,8 @@ SpectralRadius::make_oscillator(const Triangulation<1>       &triangulation,
   parameters.contact.treatment    = "penalty";
   parameters.linear_solver.n_kept = 1;
   parameters.scheme               = scheme;
-  const Obstacles<1> obstacles    = {
-       {BarEnds::left,
-        std::make_shared<Functions::SignedDistance::Plane<1>>(Point<1>(-1e6),
-                                                           Tensor<1, 1>(
-                                                             {1.}))}};
+  const Obstacles obstacles       = {
+          {BarEnds::left, half_space_at_rest<1>(Point<1>(-1e6), Tensor<1, 1>({1.}))}};
   return std::make_unique<Impact<1>>(parameters,
                                      triangulation,
                                      /* degree */ 1,

@@ -5,6 +5,7 @@
 // parts of the code with each other (stress with energy, tangent with force), and
 // a factor that is wrong in all of them alike passes; here it does not.
 
+#include <contact/obstacles/half_space.h>
 #include <contact/contact_treatment.h>
 #include <contact/coulomb_friction.h>
 #include <contact/laws/augmented_lagrangian.h>
@@ -24,7 +25,6 @@
 #include <output/momenta.h>
 #include <problems/impact.h>
 
-#include <deal.II/base/function_signed_distance.h>
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/grid/grid_generator.h>
@@ -89,15 +89,12 @@ namespace
 
   /// A plane through @p point, with the outward normal @p normal.
   template <int dim>
-  Obstacles<dim>
+  Obstacles
   plane(const dealii::types::boundary_id id,
         const Point<dim>                &point,
         const Tensor<1, dim>            &normal)
   {
-    return {{id,
-             std::make_shared<dealii::Functions::SignedDistance::Plane<dim>>(
-               point,
-               normal)}};
+    return {{id, half_space_at_rest<dim>(point, normal)}};
   }
 
   /// The sum of a component of @p force over the nodes of a boundary.
@@ -933,11 +930,11 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_in_nodes)
                     {[](const Point<2> &) { return 0.; },
                      [](const Point<2> &x) { return -.35 + .16 * x[0]; }});
   Vector force = body.make_vector();
-  contact->force_at(solution, force);
+  contact->force_at(solution, 0., force);
   // Pressures 8 and 1.6 Pa: 8/4 + 1.6/2 N, against the body's way down.
   BOOST_CHECK_CLOSE(boundary_sum(body, force, 1, 2), -2.8, round_off);
   BOOST_CHECK_SMALL(boundary_sum(body, force, 0, 2), 1e-14);
-  auto summary = contact->summary(solution, force).at(2);
+  auto summary = contact->summary(solution, force, 0.).at(2);
   BOOST_CHECK_CLOSE(summary.area, 2., round_off);
   BOOST_CHECK_CLOSE(summary.mean_gap, .06, round_off);
   BOOST_CHECK_CLOSE(summary.smallest_gap, -.1, round_off);
@@ -946,7 +943,7 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_in_nodes)
   BOOST_CHECK_CLOSE(summary.contact_pressure, 1.4, round_off);
   BOOST_CHECK_EQUAL(summary.active_points, 2u);
   // c/2 d^2: 0.4/4 + 0.016/2 J.
-  BOOST_CHECK_CLOSE(contact->potential(solution), .108, round_off);
+  BOOST_CHECK_CLOSE(contact->potential(solution, 0.), .108, round_off);
 
   // An active set reads the same force off the vector.
   parameters.treatment  = "Signorini active set";
@@ -955,7 +952,7 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_in_nodes)
                                        body,
                                        LinearElastic{1., 1.},
                                        foundation);
-  summary               = active_set->summary(solution, force).at(2);
+  summary               = active_set->summary(solution, force, 0.).at(2);
   BOOST_CHECK_CLOSE(summary.mean_gap, .06, round_off);
   BOOST_CHECK_CLOSE(summary.smallest_gap, -.1, round_off);
   BOOST_CHECK_CLOSE(summary.max_penetration, .1, round_off);
@@ -971,11 +968,11 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_in_nodes)
                                   body,
                                   LinearElastic{1., 1.},
                                   foundation);
-  cubic->force_at(solution, force);
+  cubic->force_at(solution, 0., force);
   BOOST_CHECK_CLOSE(boundary_sum(body, force, 1, 2),
                     -1.2 / 4. - .048 / 2.,
                     round_off);
-  BOOST_CHECK_CLOSE(cubic->potential(solution),
+  BOOST_CHECK_CLOSE(cubic->potential(solution, 0.),
                     .04 / 4. + .00032 / 2.,
                     round_off);
 
@@ -983,8 +980,8 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_in_nodes)
   const Vector raised = interpolated<2>(body,
                                         {[](const Point<2> &) { return 0.; },
                                          [](const Point<2> &) { return 1.; }});
-  contact->force_at(raised, force);
-  summary = contact->summary(raised, force).at(2);
+  contact->force_at(raised, 0., force);
+  summary = contact->summary(raised, force, 0.).at(2);
   BOOST_CHECK_CLOSE(summary.mean_gap, 1.25, round_off);
   BOOST_CHECK_CLOSE(summary.smallest_gap, 1.25, round_off);
   BOOST_CHECK_EQUAL(summary.max_penetration, 0.);
@@ -1012,9 +1009,9 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_by_integration)
                     {[](const Point<2> &) { return 0.; },
                      [](const Point<2> &x) { return -.55 + .1 * x[0]; }});
   Vector force = body.make_vector();
-  contact->force_at(solution, force);
+  contact->force_at(solution, 0., force);
   const double epsilon = .1 * std::sqrt(.5);
-  const auto   summary = contact->summary(solution, force).at(2);
+  const auto   summary = contact->summary(solution, force, 0.).at(2);
   BOOST_CHECK_CLOSE(summary.mean_gap, -.2, round_off);
   // The first Gauss point lies at x = (1 - 1/sqrt(3))/4.
   const double deepest = .3 - .025 * (1. - 1. / std::sqrt(3.));
@@ -1025,7 +1022,7 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_by_integration)
   BOOST_CHECK_EQUAL(summary.active_points, 8u);
   BOOST_CHECK_CLOSE(boundary_sum(body, force, 1, 2), -.4 / epsilon, round_off);
   // The integral of penetration^2 is 2 (0.2^2 + 0.1^2 2^2/12).
-  BOOST_CHECK_CLOSE(contact->potential(solution),
+  BOOST_CHECK_CLOSE(contact->potential(solution, 0.),
                     2. * (.04 + .04 / 12.) / (2. * epsilon),
                     round_off);
 }
@@ -1051,14 +1048,14 @@ BOOST_AUTO_TEST_CASE(nitsche_pressure_of_a_pressed_block)
                                              return -.3 - .02 * (x[1] - .25);
                                            }});
   Vector       force    = body.make_vector();
-  contact->force_at(solution, force);
+  contact->force_at(solution, 0., force);
   const double gamma = 100. / std::sqrt(.5), p = (lambda + 2. * mu) * .02,
                q     = p + gamma * .05;
-  const auto summary = contact->summary(solution, force).at(2);
+  const auto summary = contact->summary(solution, force, 0.).at(2);
   BOOST_CHECK_CLOSE(summary.stress_pressure, p, round_off);
   BOOST_CHECK_CLOSE(summary.contact_pressure, q, round_off);
   BOOST_CHECK_CLOSE(summary.force, 2. * q, round_off);
-  BOOST_CHECK_CLOSE(contact->potential(solution),
+  BOOST_CHECK_CLOSE(contact->potential(solution, 0.),
                     2. * (q * q - p * p) / (2. * gamma),
                     round_off);
 }
@@ -1084,8 +1081,8 @@ BOOST_AUTO_TEST_CASE(gap_to_an_oblique_plane)
                     {[](const Point<2> &) { return -1.; },
                      [](const Point<2> &) { return -1.5; }});
   Vector force = body.make_vector();
-  contact->force_at(solution, force);
-  const auto summary = contact->summary(solution, force).at(2);
+  contact->force_at(solution, 0., force);
+  const auto summary = contact->summary(solution, force, 0.).at(2);
   BOOST_CHECK_CLOSE(summary.mean_gap, .2, round_off);
   BOOST_CHECK_CLOSE(summary.smallest_gap, -.4, round_off);
   // One corner of length 1/2 under 10 0.4 Pa, pushed along the normal.
@@ -1350,10 +1347,10 @@ BOOST_AUTO_TEST_CASE(oscillator_in_contact)
   BOOST_CHECK_CLOSE(oscillator.right_end(oscillator.start.acceleration),
                     -7.,
                     round_off);
-  BOOST_CHECK_CLOSE(oscillator.impact->contact->potential(
-                      oscillator.start.solution),
-                    1.125,
-                    round_off);
+  BOOST_CHECK_CLOSE(
+    oscillator.impact->contact->potential(oscillator.start.solution, 0.),
+    1.125,
+    round_off);
   oscillator.step(.5);
   BOOST_CHECK_CLOSE(oscillator.right_end(oscillator.end.solution),
                     5. / 12.,
@@ -1454,7 +1451,7 @@ BOOST_AUTO_TEST_CASE(block_that_slides_down_its_speed)
           const StepReport report =
             impact.scheme->step(impact.system, state, time_step, next);
           const double pressed =
-            impact.contact->summary(next.solution, next.contact_force)
+            impact.contact->summary(next.solution, next.contact_force, 0.)
               .at(2)
               .force;
           const Tensor<1, 2> gained =

@@ -7,6 +7,7 @@
 
 #include "meshes.h"
 
+#include <contact/obstacles/half_space.h>
 #include <base/exceptions.h>
 #include <contact/contact_treatment.h>
 #include <discretization/hyperelastic_bulk.h>
@@ -311,9 +312,7 @@ BOOST_AUTO_TEST_CASE(multigrid_needs_few_iterations)
               body,
               material,
               {{1,
-                  std::make_shared<dealii::Functions::SignedDistance::Plane<3>>(
-                  dealii::Point<3>(0., 0., .2),
-                  normal)}});
+                  half_space_at_rest<3>(dealii::Point<3>(0., 0., .2), normal)}});
             Vector solution = body.make_vector(), residual(solution),
                    right_hand_side(solution), result(solution);
             contact->begin_stage({solution, solution, solution, .1}, stiffness);

@@ -2,9 +2,9 @@
 #ifndef ricochet_tests_unit_meshes_h
 #define ricochet_tests_unit_meshes_h
 
-#include <contact/contact_points.h>
+#include <contact/obstacles/half_space.h>
+#include <contact/kinematics/contact_points.h>
 
-#include <deal.II/base/function_signed_distance.h>
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/grid/grid_generator.h>
 
@@ -38,17 +38,14 @@ struct CubeAbovePlane
           }
   }
 
-  Ricochet::Obstacles<dim>
+  Ricochet::Obstacles
   plane(const double gap) const
   {
     dealii::Point<dim> point;
     point[dim - 1] = -gap;
     dealii::Tensor<1, dim> normal;
     normal[dim - 1] = 1.;
-    return {{1,
-             std::make_shared<dealii::Functions::SignedDistance::Plane<dim>>(
-               point,
-               normal)}};
+    return {{1, Ricochet::half_space_at_rest<dim>(point, normal)}};
   }
 
   dealii::parallel::shared::Triangulation<dim> triangulation;

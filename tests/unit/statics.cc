@@ -5,6 +5,7 @@
 
 #include "meshes.h"
 
+#include <contact/obstacles/half_space.h>
 #include <problems/gmsh_mesh.h>
 #include <problems/impact.h>
 
@@ -97,10 +98,10 @@ namespace
       ", degree " + std::to_string(degree) + ", " + std::to_string(dim) + "D";
     BOOST_CHECK_MESSAGE(difference.linfty_norm() < 1e-10,
                         name << ": error " << difference.linfty_norm());
-    const auto summary = impact.contact->summary(solution, force);
+    const auto summary = impact.contact->summary(solution, force, 0.);
     BOOST_CHECK_CLOSE(summary.at(1).force, pressure, 1e-8);
     // And the pressure is uniform, not only in the mean.
-    const Vector field = impact.contact->pressure_field(solution, force);
+    const Vector field = impact.contact->pressure_field(solution, force, 0.);
     double       worst = 0.;
     unsigned int n     = 0;
     for (const auto i : field.locally_owned_elements())
@@ -168,10 +169,7 @@ namespace
       Material<3>(material),
       /* density */ 1.,
       {2},
-      {{1,
-               std::make_shared<dealii::Functions::SignedDistance::Plane<3>>(
-          plane,
-          dealii::Tensor<1, 3>({0., 0., 1.}))}},
+      {{1, half_space_at_rest<3>(plane, dealii::Tensor<1, 3>({0., 0., 1.}))}},
       {},
       MPI_COMM_WORLD);
     const auto [solution, force] = equilibrium(impact);
@@ -182,12 +180,13 @@ namespace
       vertical<3>(impact.body, [](const dealii::Point<3> &x) {
         return x[0] * x[0] + x[1] * x[1];
       });
-    const double total  = impact.contact->summary(solution, force).at(1).force;
+    const double total =
+      impact.contact->summary(solution, force, 0.).at(1).force;
     const double radius = std::sqrt(2.5 * std::abs(square * force) / total);
     // The pressure is discontinuous and its largest value wherever it happens to
     // be; so the mean over the nodes near the pole, where Hertz's is 0.984 of
     // the peak.
-    const Vector field = impact.contact->pressure_field(solution, force);
+    const Vector field = impact.contact->pressure_field(solution, force, 0.);
     std::map<dealii::types::global_dof_index, dealii::Point<3>> positions;
     dealii::DoFTools::map_dofs_to_support_points(impact.body.mapping(),
                                                  impact.body.dof_handler(),

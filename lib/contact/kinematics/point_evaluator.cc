@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <contact/contact_operator.h>
+#include <contact/kinematics/point_evaluator.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <map>
 
 namespace Ricochet
 {
-  void
-  ContactOperator::tangent_change(std::vector<FunctionalRow> & /*change*/) const
-  {
-    AssertThrow(false, dealii::ExcMessage("This contact has no functionals."));
-  }
-
-
-
   void
   ContactPointEvaluator::find_local_indices()
   {
@@ -113,6 +106,23 @@ namespace Ricochet
 
 
   void
+  ContactPointEvaluator::set_rows(const unsigned int          p,
+                                  const dealii::Tensor<1, 3> &direction,
+                                  const dealii::Tensor<1, 3> &gradient)
+  {
+    if (gap_gradient.empty())
+      gap_gradient = points.gap_coefficient;
+    for (unsigned int k = points.points[p].begin; k < points.points[p].end; ++k)
+      {
+        const unsigned int c      = points.component[k];
+        points.gap_coefficient[k] = direction[c] * points.shape_value[k];
+        gap_gradient[k]           = gradient[c] * points.shape_value[k];
+      }
+  }
+
+
+
+  void
   ContactPointEvaluator::add(const unsigned int         p,
                              const ContactPointForce<> &force,
                              Vector                    &vector)
@@ -136,7 +146,8 @@ namespace Ricochet
                              const ContactPointTangent &tangent,
                              Matrix                    &matrix) const
   {
-    const ContactPoint &point = points.points[p];
+    const ContactPoint        &point    = points.points[p];
+    const std::vector<double> &with_gap = gap_derivatives();
     for (unsigned int i = point.begin; i < point.end; ++i)
       {
         const double row[3] = {points.gap_coefficient[i],
@@ -148,8 +159,7 @@ namespace Ricochet
             (row[0] * tangent[0][c] + row[1] * tangent[1][c] +
              row[2] * tangent[2][c]);
         for (unsigned int j = point.begin; j < point.end; ++j)
-          local_matrix[j - point.begin] =
-            row_times_tangent[0] * points.gap_coefficient[j] +
+          local_matrix[j - point.begin] = row_times_tangent[0] * with_gap[j] +
             row_times_tangent[1] * points.stress_pressure_coefficient[j] +
             row_times_tangent[2] * points.multiplier_coefficient[j];
         matrix.add(points.index[i],
@@ -186,7 +196,8 @@ namespace Ricochet
     const std::array<dealii::Tensor<1, 3>, 3> &with_state,
     Matrix                                    &matrix) const
   {
-    const ContactPoint &point = points.points[p];
+    const ContactPoint        &point    = points.points[p];
+    const std::vector<double> &with_gap = gap_derivatives();
     for (unsigned int i = point.begin; i < point.end; ++i)
       {
         const unsigned int row  = points.component[i];
@@ -195,7 +206,7 @@ namespace Ricochet
           local_matrix[j - point.begin] = test *
             (with_displacement[row][points.component[j]] *
                points.shape_value[j] +
-             with_state[0][row] * points.gap_coefficient[j] +
+             with_state[0][row] * with_gap[j] +
              with_state[1][row] * points.stress_pressure_coefficient[j] +
              with_state[2][row] * points.multiplier_coefficient[j]);
         matrix.add(points.index[i],
@@ -245,21 +256,5 @@ namespace Ricochet
       if (points.shape_value[k] != 0.)
         value[points.component[k]] = vector(points.index[k]);
     return value;
-  }
-
-
-
-  void
-  ContactSummary::add(const ContactPoint &point,
-                      const double        gap,
-                      const double        point_force,
-                      const bool          is_active)
-  {
-    area += point.weight;
-    mean_gap += point.weight * gap;
-    smallest_gap    = std::min(smallest_gap, gap);
-    max_penetration = std::max(max_penetration, -gap);
-    force += point_force;
-    active_points += is_active;
   }
 } // namespace Ricochet

@@ -3,6 +3,7 @@
 #define ricochet_contact_contact_points_h
 
 #include <contact/contact_law.h>
+#include <contact/obstacles/rigid_obstacle.h>
 #include <discretization/body.h>
 #include <materials/linear_elastic.h>
 
@@ -16,43 +17,31 @@
 namespace Ricochet
 {
   /**
-   * The rigid obstacle that a part of the boundary can touch: its signed
-   * distance (m), positive outside, by boundary id. Kinematics are linearised
-   * about the reference position, which is exact for planes:
-   * gap(u) = distance(x) + grad distance(x) . u. Others are refused.
-   */
-  template <int dim>
-  using Obstacles = std::map<dealii::types::boundary_id,
-                             std::shared_ptr<const dealii::Function<dim>>>;
-
-  /**
-   * One point of the contact boundary: gap, stress pressure and multiplier are
-   * affine functions of the unknowns, given here by their coefficients.
+   * One point of the contact boundary: its displacement, stress pressure and
+   * multiplier are linear functions of the unknowns, given by their coefficients
+   * in ContactPoints. So is the gap to a plane at rest, but for the initial gap.
    */
   struct ContactPoint
   {
     /// Area that the point stands for (m^(dim-1)): JxW of a quadrature point,
     /// lumped boundary mass of a node.
     double weight = 0.;
-    /// Gap at zero displacement (m).
+    /// Gap at zero displacement and time 0 (m).
     double initial_gap = 0.;
     /// h_T (m).
     double                     cell_diameter = 0.;
     dealii::types::boundary_id boundary_id   = 0;
-    /// Unit normal of the obstacle, towards the body; zeros beyond dim.
+    /// Unit normal of the obstacle, towards the body, at zero displacement and
+    /// time 0; zeros beyond dim.
     dealii::Tensor<1, 3> obstacle_normal;
+    /// m
+    dealii::Tensor<1, 3> reference_position;
+    /// Never null.
+    std::shared_ptr<const RigidObstacle> obstacle;
 
     /// Coefficients [begin, end) in ContactPoints::index, gap_coefficient, ...
     unsigned int begin = 0, end = 0;
   };
-
-  /// The projection on the plane with the unit normal @p normal.
-  inline dealii::Tensor<2, 3>
-  tangent_plane(const dealii::Tensor<1, 3> &normal)
-  {
-    return dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) -
-      outer_product(normal, normal);
-  }
 
   /// Round-off (m) of a gap that is the difference of an initial gap and a
   /// displacement.
@@ -65,7 +54,8 @@ namespace Ricochet
 
   /**
    * All contact points of this rank, with their coefficients in flat
-   * arrays that the hot loops run through. Made once: linear kinematics.
+   * arrays that the hot loops run through. Made once; where an obstacle is curved
+   * or moves, the coefficients of the gap are made again in each iteration.
    */
   struct ContactPoints
   {
@@ -113,42 +103,52 @@ namespace Ricochet
   };
 
   /**
+   * The direction along which laws take the body's stress: the pressure is
+   * direction . sigma n, n being the @p outward_normal of the body. Before a plane
+   * at rest it is the obstacle's normal @p obstacle_normal, elsewhere -n, so that
+   * the pressure is a linear function of the unknowns that stays the same.
+   */
+  dealii::Tensor<1, 3>
+  stress_direction(const RigidObstacle        &obstacle,
+                   const dealii::Tensor<1, 3> &obstacle_normal,
+                   const dealii::Tensor<1, 3> &outward_normal);
+
+  /**
    * Quadrature points of all contact faces of owned cells.
    *
-   * The stress pressure is that of @p material on the face, along the normal
-   * of the obstacle: p = normal . sigma(u) n, with n the outward normal of the
-   * body. Without a linear material it is zero.
-   *
-   * @throws InputError when an obstacle is not a plane.
+   * The stress pressure is that of @p material on the face, see
+   * stress_direction(). Without a linear material it is zero.
    */
   template <int dim>
   ContactPoints
   make_quadrature_contact_points(const Body<dim>                    &body,
                                  const std::optional<LinearElastic> &material,
-                                 const Obstacles<dim>               &obstacles);
+                                 const Obstacles                    &obstacles);
 
   /**
    * Owned nodes of the contact boundary, each with its lumped boundary mass,
-   * which is zero in vertices of quadratic tetrahedra; without multipliers.
+   * which is zero in vertices of quadratic tetrahedra.
    *
-   * @throws InputError when an obstacle is not a plane.
+   * @param with_multipliers each node has the multiplier of that node; nodes know
+   * no stress pressure.
    */
   template <int dim>
   ContactPoints
-  make_contact_nodes(const Body<dim> &body, const Obstacles<dim> &obstacles);
+  make_contact_nodes(const Body<dim> &body,
+                     const Obstacles &obstacles,
+                     const bool       with_multipliers);
 
   /**
-   * The same for treatments that live in nodes. The multiplier of a node is the one of that node; nodes know no stress
-   * pressure.
+   * The same for treatments that live in nodes, with the multipliers of the body
+   * if it has some.
    *
    * @throws InputError when a lumped boundary mass is not positive (vertices of
-   * quadratic tetrahedra), for nodal multipliers with degree > 1, when a node is
-   * clamped, and when an obstacle is not a plane.
+   * quadratic tetrahedra), for nodal multipliers with degree > 1, and when a node
+   * is clamped.
    */
   template <int dim>
   ContactPoints
-  make_nodal_contact_points(const Body<dim>      &body,
-                            const Obstacles<dim> &obstacles);
+  make_nodal_contact_points(const Body<dim> &body, const Obstacles &obstacles);
 } // namespace Ricochet
 
 #endif

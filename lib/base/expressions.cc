@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <base/expressions.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <iostream>
+
+namespace Ricochet
+{
+  Expressions::Expressions(const std::string              &variables,
+                           const std::vector<std::string> &texts,
+                           const std::string              &what)
+  {
+    auto new_parser = std::make_shared<dealii::FunctionParser<3>>(texts.size());
+    // deal.II prints what it does not understand; we say it in a sentence.
+    std::streambuf *const terminal = std::cerr.rdbuf(nullptr);
+    bool                  readable = true;
+    try
+      {
+        const bool one = variables.find(',') == std::string::npos;
+        new_parser->initialize(one ? variables + ",unused_1,unused_2"
+                                   : variables,
+                               texts,
+                               {{"pi", dealii::numbers::PI}});
+        // The parser looks at an expression when it is first needed.
+        for (unsigned int f = 0; f < texts.size(); ++f)
+          new_parser->value(dealii::Point<3>(), f);
+      }
+    catch (const std::exception &)
+      {
+        readable = false;
+      }
+    std::cerr.rdbuf(terminal);
+    std::cerr.clear();
+    if (!readable)
+      {
+        std::string list;
+        for (const std::string &text : texts)
+          list += "\n    " + text;
+        throw InputError("One of the expressions of " + what +
+                         " cannot be read; they are functions of " + variables +
+                         " as muParser knows them:" + list);
+      }
+    parser = new_parser;
+  }
+
+
+
+  std::vector<std::string>
+  split_expressions(const std::string &text)
+  {
+    return dealii::Utilities::split_string_list(text, ';');
+  }
+} // namespace Ricochet

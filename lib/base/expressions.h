@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_base_expressions_h
+#define ricochet_base_expressions_h
+
+#include <deal.II/base/function_parser.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Ricochet
+{
+  /// Functions that a user writes as text, such as "sin(2*pi*t)" (muParser). The
+  /// constant pi is known.
+  class Expressions
+  {
+  public:
+    /**
+     * @param variables their names, separated by commas: one or three.
+     * @param texts one for each function.
+     * @param what they are, for messages: "the level set".
+     * @throws InputError when one of them cannot be read.
+     */
+    Expressions(const std::string              &variables,
+                const std::vector<std::string> &texts,
+                const std::string              &what);
+
+    /// The function number @p f where the variables are @p x.
+    double
+    value(const unsigned int f, const dealii::Tensor<1, 3> &x) const
+    {
+      return parser->value(dealii::Point<3>(x), f);
+    }
+
+    unsigned int
+    size() const
+    {
+      return parser->n_components;
+    }
+
+  private:
+    std::shared_ptr<const dealii::FunctionParser<3>> parser;
+  };
+
+  /// The parts of @p text between semicolons, without blanks around them.
+  std::vector<std::string>
+  split_expressions(const std::string &text);
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_contact_report_h
+#define ricochet_contact_contact_report_h
+
+#include <base/types.h>
+#include <contact/kinematics/point_evaluator.h>
+
+#include <limits>
+#include <map>
+#include <vector>
+
+namespace Ricochet
+{
+  /// What the ledger wants to know of one part of the contact boundary.
+  struct ContactSummary
+  {
+    /// Area of the part (m^(dim-1)); 1 in 1D.
+    double area = 0.;
+    /// Total contact force, the integral of contact_pressure (N).
+    double force = 0.;
+    /// Mean gap (m).
+    double mean_gap = 0.;
+    /// Smallest gap (m), that of a boundary without points being infinite.
+    double smallest_gap = std::numeric_limits<double>::infinity();
+    /// Largest penetration (m), 0 without.
+    double max_penetration = 0.;
+    /// Mean of the pressure that the treatment itself stands for (Pa): [P_N]_-
+    /// for Nitsche, the multiplier, the reaction over the boundary mass.
+    double contact_pressure = 0.;
+    /// Mean of the pressure of the body's own stress, -sigma_n(u_h) (Pa).
+    double stress_pressure = 0.;
+    /// Number of contact points that are active.
+    unsigned int active_points = 0;
+
+    /// Add a point to the sums: means are weighted sums until
+    /// reduce_summaries() divides them.
+    void
+    add(const ContactPoint &point,
+        const double        gap,
+        const double        point_force,
+        const bool          is_active);
+  };
+
+  /// By boundary id.
+  using ContactSummaries = std::map<dealii::types::boundary_id, ContactSummary>;
+
+  /// What can be told of contact at a solved state, outside of any step; what
+  /// was begun of a step is over. All functions are collective.
+  class ContactReport
+  {
+  public:
+    virtual ~ContactReport() = default;
+
+    /// The contact force (N) at @p solution and @p time: for the initial
+    /// acceleration and for integrators of their own.
+    virtual void
+    force_at(const Vector &solution, const double time, Vector &force) = 0;
+
+    /// Energy stored by the treatment (J): the difference between modified and
+    /// mechanical energy. 0 where there is none.
+    virtual double
+    potential(const Vector &solution, const double time) = 0;
+
+    /// Whether there is a modified energy. A constraint stores nothing; a method
+    /// without potential has none.
+    virtual bool
+    has_modified_energy() const
+    {
+      return true;
+    }
+
+    /// Whether an obstacle moves, and so does work on the body.
+    virtual bool
+    has_moving_obstacles() const = 0;
+
+    /// Contact pressure (Pa), as a field for pictures: the average around each
+    /// node of the contact boundary, in the place of the node's first
+    /// displacement; zero elsewhere. It depends on the arguments alone: in nodes
+    /// it is read off the force, elsewhere it is the law's pressure at the
+    /// solution.
+    virtual Vector
+    pressure_field(const Vector &solution,
+                   const Vector &contact_force,
+                   const double  time) = 0;
+
+    /// Whether the summary has the pressure of the body's own stress.
+    virtual bool
+    knows_stress_pressure() const = 0;
+
+    virtual ContactSummaries
+    summary(const Vector &solution,
+            const Vector &contact_force,
+            const double  time) = 0;
+  };
+
+  /// Complete the entries of @p my_sums that are means or totals over all
+  /// ranks, from weighted sums on each rank.
+  ContactSummaries
+  reduce_summaries(const ContactSummaries &my_sums,
+                   const MPI_Comm          communicator);
+
+  /// Add the weighted stress pressures of @p evaluator to @p sums.
+  void
+  add_stress_pressure(const Vector                     &solution,
+                      ContactPointEvaluator            &evaluator,
+                      std::vector<ContactPointState<>> &work,
+                      ContactSummaries                 &sums);
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_kinematics_contact_kinematics_h
+#define ricochet_contact_kinematics_contact_kinematics_h
+
+#include <contact/kinematics/point_evaluator.h>
+
+#include <memory>
+#include <vector>
+
+namespace Ricochet
+{
+  /// The beginning of a step or stage, as far as contact looks back.
+  struct ContactStart
+  {
+    /// Unknowns at the beginning of the step.
+    const Vector &solution;
+    /// Contact force there (N), from which active sets start.
+    const Vector &contact_force;
+    /// Mean velocity of the step before (m/s), for predictors of the gap.
+    const Vector &mean_velocity;
+    /// Length of the step (s), over which slip is counted; 0 for schemes whose
+    /// contact force is that of an instant.
+    double time_step = 0.;
+    /// The end of the step, or the instant (s).
+    double end_time = 0.;
+  };
+
+  /// What laws and conditions may know of the geometry in a point, over a step.
+  /// Derivatives are those with respect to the point at the end of the step.
+  struct PointGeometry
+  {
+    /// Unit vector along the contact force, towards the body.
+    dealii::Tensor<1, 3> normal;
+    /// Derivative of the direction D = |D| normal of the force (1/m): what
+    /// Newton's method needs beside the stiffness of the law.
+    dealii::Tensor<2, 3> direction_derivative;
+    /// |D|: 1, but for terms of second order in the step.
+    double direction_length = 1.;
+    /// Gradient of the gap.
+    dealii::Tensor<1, 3> gap_gradient;
+    /// Change of the gap (m).
+    double gap_increment = 0.;
+    /// Way of the point less that of the obstacle there (m); slip is its part
+    /// across the normal.
+    dealii::Tensor<1, 3> relative_way;
+    /// Its derivative.
+    dealii::Tensor<2, 3> relative_way_derivative;
+
+    /// Derivative of #normal (1/m).
+    dealii::Tensor<2, 3>
+    normal_derivative() const
+    {
+      return tangent_plane(normal) * direction_derivative / direction_length;
+    }
+
+    /// m
+    dealii::Tensor<1, 3>
+    slip() const
+    {
+      return tangent_plane(normal) * relative_way;
+    }
+
+    /// Derivative of the part of a vector v across the normal, times that vector:
+    /// (I - n n^T)' v.
+    dealii::Tensor<2, 3>
+    projection_derivative(const dealii::Tensor<1, 3> &v) const
+    {
+      const dealii::Tensor<2, 3> turning = normal_derivative();
+      return -(normal * v) * turning - outer_product(normal, v * turning);
+    }
+  };
+
+  /**
+   * The geometry of contact: how gap, slip and the direction of the force follow
+   * from the unknowns, for laws and conditions that never ask where they come
+   * from.
+   *
+   * The force of a point is its pressure times a direction D, and its work over a
+   * step the pressure times D . way. So D . way (less the way of a moving
+   * obstacle) is the gap increment that belongs to it. All kinematics keep that
+   * to round-off, and their increment is the difference of the gaps.
+   */
+  class ContactKinematics
+  {
+  public:
+    /// What is asked for beside gaps; it costs time.
+    struct Needs
+    {
+      /// Increment of the gap, and slip.
+      bool way = false;
+      /// predicted_gap()
+      bool prediction = false;
+    };
+
+    ContactKinematics(ContactPointEvaluator evaluator, const Needs &needs);
+
+    virtual ~ContactKinematics() = default;
+
+    /// Whether directions are the same for ever: then what contact adds to a
+    /// tangent depends on the laws' branches alone.
+    virtual bool
+    has_constant_rows() const = 0;
+
+    /// Whether an obstacle moves, which does work on the body.
+    virtual bool
+    has_moving_obstacles() const = 0;
+
+    /// Begin a step, over which its forces act, and evaluate its beginning. With a
+    /// step of no length, @p start is an instant, and forces act along the normals
+    /// there.
+    virtual void
+    begin_step(const ContactStart               &start,
+               std::vector<ContactPointState<>> &old_states) = 0;
+
+    /// Begin an instant, outside of any step.
+    virtual void
+    begin_instant(const double time) = 0;
+
+    /// Gap, stress pressure and multiplier of all points at @p solution, the end
+    /// of the step. Speaks of geometry() as well.
+    virtual void
+    evaluate(const Vector                     &solution,
+             std::vector<ContactPointState<>> &states) = 0;
+
+    /// The gap in the middle of the step, if the mean velocity of the step
+    /// before goes on (B (3.7)); to be called after begin_step().
+    virtual double
+    predicted_gap(const unsigned int p) const = 0;
+
+    /// Bring geometry() of the point @p p and its rows in the evaluator to the
+    /// state of the last evaluate(), where they are not always.
+    virtual void
+    update_geometry(const unsigned int p) = 0;
+
+    /// After update_geometry().
+    const PointGeometry &
+    geometry(const unsigned int p) const
+    {
+      return geometries[p];
+    }
+
+    /// Round-off (m) in the @p gap of point @p p.
+    virtual double
+    gap_round_off(const unsigned int p, const double gap) const = 0;
+
+    /// Round-off (m) in the way of point @p p.
+    virtual double
+    way_round_off(const unsigned int p) const = 0;
+
+    const std::vector<ContactPoint> &
+    points() const
+    {
+      return evaluator.contact_points();
+    }
+
+    /// The normal force of @p force at the node @p p, positive in compression
+    /// (N); after update_geometry().
+    double
+    nodal_normal_force(const unsigned int p, const Vector &force) const
+    {
+      return -(geometries[p].normal * evaluator.at_node(p, force));
+    }
+
+    ContactPointEvaluator evaluator;
+
+  protected:
+    const Needs                       needs;
+    std::vector<PointGeometry>        geometries;
+    std::vector<dealii::Tensor<1, 3>> displacement, old_displacement;
+    std::vector<dealii::Tensor<1, 3>> mean_velocity;
+  };
+
+  /// The kinematics that fits the obstacles of the @p points: planes at rest, or
+  /// any rigid obstacles.
+  template <int dim>
+  std::unique_ptr<ContactKinematics>
+  make_kinematics(const Body<dim>                &body,
+                  ContactPoints                   points,
+                  const ContactKinematics::Needs &needs = {});
+} // namespace Ricochet
+
+#endif

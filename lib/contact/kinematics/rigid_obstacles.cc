@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/kinematics/rigid_obstacles.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Ricochet
+{
+  using dealii::Tensor;
+
+  RigidObstacles::RigidObstacles(ContactPointEvaluator evaluator_,
+                                 const Needs          &needs,
+                                 const bool            some_move)
+    : ContactKinematics(std::move(evaluator_), needs)
+    , some_move(some_move)
+  {
+    for (const ContactPoint &point : points())
+      {
+        const RigidObstacle *obstacle = point.obstacle.get();
+        const auto           found =
+          std::find(obstacles.begin(), obstacles.end(), obstacle);
+        obstacle_of_point.push_back(found - obstacles.begin());
+        if (found == obstacles.end())
+          obstacles.push_back(obstacle);
+      }
+    steps.resize(obstacles.size());
+    up_to_date.resize(points().size());
+  }
+
+
+
+  void
+  RigidObstacles::begin_step(const ContactStart               &start,
+                             std::vector<ContactPointState<>> &old_states)
+  {
+    time_step = start.time_step;
+    end_time  = start.end_time;
+    instant   = time_step == 0.;
+    for (unsigned int i = 0; i < obstacles.size(); ++i)
+      steps[i] = obstacles[i]->step(end_time - time_step, end_time);
+    evaluator.evaluate(start.solution, old_states);
+    evaluator.evaluate_displacement(start.solution, old_displacement);
+    for (unsigned int p = 0; p < old_states.size(); ++p)
+      old_states[p].gap =
+        gap(p, steps[obstacle_of_point[p]].begin, old_displacement[p]);
+    if (needs.prediction)
+      evaluator.evaluate_displacement(start.mean_velocity, mean_velocity);
+  }
+
+
+
+  void
+  RigidObstacles::begin_instant(const double time)
+  {
+    time_step = 0.;
+    end_time  = time;
+    instant   = true;
+    for (unsigned int i = 0; i < obstacles.size(); ++i)
+      steps[i] = obstacles[i]->step(time, time);
+  }
+
+
+
+  double
+  RigidObstacles::gap(const unsigned int  p,
+                      const Placement    &placement,
+                      const Tensor<1, 3> &point_displacement) const
+  {
+    return obstacles[obstacle_of_point[p]]->shape().gap(
+      placement.pull_back(points()[p].reference_position + point_displacement));
+  }
+
+
+
+  void
+  RigidObstacles::evaluate(const Vector                     &solution,
+                           std::vector<ContactPointState<>> &states)
+  {
+    evaluator.evaluate(solution, states);
+    evaluator.evaluate_displacement(solution, displacement);
+    for (unsigned int p = 0; p < states.size(); ++p)
+      states[p].gap = gap(p, steps[obstacle_of_point[p]].end, displacement[p]);
+    up_to_date.assign(states.size(), false);
+  }
+
+
+
+  void
+  RigidObstacles::update_geometry(const unsigned int p)
+  {
+    if (up_to_date[p])
+      return;
+    up_to_date[p]         = true;
+    const unsigned int  i = obstacle_of_point[p];
+    const Tensor<1, 3>  x = points()[p].reference_position + displacement[p];
+    PointGeometry      &geometry = geometries[p];
+    RigidObstacle::Rows rows;
+    if (instant)
+      {
+        // Both ends of the step are one point, which moves as such.
+        rows = obstacles[i]->rows(steps[i], x, x, Tensor<1, 3>());
+        rows.direction_derivative *= 2.;
+      }
+    else
+      rows =
+        obstacles[i]->rows(steps[i],
+                           points()[p].reference_position + old_displacement[p],
+                           x,
+                           displacement[p] - old_displacement[p]);
+    geometry.direction_length     = rows.direction.norm();
+    geometry.normal               = rows.direction / geometry.direction_length;
+    geometry.direction_derivative = rows.direction_derivative;
+    geometry.gap_gradient         = rows.gap_gradient;
+    geometry.gap_increment        = rows.gap_increment;
+    geometry.relative_way         = rows.relative_way;
+    geometry.relative_way_derivative = rows.relative_way_derivative;
+    evaluator.set_rows(p, rows.direction, rows.gap_gradient);
+  }
+
+
+
+  double
+  RigidObstacles::predicted_gap(const unsigned int p) const
+  {
+    const RigidObstacle &obstacle = *obstacles[obstacle_of_point[p]];
+    return obstacle.gap(points()[p].reference_position + old_displacement[p] +
+                          .5 * time_step * mean_velocity[p],
+                        end_time - .5 * time_step);
+  }
+
+
+
+  double
+  RigidObstacles::gap_round_off(const unsigned int p, const double gap) const
+  {
+    // A difference of two distances from the centre of the obstacle.
+    const unsigned int i = obstacle_of_point[p];
+    const double       distance =
+      (points()[p].reference_position + displacement[p] -
+       steps[i].end.push_forward(obstacles[i]->shape().centre()))
+        .norm();
+    return 4. * std::numeric_limits<double>::epsilon() *
+      (points()[p].reference_position.norm() + displacement[p].norm() +
+       distance + std::abs(gap));
+  }
+} // namespace Ricochet

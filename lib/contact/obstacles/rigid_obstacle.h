@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_obstacles_rigid_obstacle_h
+#define ricochet_contact_obstacles_rigid_obstacle_h
+
+#include <contact/obstacles/obstacle_shape.h>
+#include <contact/obstacles/rigid_motion.h>
+
+#include <deal.II/base/types.h>
+
+#include <map>
+#include <memory>
+
+namespace Ricochet
+{
+  /**
+   * A rigid obstacle: a surface and its prescribed motion.
+   *
+   * Over a step, with the points X = Q^T (x - c) of the obstacle at which a point
+   * of the body begins and ends, the gap changes by D(X_0, X_1) . (X_1 - X_0), D
+   * being the discrete gradient of the shape. With
+   *
+   *     X_1 - X_0 = Q_m^T (dx - dc) + dQ^T (x_m - c_m),
+   *
+   * m for the mean and d for the difference of both ends, the force acts along
+   * Q_m D: its work on the body is that of the gap, and the rest is the work of
+   * the obstacle's motion. Of the rotation only what changes the surface counts:
+   * a wheel that turns about its axis has the same gap at all angles.
+   */
+  class RigidObstacle
+  {
+  public:
+    /// @param shape must not be null.
+    explicit RigidObstacle(const std::shared_ptr<const ObstacleShape> &shape,
+                           const RigidMotion &motion = {})
+      : surface(shape)
+      , rigid_motion(motion)
+    {}
+
+    const ObstacleShape &
+    shape() const
+    {
+      return *surface;
+    }
+
+    const RigidMotion &
+    motion() const
+    {
+      return rigid_motion;
+    }
+
+    /// Gaps are affine functions of the unknowns, the same for ever.
+    bool
+    is_plane_at_rest() const
+    {
+      return surface->is_plane() && rigid_motion.is_at_rest();
+    }
+
+    /// Gap (m) of the point @p x at @p time (s).
+    double
+    gap(const dealii::Tensor<1, 3> &x, const double time) const
+    {
+      return surface->gap(rigid_motion.placement(time).pull_back(x));
+    }
+
+    /// Its gradient.
+    dealii::Tensor<1, 3>
+    normal(const dealii::Tensor<1, 3> &x, const double time) const
+    {
+      const Placement placement = rigid_motion.placement(time);
+      return placement.rotation * surface->normal(placement.pull_back(x));
+    }
+
+    /// Where the obstacle is during a step; what all points share.
+    struct Step
+    {
+      /// Up to rotations that leave the surface as it is.
+      Placement begin, end;
+      /// Of these.
+      dealii::Tensor<2, 3> mean_rotation, rotation_change;
+      dealii::Tensor<1, 3> mean_translation, translation_change;
+      /// As the material of the obstacle moves, which drags what sticks to it.
+      Placement            material_begin, material_end;
+      dealii::Tensor<2, 3> material_rotation_change;
+    };
+
+    /// @throws ComputationError when the motion is not finite.
+    Step
+    step(const double begin, const double end) const;
+
+    /// What contact needs to know of a point over a step.
+    struct Rows
+    {
+      /// Direction of the contact force, towards the body; of length one but for
+      /// terms of second order in the step.
+      dealii::Tensor<1, 3> direction;
+      /// Its derivative with respect to the point at the end (1/m).
+      dealii::Tensor<2, 3> direction_derivative;
+      /// Gradient of the gap at the end.
+      dealii::Tensor<1, 3> gap_gradient;
+      /// Change of the gap (m), from the way and not from both gaps, so that
+      /// nothing cancels.
+      double gap_increment = 0.;
+      /// Way of the point less that of the obstacle's material there (m).
+      dealii::Tensor<1, 3> relative_way;
+      /// Its derivative with respect to the point at the end.
+      dealii::Tensor<2, 3> relative_way_derivative;
+    };
+
+    /// @param old_x where the point begins. @param x where it ends. @param way
+    /// x - old_x, without the round-off of the difference.
+    Rows
+    rows(const Step                 &step,
+         const dealii::Tensor<1, 3> &old_x,
+         const dealii::Tensor<1, 3> &x,
+         const dealii::Tensor<1, 3> &way) const;
+
+  private:
+    std::shared_ptr<const ObstacleShape> surface;
+    RigidMotion                          rigid_motion;
+  };
+
+  /// The obstacle that a part of the boundary can touch, by boundary id.
+  using Obstacles =
+    std::map<dealii::types::boundary_id, std::shared_ptr<const RigidObstacle>>;
+} // namespace Ricochet
+
+#endif
