@@ -3,6 +3,7 @@
 #include <base/exceptions.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
+#include <problems/clearance.h>
 #include <problems/impact.h>
 #include <time_integration/mass_redistribution.h>
 
@@ -130,8 +131,21 @@ namespace Ricochet
   State
   Impact<dim>::state_in_flight(const Tensor<1, dim> &velocity)
   {
+    return state_in_motion(Functions::ConstantFunction<dim>(
+      std::vector<double>(velocity.begin_raw(), velocity.end_raw())));
+  }
+
+
+
+  template <int dim>
+  State
+  Impact<dim>::state_in_motion(const Function<dim> &velocity)
+  {
+    check_clearance(body, obstacles);
+    Vector start;
+    body.interpolate(velocity, start);
     return system.initial_state(uniform(Tensor<1, dim>()),
-                                uniform(velocity),
+                                start,
                                 /* time */ 0.);
   }
 

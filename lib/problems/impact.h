@@ -51,8 +51,15 @@ namespace Ricochet
     uniform(const dealii::Tensor<1, dim> &value) const;
 
     /// The undeformed body in flight at time 0.
+    ///
+    /// @throws InputError when it overlaps with an obstacle, or an obstacle is not
+    /// what it says it is where the body begins.
     State
     state_in_flight(const dealii::Tensor<1, dim> &velocity);
+
+    /// The same with a @p velocity (m/s) that is not that of a flight.
+    State
+    state_in_motion(const dealii::Function<dim> &velocity);
   };
 
   /// The half space below x_dim = 0, as the obstacle of the boundary @p

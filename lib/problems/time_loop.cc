@@ -90,6 +90,8 @@ namespace Ricochet
     ledger.add_column("friction_work", "J");
     ledger.add_column("viscous_dissipation", "J");
     ledger.add_column("numerical_dissipation", "J");
+    if (system.contact.has_moving_obstacles())
+      ledger.add_column("obstacle_work", "J");
     ledger.add_column("balance_residual", "1");
     ledger.add_column("newton_iterations", "1");
     ledger.add_column("linear_solves", "1");
@@ -128,7 +130,20 @@ namespace Ricochet
   {
     try
       {
-        return scheme.step(system, old_state, time_step, new_state);
+        StepReport report =
+          scheme.step(system, old_state, time_step, new_state);
+        if (obstacle_work)
+          {
+            Vector force(new_state.contact_force);
+            if (!scheme.contact_force_is_of_step())
+              force.sadd(.5, .5, old_state.contact_force);
+            report.obstacle_work = obstacle_work(old_state.solution,
+                                                 new_state.solution,
+                                                 force,
+                                                 old_state.time,
+                                                 new_state.time);
+          }
+        return report;
       }
     catch (const NewtonFailure &failure)
       {
@@ -163,7 +178,8 @@ namespace Ricochet
             numerical_dissipation,
             initial_energy,
             largest_energy,
-            static_cast<double>(n_halvings)};
+            static_cast<double>(n_halvings),
+            obstacle_work};
   }
 
 
@@ -178,7 +194,8 @@ namespace Ricochet
             list.at(4),
             list.at(5),
             list.at(6),
-            static_cast<unsigned int>(list.at(7))};
+            static_cast<unsigned int>(list.at(7)),
+            list.at(8)};
   }
 
 
@@ -211,12 +228,15 @@ namespace Ricochet
                                sums.contact_work,
                                sums.friction_work,
                                sums.viscous_dissipation,
-                               sums.numerical_dissipation,
-                               balance_residual,
-                               static_cast<double>(report.newton_iterations),
-                               static_cast<double>(report.linear_solves),
-                               static_cast<double>(sums.n_halvings)};
-    const auto          summaries =
+                               sums.numerical_dissipation};
+    if (system.contact.has_moving_obstacles())
+      row.push_back(sums.obstacle_work);
+    row.insert(row.end(),
+               {balance_residual,
+                static_cast<double>(report.newton_iterations),
+                static_cast<double>(report.linear_solves),
+                static_cast<double>(sums.n_halvings)});
+    const auto summaries =
       system.contact.summary(state.solution, state.contact_force, state.time);
     for (const auto &entry : contact_names)
       {
@@ -414,6 +434,7 @@ namespace Ricochet
             sums.friction_work += report.friction_work;
             sums.viscous_dissipation += report.viscous_dissipation;
             sums.numerical_dissipation += report.numerical_dissipation;
+            sums.obstacle_work += report.obstacle_work;
             const double   old_energy = energy;
             const Energies energies   = energies_of(new_state);
             energy                    = energies.total();

@@ -55,6 +55,15 @@ namespace Ricochet
     /// Called with the state and the number of the step when fields are due.
     std::function<void(const State &, const unsigned int)> write_fields;
 
+    /// Where obstacles move, what they do to the body from one state to the next,
+    /// see ObstacleWork; the column obstacle_work is zero without.
+    std::function<double(const Vector &old_solution,
+                         const Vector &new_solution,
+                         const Vector &contact_force,
+                         const double  begin,
+                         const double  end)>
+      obstacle_work;
+
     /**
      * Run from @p initial_state, or from the checkpoint if the folder is to be
      * resumed, to the final time.
@@ -128,6 +137,7 @@ namespace Ricochet
       double       initial_energy        = 0.;
       double       largest_energy        = 0.;
       unsigned int n_halvings            = 0;
+      double       obstacle_work         = 0.;
 
       std::vector<double>
       to_list() const;

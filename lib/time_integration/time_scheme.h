@@ -32,8 +32,12 @@ namespace Ricochet
     /// What viscosity takes (J); never negative.
     double viscous_dissipation = 0.;
     /// Energy that the scheme takes away (J); negative if it adds some.
-    double       numerical_dissipation = 0.;
-    unsigned int newton_iterations     = 0;
+    double numerical_dissipation = 0.;
+    /// Work of moving obstacles on the body, from their resultants and motions
+    /// (J): no term of the balance, but a part of minus the contact work. The
+    /// time loop adds it.
+    double       obstacle_work     = 0.;
+    unsigned int newton_iterations = 0;
     /// Solutions of linear systems, back-substitutions included.
     unsigned int linear_solves = 0;
 

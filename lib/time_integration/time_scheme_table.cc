@@ -47,6 +47,7 @@ namespace Ricochet
     friction_work += other.friction_work;
     viscous_dissipation += other.viscous_dissipation;
     numerical_dissipation += other.numerical_dissipation;
+    obstacle_work += other.obstacle_work;
     newton_iterations += other.newton_iterations;
     linear_solves += other.linear_solves;
     return *this;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/parameter_file.h>
 #include <contact/obstacles/level_set.h>
+
+#include <cmath>
 
 namespace Ricochet
 {
@@ -76,17 +79,30 @@ namespace Ricochet
 
 
 
-  Tensor<1, 3>
-  LevelSet::gradient_by_differences(const Tensor<1, 3> &x) const
+  std::string
+  LevelSet::problem_at(const Tensor<1, 3> &x) const
   {
-    Tensor<1, 3> gradient;
+    const Tensor<1, 3> given = given_gradient(x);
+    Tensor<1, 3>       differences;
     for (unsigned int c = 0; c < dim; ++c)
-      gradient[c] = difference(
+      differences[c] = difference(
         [&](const double h) {
           return expressions.value(0, x + h * axis_vector(c));
         },
         difference_step);
-    return gradient;
+    std::string place;
+    for (unsigned int c = 0; c < dim; ++c)
+      place += (c == 0 ? "(" : ", ") + to_text(x[c]);
+    place += ")";
+    if (!std::isfinite(gap(x)))
+      return "The gap to the level set is not finite at " + place +
+        ": its gradient must not vanish.";
+    if (!((given - differences).norm() <= 1e-5 * differences.norm()))
+      return "The gradient of the level set is not that of its function: at " +
+        place + " m it has the length " + to_text(given.norm()) +
+        ", and differences of the function have " +
+        to_text(differences.norm()) + ".";
+    return "";
   }
 
 

@@ -49,16 +49,15 @@ namespace Ricochet
     discrete_normal_derivative(const dealii::Tensor<1, 3> &begin,
                                const dealii::Tensor<1, 3> &end) const override;
 
+    /// Whether the gradient is that of phi, and not zero.
+    std::string
+    problem_at(const dealii::Tensor<1, 3> &x) const override;
+
+  private:
     /// The gradient as it was given.
     dealii::Tensor<1, 3>
     given_gradient(const dealii::Tensor<1, 3> &x) const;
 
-    /// The gradient by differences of phi, to find out whether the given one is
-    /// right.
-    dealii::Tensor<1, 3>
-    gradient_by_differences(const dealii::Tensor<1, 3> &x) const;
-
-  private:
     /// Gradient of the gap.
     dealii::Tensor<1, 3>
     gap_gradient(const dealii::Tensor<1, 3> &x) const;

@@ -5,6 +5,8 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
+#include <string>
+
 namespace Ricochet
 {
   /// The projection on the plane with the unit normal @p normal.
@@ -106,6 +108,13 @@ namespace Ricochet
     axis() const
     {
       return {};
+    }
+
+    /// What is wrong with the shape at @p x, as a sentence; empty if nothing is.
+    virtual std::string
+    problem_at(const dealii::Tensor<1, 3> & /*x*/) const
+    {
+      return "";
     }
 
     /// The gap is an affine function: its gradient is the same everywhere.

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_output_obstacle_work_h
+#define ricochet_output_obstacle_work_h
+
+#include <contact/obstacles/rigid_obstacle.h>
+#include <discretization/body.h>
+
+#include <array>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * The work that moving obstacles do on a body, from the resultant of the contact
+   * force, its moment and the motion of the obstacle: a second way to a number that
+   * the energy balance knows as well, up to terms of second order in the step.
+   */
+  template <int dim>
+  class ObstacleWork
+  {
+  public:
+    /// A node between two parts of the boundary counts for the one with the
+    /// smaller id.
+    ObstacleWork(const Body<dim> &body, const Obstacles &obstacles);
+
+    /**
+     * @param old_solution displacement at the time @p begin (s).
+     * @param new_solution displacement at the time @p end (s).
+     * @param contact_force the mean of it over the step, on the side of the
+     * internal forces (N).
+     * @return J
+     */
+    double
+    operator()(const Vector &old_solution,
+               const Vector &new_solution,
+               const Vector &contact_force,
+               const double  begin,
+               const double  end) const;
+
+  private:
+    struct Node
+    {
+      std::array<dealii::types::global_dof_index, dim> index;
+      dealii::Tensor<1, 3>                             position;
+    };
+
+    const MPI_Comm communicator;
+    // In the order of the boundary ids; on each rank its own nodes.
+    std::vector<std::shared_ptr<const RigidObstacle>> obstacles;
+    std::vector<std::vector<Node>>                    nodes;
+  };
+} // namespace Ricochet
+
+#endif

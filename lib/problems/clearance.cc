@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <base/parameter_file.h>
+#include <problems/clearance.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The same on all ranks: the first text that is not empty.
+    std::string
+    first_text(const std::string &text, const MPI_Comm communicator)
+    {
+      for (const std::string &one :
+           Utilities::MPI::all_gather(communicator, text))
+        if (!one.empty())
+          return one;
+      return "";
+    }
+
+    template <int dim>
+    bool
+    is_inside(const Body<dim>                                      &body,
+              const typename DoFHandler<dim>::active_cell_iterator &cell,
+              const Tensor<1, 3>                                   &x)
+    {
+      Point<dim> point;
+      for (unsigned int c = 0; c < dim; ++c)
+        point[c] = x[c];
+      if (!cell->bounding_box().point_inside(point))
+        return false;
+      try
+        {
+          return cell->reference_cell().contains_point(
+            body.mapping().transform_real_to_unit_cell(cell, point));
+        }
+      catch (const typename Mapping<dim>::ExcTransformationFailed &)
+        {
+          return false;
+        }
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  check_clearance(const Body<dim> &body, const Obstacles &obstacles)
+  {
+    for (const auto &entry : obstacles)
+      {
+        const RigidObstacle &obstacle  = *entry.second;
+        const Placement      placement = obstacle.motion().placement(0.);
+        double               overlap   = 0.;
+        std::string          problem;
+        const Tensor<1, 3>   centre =
+          placement.push_forward(obstacle.shape().centre());
+        const bool has_inside = obstacle.gap(centre, 0.) < 0.;
+        for (const auto &cell : body.dof_handler().active_cell_iterators())
+          {
+            if (!cell->is_locally_owned())
+              continue;
+            for (const unsigned int v : cell->vertex_indices())
+              {
+                const Tensor<1, 3> x   = in_space<dim>(cell->vertex(v));
+                const double       gap = obstacle.gap(x, 0.);
+                if (problem.empty())
+                  problem = obstacle.shape().problem_at(placement.pull_back(x));
+                // A little is that of a mesh, whose vertices lie where they lie.
+                if (-gap > 1e-3 * cell->diameter())
+                  overlap = std::max(overlap, -gap);
+              }
+            if (has_inside && overlap == 0. && is_inside(body, cell, centre))
+              overlap = -obstacle.gap(centre, 0.);
+          }
+        problem = first_text(problem, body.communicator);
+        if (!problem.empty())
+          throw InputError(problem);
+        overlap = Utilities::MPI::max(overlap, body.communicator);
+        if (overlap > 0.)
+          throw InputError(
+            "At the start the body overlaps with the obstacle "
+            "of boundary " +
+            std::to_string(entry.first) + " by " + to_text(overlap) +
+            " m. Move one of them away.");
+      }
+  }
+
+
+  template void
+  check_clearance(const Body<1> &, const Obstacles &);
+  template void
+  check_clearance(const Body<2> &, const Obstacles &);
+  template void
+  check_clearance(const Body<3> &, const Obstacles &);
+} // namespace Ricochet

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// # Obstacle course
+//
+// A disk or a block falls, slides or rolls, under its weight, on a rigid obstacle
+// that may be curved and may move:
+//
+//     rho u_tt - div Pi(u) = rho g                in the body,
+//     gap >= 0, p >= 0, p gap = 0                 on its boundary, with
+//     gap = phi(x + u, t), p the contact pressure,
+//     |friction| <= mu p                          against the slip.
+//
+// phi is the distance to the surface of the obstacle. In the benchmarks of papers A
+// to C it is the height above a plane, an affine function of u; here it is not,
+// and the direction of the contact force turns while the body moves along the
+// surface. What keeps the energy is the choice of that direction: over a step from
+// x_0 to x_1 the force acts along a discrete gradient D of the distance, with
+//
+//     D . (x_1 - x_0) = phi(x_1) - phi(x_0)
+//
+// exactly, so that the work of the pressure is that of the change of the gap, as
+// on the plane. For a circle around c it is (x_0 + x_1 - 2 c) / (|x_0 - c| + |x_1 -
+// c|), which has no moment about c either: a disk in a bowl keeps its energy and,
+// without gravity, its angular momentum about the middle of the bowl. See
+// lib/contact/obstacles/ for the other shapes and for moving ones.
+//
+// The examples in parameter_files/obstacle_course/ have answers by hand:
+//
+//   block_slides, block_sticks   on an incline of tan(beta) = 1/2, with mu = 0.49
+//                                and 0.51: a = g (sin beta - mu cos beta), or 0
+//   disk_slips, disk_rolls       there with mu = 0.15 and 0.18: a disk rolls with
+//                                a = 2/3 g sin(beta) where mu > tan(beta)/3, and
+//                                slips with the block's a otherwise
+//   bowl                         a disk runs to and fro and keeps its energy
+//   rising_plate                 a ball on a plate that is lifted
+//   drum                         a body in a drum that turns and drags it along
+//
+// Run it as
+//
+//     obstacle_course parameter_files/obstacle_course/default.prm
+//     obstacle_course --print-parameters
+
+#include <base/exceptions.h>
+#include <base/program.h>
+#include <contact/obstacles/obstacle_parameters.h>
+#include <materials/material_parameters.h>
+#include <output/obstacle_work.h>
+#include <output/vtu_series.h>
+#include <problems/thrown_body.h>
+
+#include <deal.II/distributed/shared_tria.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+
+using namespace dealii;
+using namespace Ricochet;
+
+class ObstacleCourse
+{
+public:
+  ObstacleCourse();
+
+  void
+  add_parameters(ParameterHandler &prm);
+
+  void
+  validate() const;
+
+  std::vector<UnusedParameter>
+  unused_parameters() const;
+
+  void
+  run(RunFolder &folder);
+
+private:
+  void
+  make_grid(Triangulation<2> &triangulation) const;
+
+  static constexpr types::boundary_id surface = 0;
+
+  ImpactParameters      impact;
+  MaterialParameters    material;
+  ObstacleParameters<2> obstacle;
+
+  std::string  body_shape = "disk";
+  Point<2>     centre;
+  double       radius = .5, width = 1., height = .5;
+  double       angle            = 0.;
+  unsigned int n_boundary_nodes = 64;
+  Tensor<1, 2> initial_velocity;
+  double       initial_spin = 0.;
+  Tensor<1, 2> gravity;
+};
+
+
+
+// ### Data
+//
+// By default, a soft disk that falls onto another one, which is rigid.
+ObstacleCourse::ObstacleCourse()
+  : centre(.1, 1.02)
+  , gravity({0., -9.81})
+{
+  material.law           = "neo-Hookean";
+  material.plane_state   = "plane strain";
+  material.density       = 1000.;
+  material.young_modulus = 1e6;
+  material.poisson_ratio = .3;
+
+  obstacle.shape  = "circle";
+  obstacle.radius = .5;
+
+  impact.time.final_time   = .5;
+  impact.time.time_step    = 2e-3;
+  impact.time.fields_every = 5;
+  impact.scheme.name       = "midpoint";
+
+  impact.contact.treatment              = "persistent contact";
+  impact.contact.compliance_coefficient = 1e8;
+  impact.contact.tangential_compliance  = 1e5;
+  impact.contact.augmentation           = 1e6;
+  impact.contact.nitsche_gamma_0        = 2e7;
+  impact.contact.penalty_epsilon_0      = 1e-7;
+}
+
+
+
+void
+ObstacleCourse::add_parameters(ParameterHandler &prm)
+{
+  impact.add_parameters(prm);
+  material.add_parameters(prm);
+  obstacle.add_parameters(prm);
+
+  prm.enter_subsection("Body");
+  prm.add_parameter("Shape",
+                    body_shape,
+                    "Shape of the body.",
+                    Patterns::Selection("disk|block"));
+  prm.add_parameter("Centre", centre, "Where its middle is at the start (m).");
+  prm.add_parameter("Radius",
+                    radius,
+                    "Radius of the disk (m).",
+                    Patterns::Double(1e-30));
+  prm.add_parameter("Width",
+                    width,
+                    "Width of the block (m).",
+                    Patterns::Double(1e-30));
+  prm.add_parameter("Height",
+                    height,
+                    "Height of the block (m).",
+                    Patterns::Double(1e-30));
+  prm.add_parameter("Angle",
+                    angle,
+                    "Angle (rad) by which the body is turned at the start, "
+                    "against the clock.");
+  prm.add_parameter("Boundary nodes",
+                    n_boundary_nodes,
+                    "Number of nodes on the boundary: for a disk 8, 16, 32, "
+                    "...; for a block the cells become squares as far as "
+                    "possible.",
+                    Patterns::Integer(8, 100000));
+  prm.leave_subsection();
+
+  prm.enter_subsection("Start");
+  prm.add_parameter("Initial velocity",
+                    initial_velocity,
+                    "Velocity of the middle at the start (m/s).");
+  prm.add_parameter("Initial spin",
+                    initial_spin,
+                    "Angular velocity about the middle at the start (rad/s), "
+                    "against the clock.");
+  prm.add_parameter("Gravity", gravity, "Acceleration of gravity (m/s^2).");
+  prm.leave_subsection();
+}
+
+
+
+void
+ObstacleCourse::validate() const
+{
+  material.validate(2, impact.scheme.name);
+  impact.validate(material.law == "linear elastic",
+                  material.viscosity != "none" && material.viscosity_eta > 0.);
+  const auto rigid = obstacle.make(impact.time.final_time);
+  if (impact.scheme.name == "ARKODE" && !rigid->motion().is_at_rest())
+    throw InputError(
+      "The time scheme ARKODE cannot be combined with an obstacle that moves: "
+      "it reads the work of contact off a potential.\nAllowed: Crank-Nicolson, "
+      "HHT, TR-BDF2, midpoint.");
+  impact.check_size(2. * n_boundary_nodes * n_boundary_nodes / 8., 2);
+  Triangulation<2> triangulation;
+  make_grid(triangulation);
+}
+
+
+
+std::vector<UnusedParameter>
+ObstacleCourse::unused_parameters() const
+{
+  std::vector<UnusedParameter> unused = impact.unused_parameters();
+  for (const auto &own :
+       {material.unused_parameters(), obstacle.unused_parameters()})
+    unused.insert(unused.end(), own.begin(), own.end());
+  const auto need = [&](const std::string &shape, const std::string &name) {
+    if (body_shape != shape)
+      unused.push_back(
+        {"Body/" + name, shape + "; Body/Shape is " + body_shape});
+  };
+  need("disk", "Radius");
+  need("block", "Width");
+  need("block", "Height");
+  return unused;
+}
+
+
+
+// ### Mesh
+void
+ObstacleCourse::make_grid(Triangulation<2> &triangulation) const
+{
+  if (body_shape == "disk")
+    make_disk_of_quadrilaterals(Point<2>(),
+                                radius,
+                                n_boundary_nodes,
+                                triangulation);
+  else
+    {
+      // Squares, or nearly so, and the number of nodes on the boundary.
+      const double       size    = 2. * (width + height) / n_boundary_nodes;
+      const unsigned int n_up    = std::max(1., std::round(height / size));
+      const unsigned int n_along = std::max(1., n_boundary_nodes / 2. - n_up);
+      GridGenerator::subdivided_hyper_rectangle(
+        triangulation,
+        {n_along, n_up},
+        Point<2>(-.5 * width, -.5 * height),
+        Point<2>(.5 * width, .5 * height));
+    }
+  GridTools::rotate(angle, triangulation);
+  GridTools::shift(centre, triangulation);
+}
+
+
+
+// ### The run
+void
+ObstacleCourse::run(RunFolder &folder)
+{
+  parallel::shared::Triangulation<2> triangulation(folder.communicator);
+  make_grid(triangulation);
+
+  // The weight is a constant load: the mass matrix times the acceleration of
+  // gravity. It is there as soon as the mass matrix is, before anything asks for
+  // it.
+  const Material<2> elastic = material.make<2>();
+  Ricochet::Vector  weight;
+  Impact<2>         course(
+    impact,
+    triangulation,
+    /* degree */ 1,
+    elastic,
+    material.density,
+    /* clamped */ {},
+    {{surface, obstacle.make(impact.time.final_time)}},
+    [&](const double /*time*/, Ricochet::Vector &load) { load = weight; },
+    folder.communicator);
+  weight.reinit(course.body.owned_indices(), folder.communicator);
+  course.consistent_mass.vmult(weight, course.uniform(gravity));
+  folder.log(std::to_string(triangulation.n_global_active_cells()) +
+             " cells, " + std::to_string(course.body.owned_indices().size()) +
+             " unknowns, " + material.law + ", " + impact.contact.treatment +
+             ", " + impact.scheme.name + ", obstacle: " + obstacle.shape);
+
+  // The body moves as a rigid one: velocity of the middle, and spin about it.
+  const State initial_state =
+    course.state_in_motion(FunctionFromFunctionObjects<2>(
+      {[&](const Point<2> &x) {
+         return initial_velocity[0] - initial_spin * (x[1] - centre[1]);
+       },
+       [&](const Point<2> &x) {
+         return initial_velocity[1] + initial_spin * (x[0] - centre[0]);
+       }}));
+
+  // The time loop writes energies and contact; momenta tell the rest: the motion
+  // of the middle, and the spin.
+  TimeLoop         loop(impact.time,
+                folder,
+                course.system,
+                *course.scheme,
+                {{surface, "obstacle"}});
+  const Momenta<2> momenta(course.body,
+                           course.system.mass_matrix(),
+                           /* small strains */ elastic.linear.has_value());
+  add_momentum_columns(momenta, course.body, loop);
+  const double mass = momenta.linear(course.uniform(Tensor<1, 2>({1., 0.})))[0];
+  loop.add_column("centre_displacement_x", "m", [&](const State &state) {
+    return momenta.linear(state.solution)[0] / mass;
+  });
+
+  const ObstacleWork<2> obstacle_work(course.body, course.obstacles);
+  loop.obstacle_work = obstacle_work;
+
+  VtuSeries<2> fields(course.body,
+                      elastic,
+                      *course.contact,
+                      course.obstacles,
+                      folder);
+  loop.write_fields = [&](const State &state, const unsigned int step) {
+    fields.write(state, step);
+  };
+
+  loop.run(initial_state);
+}
+
+
+
+int
+main(int argc, char **argv)
+{
+  ObstacleCourse program;
+  return run_program(
+    argc,
+    argv,
+    {"obstacle_course",
+     "A disk or a block on a rigid obstacle that may be curved "
+     "and may move.",
+     [&](ParameterHandler &prm) { program.add_parameters(prm); },
+     [&]() { program.validate(); },
+     [&](RunFolder &folder) { program.run(folder); },
+     [&]() { return program.unused_parameters(); }});
+}
