@@ -371,7 +371,19 @@ namespace Ricochet
   std::string
   ActiveSetContact::active_set_description() const
   {
-    return count_active(statuses(), evaluator.communicator);
+    std::string text = count_active(statuses(), evaluator.communicator);
+    if (friction_coefficient > 0.)
+      text += ", " +
+        std::to_string(dealii::Utilities::MPI::sum(
+          static_cast<unsigned int>(std::count_if(nodes.begin(),
+                                                  nodes.end(),
+                                                  [](const Node &node) {
+                                                    return node.status ==
+                                                      Status::stick;
+                                                  })),
+          evaluator.communicator)) +
+        " stick";
+    return text;
   }
 
 

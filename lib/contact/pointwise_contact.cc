@@ -568,7 +568,18 @@ namespace Ricochet
   std::string
   PointwiseContact::active_set_description() const
   {
-    return count_active(branches(), evaluator.communicator);
+    std::string text = count_active(branches(), evaluator.communicator);
+    if (friction.coefficient > 0.)
+      {
+        unsigned int n_sticking = 0;
+        for (unsigned int p = 0; p < friction_branch.size(); ++p)
+          n_sticking += friction_branch[p].sticks && friction_pressure(p) > 0.;
+        text += ", " +
+          std::to_string(dealii::Utilities::MPI::sum(n_sticking,
+                                                     evaluator.communicator)) +
+          " stick";
+      }
+    return text;
   }
 
 

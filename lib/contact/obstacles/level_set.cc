@@ -122,15 +122,23 @@ namespace Ricochet
 
 
 
+  bool
+  LevelSet::needs_correction(const Tensor<1, 3> &step) const
+  {
+    return step.norm() > 1e-3 * difference_step;
+  }
+
+
+
   Tensor<1, 3>
   LevelSet::discrete_normal(const Tensor<1, 3> &begin,
                             const Tensor<1, 3> &end) const
   {
     const Tensor<1, 3> step   = end - begin;
     Tensor<1, 3>       result = gap_gradient(.5 * (begin + end));
-    const double       square = step.norm_square();
-    if (square > 0.)
-      result += (gap(end) - gap(begin) - result * step) / square * step;
+    if (needs_correction(step))
+      result +=
+        (gap(end) - gap(begin) - result * step) / step.norm_square() * step;
     return result;
   }
 
@@ -159,8 +167,7 @@ namespace Ricochet
   {
     const Tensor<1, 3> step = end - begin, middle = .5 * (begin + end);
     const Tensor<2, 3> hessian = gap_hessian(middle);
-    // What the correction adds falls with the step, and its round-off grows.
-    if (step.norm() < 1e-3 * difference_step)
+    if (!needs_correction(step))
       return .5 * hessian;
     const Tensor<1, 3> gradient = gap_gradient(middle);
     const double       square   = step.norm_square();

@@ -62,6 +62,13 @@ namespace Ricochet
     dealii::Tensor<1, 3>
     gap_gradient(const dealii::Tensor<1, 3> &x) const;
 
+    /// Whether the gradient in the middle of a @p step has to be corrected. What it
+    /// is wrong by falls with the cube of the step and is soon less than round-off,
+    /// which the correction divides by the step: a point that sticks would be
+    /// pushed about.
+    bool
+    needs_correction(const dealii::Tensor<1, 3> &step) const;
+
     /// Second derivatives of the gap.
     dealii::Tensor<2, 3>
     gap_hessian(const dealii::Tensor<1, 3> &x) const;
