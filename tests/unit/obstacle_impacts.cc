@@ -292,6 +292,28 @@ BOOST_AUTO_TEST_CASE(instants_see_the_obstacle_where_it_is)
     }
 }
 
+// Persistent contact looks where body and obstacle would be in the middle of the
+// step: with 2 m/s and 4 m/s towards each other over 10 ms they come nearer by
+// 30 mm there, so that a gap of 29 mm closes and one of 31 mm does not. (An obstacle
+// that was looked at at the beginning of the step would be missed at 29 mm.)
+BOOST_AUTO_TEST_CASE(predictors_look_half_a_step_ahead)
+{
+  const RigidMotion closer({"0", "0", "4*t"},
+                           "0",
+                           {},
+                           Tensor<1, 3>({0., 0., 1.}));
+  for (const double gap : {.029, .031})
+    {
+      Throw cube(std::make_shared<HalfSpace>(Tensor<1, 3>({0., 0., -gap}),
+                                             Tensor<1, 3>({0., 0., 1.})),
+                 "persistent contact",
+                 0.,
+                 closer);
+      cube.step(.01);
+      BOOST_CHECK_EQUAL(cube.touched, gap < .03);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(newton_converges_quadratically)
 {
   for (const std::string treatment :
