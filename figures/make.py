@@ -39,6 +39,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402
 
+import obstacles  # noqa: E402
 import paper_ab_ball  # noqa: E402
 import paper_ab_ring  # noqa: E402
 import paper_c_bars  # noqa: E402
@@ -48,7 +49,14 @@ import report  # noqa: E402
 import runs  # noqa: E402
 
 # To add figures: write a file like these two, and name it here.
-GROUPS = (paper_ab_ball, paper_ab_ring, paper_c_spectral, paper_c_bars, paper_c_sphere)
+GROUPS = (
+    paper_ab_ball,
+    paper_ab_ring,
+    paper_c_spectral,
+    paper_c_bars,
+    paper_c_sphere,
+    obstacles,
+)
 
 FIGURES = {figure.name: figure for group in GROUPS for figure in group.FIGURES}
 

@@ -43,13 +43,13 @@ def info(quantity, ours, paper="-", exact="-", remark=""):
 
 @dataclass
 class Figure:
-    """A figure of a paper.
+    """A figure of a paper, or one of our own.
 
     `draw()` returns a matplotlib figure, `checks()` a list of rows. Both read
     the results of `runs`, which are there when they are called.
     """
 
-    name: str  # paper and number, such as C-6
+    name: str  # paper and number, such as C-6; O for the obstacle course
     title: str
     caption: str
     runs: list

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Reads the VTU files of the programs: triangles with fields at their vertices.
 
-Each cell has vertices of its own in such a file; `read` joins those that are in
-the same place, so that a sum over nodes counts each of them once.
+Of a quadrilateral two triangles are made. Each cell has vertices of its own in such a
+file; `read` joins those that are in the same place, so that a sum over nodes counts each
+of them once.
 """
 
 import base64
@@ -44,8 +45,11 @@ def read(path):
             values = values.reshape(-1, int(attribute["NumberOfComponents"]))
         arrays[attribute.get("Name", "vertices")] = values
     points = arrays.pop("vertices")[:, :2].astype(float)
-    cells = arrays.pop("connectivity").reshape(-1, 3)
-    del arrays["offsets"], arrays["types"]
+    connectivity, offsets = arrays.pop("connectivity"), arrays.pop("offsets")
+    cells = connectivity.reshape(len(offsets), -1)
+    if cells.shape[1] == 4:
+        cells = np.concatenate((cells[:, (0, 1, 2)], cells[:, (0, 2, 3)]))
+    del arrays["types"]
 
     # Points in the same place have bitwise the same coordinates, but for the
     # last digit of some: a millionth of the largest coordinate joins them.

@@ -42,6 +42,14 @@ namespace Ricochet
         : LinearElastic{2. * lambda * mu / (lambda + 2. * mu), mu};
     }
 
+    /// The law as a function: stress().
+    template <int dim>
+    dealii::SymmetricTensor<2, dim>
+    operator()(const dealii::SymmetricTensor<2, dim> &strain) const
+    {
+      return stress(strain);
+    }
+
     /// Cauchy stress (Pa) for the small @p strain.
     template <int dim, typename Number>
     dealii::SymmetricTensor<2, dim, Number>

@@ -2,7 +2,7 @@
 #ifndef ricochet_output_energy_ledger_h
 #define ricochet_output_energy_ledger_h
 
-#include <base/program.h>
+#include <base/run_folder.h>
 
 #include <cstdint>
 #include <string>

@@ -2,7 +2,7 @@
 #ifndef ricochet_output_vtu_series_h
 #define ricochet_output_vtu_series_h
 
-#include <base/program.h>
+#include <base/run_folder.h>
 #include <discretization/body.h>
 #include <materials/material.h>
 #include <time_integration/semi_discrete_system.h>

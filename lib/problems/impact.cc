@@ -47,6 +47,31 @@ namespace Ricochet
       return triangulation;
     }
 
+    /// A field that is @p value everywhere, zero in multipliers.
+    template <int dim>
+    Vector
+    uniform_field(const Body<dim> &body, const Tensor<1, dim> &value)
+    {
+      Vector vector;
+      body.interpolate(Functions::ConstantFunction<dim>(
+                         std::vector<double>(value.begin_raw(),
+                                             value.end_raw())),
+                       vector);
+      return vector;
+    }
+
+    template <int dim>
+    Vector
+    weight_of(const Body<dim>      &body,
+              const Matrix         &mass,
+              const Tensor<1, dim> &gravity)
+    {
+      Vector weight = body.make_vector();
+      if (gravity != Tensor<1, dim>())
+        mass.vmult(weight, uniform_field(body, gravity));
+      return weight;
+    }
+
     template <int dim>
     std::unique_ptr<BulkOperator>
     make_bulk(const Body<dim> &body, const Material<dim> &material)
@@ -63,37 +88,35 @@ namespace Ricochet
 
 
   template <int dim>
-  Impact<dim>::Impact(const ImpactParameters                &parameters,
-                      const Triangulation<dim>              &triangulation,
-                      const unsigned int                     degree,
-                      const Material<dim>                   &material,
-                      const double                           density,
-                      const typename Body<dim>::BoundaryIds &clamped,
-                      const Obstacles                       &obstacles,
-                      const SemiDiscreteSystem::Load        &load,
-                      const MPI_Comm                         communicator)
+  Impact<dim>::Impact(const ImpactParameters   &parameters,
+                      const Triangulation<dim> &triangulation,
+                      const ImpactSetup<dim>   &setup,
+                      const MPI_Comm            communicator)
     : body(with_boundaries(with_boundaries(triangulation,
-                                           boundary_ids<dim>(obstacles),
+                                           boundary_ids<dim>(setup.obstacles),
                                            communicator),
-                           clamped,
+                           setup.clamped,
                            communicator),
-           degree,
-           clamped,
-           boundary_ids<dim>(obstacles),
+           setup.degree,
+           setup.clamped,
+           boundary_ids<dim>(setup.obstacles),
            multiplier_space(parameters.contact),
            communicator)
-    , bulk(make_bulk(body, material))
-    , consistent_mass(assemble_mass_matrix(body, density))
+    , bulk(make_bulk(body, setup.material))
+    , consistent_mass(assemble_mass_matrix(body, setup.density))
     , redistributed_mass(
         parameters.redistributed_mass()
           ? std::make_unique<Matrix>(redistribute_mass(body, consistent_mass))
           : nullptr)
-    , obstacles(obstacles)
+    , obstacles(setup.obstacles)
     , contact(make_contact(parameters.contact,
-                           parameters.scheme.name,
+                           scheme_traits(parameters.scheme.name),
                            body,
-                           material.linear,
+                           setup.material.linear
+                             ? LinearStress<dim>(*setup.material.linear)
+                             : LinearStress<dim>(),
                            obstacles))
+    , weight(weight_of(body, consistent_mass, setup.gravity))
     , system(redistributed_mass ? *redistributed_mass : consistent_mass,
              consistent_mass,
              *bulk,
@@ -107,22 +130,30 @@ namespace Ricochet
               &body.sparsity_pattern(),
               [this]() { return body.canonical_positions(); },
               [this]() { return body.coarse_space(); }},
-             load,
+             setup.gravity == Tensor<1, dim>()
+               ? setup.load
+               : [this, load = setup.load](const double time, Vector &result) {
+                   if (load)
+                     load(time, result);
+                   result += weight;
+                 },
              parameters.newton,
              parameters.linear_solver)
     , scheme(make_time_scheme(parameters.scheme))
-  {}
+  {
+    if (contact->has_moving_obstacles() &&
+        scheme_traits(parameters.scheme.name).needs_potential)
+      throw InputError("The time scheme " + parameters.scheme.name +
+                       " cannot be combined with an obstacle that moves: it "
+                       "reads the work of contact off a potential.");
+  }
 
 
   template <int dim>
   Vector
   Impact<dim>::uniform(const Tensor<1, dim> &value) const
   {
-    Vector vector;
-    body.interpolate(Functions::ConstantFunction<dim>(
-                       std::vector<double>(value.begin_raw(), value.end_raw())),
-                     vector);
-    return vector;
+    return uniform_field(body, value);
   }
 
 

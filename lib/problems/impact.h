@@ -11,30 +11,39 @@
 
 namespace Ricochet
 {
+  /// What is to hit what.
+  template <int dim>
+  struct ImpactSetup
+  {
+    Material<dim> material;
+    /// kg/m^dim
+    double density = 1.;
+    /// Polynomial degree of the displacement.
+    unsigned int degree = 1;
+    /// Boundary ids with zero displacement.
+    typename Body<dim>::BoundaryIds clamped = {};
+    /// The obstacle of each contact boundary.
+    Obstacles obstacles = {};
+    /// Acceleration of gravity (m/s^2).
+    dealii::Tensor<1, dim> gravity = {};
+    /// Other loads; empty for none.
+    SemiDiscreteSystem::Load load = {};
+  };
+
   /**
-   * A body, its contact with an obstacle and its equation of motion, put
-   * together once the mesh is there: what every benchmark does in its setup.
+   * A body, its contact with obstacles and its equation of motion, put together
+   * once the mesh is there: what every benchmark does in its setup.
    */
   template <int dim>
   struct Impact
   {
-    /**
-     * @param density kg/m^dim
-     * @param clamped boundary ids with zero displacement.
-     * @param obstacles the obstacle of each contact boundary.
-     * @param load external load, empty for none.
-     * @throws InputError when the mesh has no boundary for an obstacle, and what
-     * redistribute_mass() and make_contact() throw.
-     */
-    Impact(const ImpactParameters                &parameters,
-           const dealii::Triangulation<dim>      &triangulation,
-           const unsigned int                     degree,
-           const Material<dim>                   &material,
-           const double                           density,
-           const typename Body<dim>::BoundaryIds &clamped,
-           const Obstacles                       &obstacles,
-           const SemiDiscreteSystem::Load        &load,
-           const MPI_Comm                         communicator);
+    /// @throws InputError when the mesh has no boundary for an obstacle, when a
+    /// moving one does not go with the time scheme, and what redistribute_mass()
+    /// and make_contact() throw.
+    Impact(const ImpactParameters           &parameters,
+           const dealii::Triangulation<dim> &triangulation,
+           const ImpactSetup<dim>           &setup,
+           const MPI_Comm                    communicator);
 
     const Body<dim>                     body;
     const std::unique_ptr<BulkOperator> bulk;
@@ -43,8 +52,10 @@ namespace Ricochet
     const std::unique_ptr<const Matrix>    redistributed_mass;
     const Obstacles                        obstacles;
     const std::unique_ptr<ContactOperator> contact;
-    SemiDiscreteSystem                     system;
-    const std::unique_ptr<TimeScheme>      scheme;
+    /// The weight of the body (N).
+    const Vector                      weight;
+    SemiDiscreteSystem                system;
+    const std::unique_ptr<TimeScheme> scheme;
 
     /// A field that is @p value everywhere, zero in multipliers.
     Vector

@@ -34,7 +34,7 @@ namespace Ricochet
                              const bool viscous) const
   {
     check_combination(contact,
-                      scheme.name,
+                      scheme_traits(scheme.name),
                       redistributed_mass(),
                       linear_material,
                       viscous);

@@ -2,7 +2,7 @@
 #ifndef ricochet_problems_impact_parameters_h
 #define ricochet_problems_impact_parameters_h
 
-#include <contact/contact_treatment.h>
+#include <contact/treatments/contact_treatment.h>
 #include <solvers/linear_solver.h>
 #include <solvers/newton.h>
 #include <problems/size_limit.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <output/vtu_series.h>
 #include <problems/thrown_body.h>
 
 #include <deal.II/base/function.h>
@@ -87,5 +88,55 @@ namespace Ricochet
                     [&momenta, total_mass](const State &state) {
                       return momenta.linear(state.solution)[1] / total_mass;
                     });
+  }
+
+
+
+  void
+  throw_body(const ThrownBodyParameters &parameters,
+             const Triangulation<2>     &triangulation,
+             const types::boundary_id    outer_boundary,
+             RunFolder                  &folder)
+  {
+    const ImpactParameters &impact = parameters.impact;
+
+    // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
+    const Material<2> material = parameters.material.make<2>();
+    ImpactSetup<2>    setup{material};
+    setup.density   = parameters.material.density;
+    setup.degree    = parameters.degree;
+    setup.obstacles = foundation_below<2>(outer_boundary);
+    Impact<2> thrown(impact, triangulation, setup, folder.communicator);
+    folder.log(std::to_string(triangulation.n_global_active_cells()) +
+               " cells, " + std::to_string(thrown.body.owned_indices().size()) +
+               " unknowns, " + parameters.material.law + ", " +
+               impact.contact.treatment + ", " + impact.scheme.name + ", " +
+               impact.mass + " mass");
+
+    // The body flies, undeformed.
+    const State initial_state =
+      thrown.state_in_flight(parameters.initial_velocity);
+
+    // The time loop writes energies and contact; momenta are added.
+    TimeLoop         loop(impact.time,
+                  folder,
+                  thrown.system,
+                  *thrown.scheme,
+                  {{outer_boundary, "foundation"}});
+    const Momenta<2> momenta(thrown.body,
+                             thrown.system.mass_matrix(),
+                             /* small strains */ material.linear.has_value());
+    add_momentum_columns(momenta, thrown.body, loop);
+
+    VtuSeries<2> fields(thrown.body,
+                        material,
+                        *thrown.contact,
+                        thrown.obstacles,
+                        folder);
+    loop.write_fields = [&](const State &state, const unsigned int step) {
+      fields.write(state, step);
+    };
+
+    loop.run(initial_state);
   }
 } // namespace Ricochet

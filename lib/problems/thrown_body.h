@@ -56,6 +56,18 @@ namespace Ricochet
   add_momentum_columns(const Momenta<2> &momenta,
                        const Body<2>    &body,
                        TimeLoop         &loop);
+
+  /**
+   * Throw the undeformed body of @p triangulation at the foundation, from the set-up
+   * to the last step.
+   *
+   * @param outer_boundary the boundary id that can touch the foundation.
+   */
+  void
+  throw_body(const ThrownBodyParameters      &parameters,
+             const dealii::Triangulation<2>  &triangulation,
+             const dealii::types::boundary_id outer_boundary,
+             RunFolder                       &folder);
 } // namespace Ricochet
 
 #endif

@@ -266,8 +266,17 @@ namespace Ricochet
   void
   TimeLoop::log_row(const unsigned int step,
                     const unsigned int n_steps,
-                    const std::string &remaining) const
+                    const unsigned int first_step,
+                    const double       seconds) const
   {
+    // Only of a run that lasts: nobody waits for a short one, and logs of those
+    // can be compared.
+    char remaining[40] = "";
+    if (parameters.timing && seconds > 10. && step < n_steps)
+      std::snprintf(remaining,
+                    sizeof(remaining),
+                    "   %.0f s left",
+                    seconds * (n_steps - step) / (step - first_step));
     const std::vector<double> &row   = ledger.rows().back();
     const auto                 value = [&](const std::string &name) {
       return row[ledger.column_number(name)];
@@ -297,7 +306,7 @@ namespace Ricochet
                   force,
                   active,
                   value("newton_iterations"),
-                  remaining.c_str());
+                  remaining);
     folder.log(line);
   }
 
@@ -344,24 +353,17 @@ namespace Ricochet
 
 
 
-  State
-  TimeLoop::run(const State &initial_state)
+  unsigned int
+  TimeLoop::begin(State &state, const unsigned int n_steps)
   {
-    const double       first_time = initial_state.time;
-    const unsigned int n_steps    = static_cast<unsigned int>(std::ceil(
-      (parameters.final_time - first_time) / parameters.time_step - 1e-9));
-
-    State        state  = initial_state;
-    unsigned int step   = 0;
-    const bool   fields = write_fields && parameters.fields_every > 0;
     if (folder.resume)
       {
         positions = system.unknowns.canonical_positions();
         const Checkpoint checkpoint =
-          Checkpoint::read(folder, initial_state.solution, *positions);
-        state = checkpoint.state;
-        step  = checkpoint.step;
-        sums  = Sums::from_list(checkpoint.sums);
+          Checkpoint::read(folder, state.solution, *positions);
+        state                   = checkpoint.state;
+        sums                    = Sums::from_list(checkpoint.sums);
+        const unsigned int step = checkpoint.step;
         if (step > n_steps)
           throw InputError(
             "The run cannot be resumed: its checkpoint is at t "
@@ -373,39 +375,134 @@ namespace Ricochet
         folder.log("resumed after step " + std::to_string(step) +
                    ", t = " + to_text(state.time) + " s");
         // Those of this step may be missing, if the run was killed.
-        if (fields && step % parameters.fields_every == 0)
-          write_fields(state, step);
+        write_fields_if_due(state, step);
+        return step;
       }
-    else
-      {
-        ledger.start();
-        const Energies energies = energies_of(state);
-        sums.initial_energy     = energies.total();
-        add_row(state, energies, StepReport(), 0.);
-        if (fields)
-          write_fields(state, 0);
-      }
+    ledger.start();
+    const Energies energies = energies_of(state);
+    sums.initial_energy     = energies.total();
+    add_row(state, energies, StepReport(), 0.);
+    write_fields_if_due(state, 0);
+    return 0;
+  }
 
+
+
+  void
+  TimeLoop::write_fields_if_due(const State &state, const unsigned int step)
+  {
+    if (write_fields && parameters.fields_every > 0 &&
+        step % parameters.fields_every == 0)
+      write_fields(state, step);
+  }
+
+
+
+  void
+  TimeLoop::log_newton_tables()
+  {
+    system.newton_observer =
+      [this](const std::vector<NewtonSolver::Iteration> &history) {
+        for (unsigned int k = 0; k < history.size(); ++k)
+          {
+            char line[120];
+            std::snprintf(line,
+                          sizeof(line),
+                          "      Newton %3u   residual %10.3e   step %6.4f   "
+                          "active %s",
+                          k,
+                          history[k].relative_residual,
+                          history[k].step_length,
+                          history[k].active_set.c_str());
+            folder.log(line);
+          }
+      };
+  }
+
+
+
+  void
+  TimeLoop::account(const State      &new_state,
+                    const StepReport &report,
+                    double           &energy)
+  {
+    sums.external_work += report.external_work;
+    sums.contact_work += report.contact_work;
+    sums.friction_work += report.friction_work;
+    sums.viscous_dissipation += report.viscous_dissipation;
+    sums.numerical_dissipation += report.numerical_dissipation;
+    sums.obstacle_work += report.obstacle_work;
+    const double   old_energy = energy;
+    const Energies energies   = energies_of(new_state);
+    energy                    = energies.total();
+    const double residual     = energy - old_energy - report.external_work +
+      report.contact_work + report.friction_work + report.viscous_dissipation +
+      report.numerical_dissipation;
+    // Relative to the initial energy; a body that starts at rest is measured by
+    // the largest energy so far.
+    if (sums.initial_energy == 0.)
+      sums.largest_energy = std::max(sums.largest_energy, energy);
+    const double scale =
+      sums.initial_energy > 0. ? sums.initial_energy : sums.largest_energy;
+    add_row(new_state,
+            energies,
+            report,
+            scale > 0. ? residual / scale : residual);
+  }
+
+
+
+  void
+  TimeLoop::conclude(TimerOutput &timer, std::ostringstream &timing_table) const
+  {
+    const unsigned int column = ledger.column_number("balance_residual");
+    double             worst  = 0.;
+    for (const auto &row : ledger.rows())
+      worst = std::max(worst, std::abs(row[column]));
+    folder.log(
+      "largest balance residual: " + to_text(worst) +
+      (worst < 1e-9 ? " (closed)" : " - THE ENERGY BALANCE DOES NOT CLOSE"));
+    if (!parameters.timing)
+      return;
+    timer.print_summary();
+    folder.log(timing_table.str());
+    const SemiDiscreteSystem::Shares shares = system.shares();
+    char                             line[160];
+    std::snprintf(line,
+                  sizeof(line),
+                  "of the steps: residuals %.3g s, tangents %.3g s, %u "
+                  "factorisations %.3g s, back-substitutions %.3g s",
+                  shares.residual,
+                  shares.tangent,
+                  system.n_factorisations(),
+                  shares.factorisation,
+                  shares.back_substitution);
+    folder.log(line);
+    folder.log("linear solver: " + system.linear_solver_description());
+    Utilities::System::MemoryStats memory;
+    Utilities::System::get_memory_stats(memory);
+    const std::uint64_t all_ranks =
+      Utilities::MPI::sum(static_cast<std::uint64_t>(memory.VmHWM),
+                          folder.communicator);
+    folder.log("memory at most: " + std::to_string(all_ranks / 1024) + " MB");
+  }
+
+
+
+  State
+  TimeLoop::run(const State &initial_state)
+  {
+    const double       first_time = initial_state.time;
+    const unsigned int n_steps    = static_cast<unsigned int>(std::ceil(
+      (parameters.final_time - first_time) / parameters.time_step - 1e-9));
+
+    State        state = initial_state;
+    unsigned int step  = begin(state, n_steps);
     folder.log(
       "    step/of              time         energy       modified "
       "   balance        force  active  Newton");
     if (parameters.newton_table)
-      system.newton_observer =
-        [this](const std::vector<NewtonSolver::Iteration> &history) {
-          for (unsigned int k = 0; k < history.size(); ++k)
-            {
-              char line[120];
-              std::snprintf(line,
-                            sizeof(line),
-                            "      Newton %3u   residual %10.3e   step %6.4f   "
-                            "active %s",
-                            k,
-                            history[k].relative_residual,
-                            history[k].step_length,
-                            history[k].active_set.c_str());
-              folder.log(line);
-            }
-        };
+      log_newton_tables();
 
     std::ostringstream timing_table;
     TimerOutput        timer(timing_table,
@@ -429,28 +526,7 @@ namespace Ricochet
             new_state.time = first_time + (step + 1) * parameters.time_step;
 
             timer.enter_subsection("energy ledger");
-            sums.external_work += report.external_work;
-            sums.contact_work += report.contact_work;
-            sums.friction_work += report.friction_work;
-            sums.viscous_dissipation += report.viscous_dissipation;
-            sums.numerical_dissipation += report.numerical_dissipation;
-            sums.obstacle_work += report.obstacle_work;
-            const double   old_energy = energy;
-            const Energies energies   = energies_of(new_state);
-            energy                    = energies.total();
-            const double residual = energy - old_energy - report.external_work +
-              report.contact_work + report.friction_work +
-              report.viscous_dissipation + report.numerical_dissipation;
-            // Relative to the initial energy; a body that starts at rest is
-            // measured by the largest energy so far.
-            if (sums.initial_energy == 0.)
-              sums.largest_energy = std::max(sums.largest_energy, energy);
-            const double scale = sums.initial_energy > 0. ? sums.initial_energy
-                                                          : sums.largest_energy;
-            add_row(new_state,
-                    energies,
-                    report,
-                    scale > 0. ? residual / scale : residual);
+            account(new_state, report, energy);
             // Only now is the step complete.
             std::swap(state, new_state);
             ++step;
@@ -458,22 +534,9 @@ namespace Ricochet
             timer.leave_subsection();
 
             if (parameters.log_every > 0 && step % parameters.log_every == 0)
-              {
-                // Only of a run that lasts: nobody waits for a short one, and
-                // logs of those can be compared.
-                char         remaining[40] = "";
-                const double seconds       = stopwatch.wall_time();
-                if (parameters.timing && seconds > 10. && step < n_steps)
-                  std::snprintf(remaining,
-                                sizeof(remaining),
-                                "   %.0f s left",
-                                seconds * (n_steps - step) /
-                                  (step - first_step));
-                log_row(step, n_steps, remaining);
-              }
+              log_row(step, n_steps, first_step, stopwatch.wall_time());
             const TimerOutput::Scope scope(timer, "fields and checkpoints");
-            if (fields && step % parameters.fields_every == 0)
-              write_fields(state, step);
+            write_fields_if_due(state, step);
             if (parameters.checkpoint_every > 0 &&
                 (step % parameters.checkpoint_every == 0 || step == n_steps))
               save(state, step, complete_sums);
@@ -495,39 +558,7 @@ namespace Ricochet
         throw;
       }
     ledger.write_hdf5();
-
-    const unsigned int column = ledger.column_number("balance_residual");
-    double             worst  = 0.;
-    for (const auto &row : ledger.rows())
-      worst = std::max(worst, std::abs(row[column]));
-    folder.log(
-      "largest balance residual: " + to_text(worst) +
-      (worst < 1e-9 ? " (closed)" : " - THE ENERGY BALANCE DOES NOT CLOSE"));
-    if (parameters.timing)
-      {
-        timer.print_summary();
-        folder.log(timing_table.str());
-        const SemiDiscreteSystem::Shares shares = system.shares();
-        char                             line[160];
-        std::snprintf(line,
-                      sizeof(line),
-                      "of the steps: residuals %.3g s, tangents %.3g s, %u "
-                      "factorisations %.3g s, back-substitutions %.3g s",
-                      shares.residual,
-                      shares.tangent,
-                      system.n_factorisations(),
-                      shares.factorisation,
-                      shares.back_substitution);
-        folder.log(line);
-        folder.log("linear solver: " + system.linear_solver_description());
-        Utilities::System::MemoryStats memory;
-        Utilities::System::get_memory_stats(memory);
-        const std::uint64_t all_ranks =
-          Utilities::MPI::sum(static_cast<std::uint64_t>(memory.VmHWM),
-                              folder.communicator);
-        folder.log("memory at most: " + std::to_string(all_ranks / 1024) +
-                   " MB");
-      }
+    conclude(timer, timing_table);
     return state;
   }
 } // namespace Ricochet

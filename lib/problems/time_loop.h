@@ -2,13 +2,16 @@
 #ifndef ricochet_problems_time_loop_h
 #define ricochet_problems_time_loop_h
 
-#include <base/program.h>
+#include <base/run_folder.h>
 #include <output/energy_ledger.h>
 #include <time_integration/time_scheme.h>
+
+#include <deal.II/base/timer.h>
 
 #include <functional>
 #include <map>
 #include <optional>
+#include <sstream>
 
 namespace Ricochet
 {
@@ -111,11 +114,33 @@ namespace Ricochet
             const StepReport &report,
             const double      balance_residual);
 
-    /// @param remaining what to add about the time that is left.
+    /// @param first_step that of this run. @param seconds since then.
     void
     log_row(const unsigned int step,
             const unsigned int n_steps,
-            const std::string &remaining) const;
+            const unsigned int first_step,
+            const double       seconds) const;
+
+    /// Begin the ledger with @p state, or take both from the checkpoint.
+    /// @return the number of the step whose end the state is.
+    unsigned int
+    begin(State &state, const unsigned int n_steps);
+
+    void
+    write_fields_if_due(const State &state, const unsigned int step);
+
+    void
+    log_newton_tables();
+
+    /// Enter a step into sums and ledger. @p energy is that of the state before,
+    /// and becomes that of @p new_state (J).
+    void
+    account(const State &new_state, const StepReport &report, double &energy);
+
+    /// What to say at the end: the balance, and where the time went.
+    void
+    conclude(dealii::TimerOutput &timer,
+             std::ostringstream  &timing_table) const;
 
     const Parameters                                        parameters;
     RunFolder                                              &folder;

@@ -2,6 +2,7 @@
 #include <time_integration/arkode.h>
 #include <time_integration/hht.h>
 #include <time_integration/midpoint.h>
+#include <time_integration/scheme_traits.h>
 #include <time_integration/time_scheme.h>
 #include <time_integration/tr_bdf2.h>
 
@@ -13,29 +14,68 @@ namespace Ricochet
 
   namespace
   {
+    struct Entry
+    {
+      SchemeTraits traits;
+      std::function<std::unique_ptr<TimeScheme>(const TimeScheme::Parameters &)>
+        make;
+    };
+
     // The table of all time schemes: a new scheme is one file and one line.
-    using Maker = std::function<std::unique_ptr<TimeScheme>(
-      const TimeScheme::Parameters &)>;
-    const std::vector<std::pair<std::string, Maker>> &
+    const std::vector<Entry> &
     table()
     {
-      static const std::vector<std::pair<std::string, Maker>> schemes = {
-        {"Crank-Nicolson",
+      constexpr bool                  over_step = true, potential = true;
+      static const std::vector<Entry> schemes = {
+        {{"Crank-Nicolson"},
          [](const auto &) { return std::make_unique<HHT>(0.); }},
-        {"HHT",
+        {{"HHT"},
          [](const auto &p) { return std::make_unique<HHT>(p.hht_alpha); }},
-        {"TR-BDF2",
+        {{"TR-BDF2"},
          [](const auto &p) {
            return std::make_unique<TRBDF2>(p.trbdf2_gamma);
          }},
-        {"midpoint", [](const auto &) { return std::make_unique<Midpoint>(); }},
-        {"ARKODE", [](const auto &p) {
+        {{"midpoint", over_step},
+         [](const auto &) { return std::make_unique<Midpoint>(); }},
+        {{"ARKODE", !over_step, potential}, [](const auto &p) {
            return std::make_unique<ARKode>(p.arkode_relative_tolerance,
                                            p.arkode_absolute_tolerance);
          }}};
       return schemes;
     }
+
+    const Entry &
+    find(const std::string &name)
+    {
+      for (const Entry &entry : table())
+        if (entry.traits.name == name)
+          return entry;
+      AssertThrow(false, ExcMessage("unknown time scheme " + name));
+      return table().front();
+    }
   } // namespace
+
+
+
+  const std::vector<SchemeTraits> &
+  all_scheme_traits()
+  {
+    static const std::vector<SchemeTraits> all = [] {
+      std::vector<SchemeTraits> list;
+      for (const Entry &entry : table())
+        list.push_back(entry.traits);
+      return list;
+    }();
+    return all;
+  }
+
+
+
+  const SchemeTraits &
+  scheme_traits(const std::string &name)
+  {
+    return find(name).traits;
+  }
 
 
 
@@ -59,8 +99,8 @@ namespace Ricochet
   time_scheme_names()
   {
     std::string names;
-    for (const auto &entry : table())
-      names += (names.empty() ? "" : "|") + entry.first;
+    for (const Entry &entry : table())
+      names += (names.empty() ? "" : "|") + entry.traits.name;
     return names;
   }
 
@@ -69,11 +109,7 @@ namespace Ricochet
   std::unique_ptr<TimeScheme>
   make_time_scheme(const TimeScheme::Parameters &parameters)
   {
-    for (const auto &[name, make] : table())
-      if (name == parameters.name)
-        return make(parameters);
-    AssertThrow(false, ExcMessage("unknown time scheme " + parameters.name));
-    return nullptr;
+    return find(parameters.name).make(parameters);
   }
 
 

@@ -68,20 +68,15 @@ BarSD::run(RunFolder &folder)
   // signed distance of a point to it is its coordinate, so that the gap of the
   // left end is its displacement.
   const LinearElastic material{/* lambda */ 0., /* mu */ .5};
-  const double        density   = 1.;
-  const Obstacles     obstacles = {
-        {BarEnds::left, half_space_at_rest<1>(Point<1>(0.), Tensor<1, 1>({1.}))}};
+  ImpactSetup<1>      setup{material};
+  setup.density   = 1.;
+  setup.degree    = parameters.degree;
+  setup.clamped   = {BarEnds::right};
+  setup.obstacles = {
+    {BarEnds::left, half_space_at_rest<1>(Point<1>(0.), Tensor<1, 1>({1.}))}};
 
   // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
-  Impact<1> bar(impact,
-                triangulation,
-                parameters.degree,
-                material,
-                density,
-                /* clamped */ {BarEnds::right},
-                obstacles,
-                /* load */ {},
-                folder.communicator);
+  Impact<1> bar(impact, triangulation, setup, folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
              " elements, " + std::to_string(bar.body.owned_indices().size()) +
              " unknowns, " + impact.contact.treatment + ", " +

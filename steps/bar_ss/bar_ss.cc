@@ -61,22 +61,16 @@ BarSS::run(RunFolder &folder)
   // A bar of modulus lambda + 2 mu = 1, and two obstacles that fill x < 0 and x
   // > 3/2; the normal of each points to the bar.
   const LinearElastic material{/* lambda */ 0., /* mu */ .5};
-  const double        density   = 1.;
-  const Obstacles     obstacles = {
-        {BarEnds::left, half_space_at_rest<1>(Point<1>(0.), Tensor<1, 1>({1.}))},
-        {BarEnds::right,
-         half_space_at_rest<1>(Point<1>(1.5), Tensor<1, 1>({-1.}))}};
+  ImpactSetup<1>      setup{material};
+  setup.density   = 1.;
+  setup.degree    = parameters.degree;
+  setup.obstacles = {
+    {BarEnds::left, half_space_at_rest<1>(Point<1>(0.), Tensor<1, 1>({1.}))},
+    {BarEnds::right,
+     half_space_at_rest<1>(Point<1>(1.5), Tensor<1, 1>({-1.}))}};
 
   // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
-  Impact<1> bar(impact,
-                triangulation,
-                parameters.degree,
-                material,
-                density,
-                /* clamped */ {},
-                obstacles,
-                /* load */ {},
-                folder.communicator);
+  Impact<1> bar(impact, triangulation, setup, folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
              " elements, " + std::to_string(bar.body.owned_indices().size()) +
              " unknowns, " + impact.contact.treatment + ", " +

@@ -38,7 +38,6 @@
 // and look at the column `energy` of energy.csv.
 
 #include <base/program.h>
-#include <output/vtu_series.h>
 #include <problems/thrown_body.h>
 
 #include <deal.II/distributed/shared_tria.h>
@@ -174,57 +173,18 @@ ElasticBall::make_grid(Triangulation<2> &triangulation) const
 
 
 // ### The run
+//
+// What comes now is the same for every thrown body, and told in
+// lib/problems/thrown_body.cc: the equation of motion from mesh and data, a ball
+// that flies, undeformed, the time loop. Momenta in its table tell whether a scheme
+// does more than keep the energy: without friction nothing pushes the ball along
+// the foundation.
 void
 ElasticBall::run(RunFolder &folder)
 {
-  const ImpactParameters &impact = parameters.impact;
-
   parallel::shared::Triangulation<2> triangulation(folder.communicator);
   make_grid(triangulation);
-
-  // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
-  const Material<2> material = parameters.material.make<2>();
-  Impact<2>         ball(impact,
-                 triangulation,
-                 parameters.degree,
-                 material,
-                 parameters.material.density,
-                 /* clamped */ {},
-                 foundation_below<2>(outer_circle),
-                 /* load */ {},
-                 folder.communicator);
-  folder.log(std::to_string(triangulation.n_global_active_cells()) +
-             " cells, " + std::to_string(ball.body.owned_indices().size()) +
-             " unknowns, " + parameters.material.law + ", " +
-             impact.contact.treatment + ", " + impact.scheme.name + ", " +
-             impact.mass + " mass");
-
-  // The ball flies, undeformed.
-  const State initial_state = ball.state_in_flight(parameters.initial_velocity);
-
-  // The time loop writes energies and contact. Momenta tell whether a scheme
-  // does more than keep the energy: without friction nothing pushes the ball
-  // along the foundation.
-  TimeLoop         loop(impact.time,
-                folder,
-                ball.system,
-                *ball.scheme,
-                {{outer_circle, "foundation"}});
-  const Momenta<2> momenta(ball.body,
-                           ball.system.mass_matrix(),
-                           /* small strains */ material.linear.has_value());
-  add_momentum_columns(momenta, ball.body, loop);
-
-  VtuSeries<2> fields(ball.body,
-                      material,
-                      *ball.contact,
-                      ball.obstacles,
-                      folder);
-  loop.write_fields = [&](const State &state, const unsigned int step) {
-    fields.write(state, step);
-  };
-
-  loop.run(initial_state);
+  throw_body(parameters, triangulation, outer_circle, folder);
 }
 
 

@@ -34,7 +34,6 @@
 //     hyperelastic_ring --help
 
 #include <base/program.h>
-#include <output/vtu_series.h>
 #include <problems/thrown_body.h>
 
 #include <deal.II/distributed/shared_tria.h>
@@ -165,54 +164,13 @@ HyperelasticRing::make_grid(Triangulation<2> &triangulation) const
 void
 HyperelasticRing::run(RunFolder &folder)
 {
-  const ImpactParameters &impact = parameters.impact;
-
   parallel::shared::Triangulation<2> triangulation(folder.communicator);
   make_grid(triangulation);
 
-  // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
-  const Material<2> material = parameters.material.make<2>();
-  Impact<2>         ring(impact,
-                 triangulation,
-                 parameters.degree,
-                 material,
-                 parameters.material.density,
-                 /* clamped */ {},
-                 foundation_below<2>(outer_circle),
-                 /* load */ {},
-                 folder.communicator);
-  folder.log(std::to_string(triangulation.n_global_active_cells()) +
-             " cells, " + std::to_string(ring.body.owned_indices().size()) +
-             " unknowns, " + parameters.material.law + ", " +
-             impact.contact.treatment + ", " + impact.scheme.name + ", " +
-             impact.mass + " mass");
-
-  // The ring flies, undeformed.
-  const State initial_state = ring.state_in_flight(parameters.initial_velocity);
-
-  // The time loop writes energies and contact. Without friction the momentum
-  // along the foundation stays what it is; off contact so does the angular
-  // momentum, although the ring turns and vibrates.
-  TimeLoop         loop(impact.time,
-                folder,
-                ring.system,
-                *ring.scheme,
-                {{outer_circle, "foundation"}});
-  const Momenta<2> momenta(ring.body,
-                           ring.system.mass_matrix(),
-                           /* small strains */ material.linear.has_value());
-  add_momentum_columns(momenta, ring.body, loop);
-
-  VtuSeries<2> fields(ring.body,
-                      material,
-                      *ring.contact,
-                      ring.obstacles,
-                      folder);
-  loop.write_fields = [&](const State &state, const unsigned int step) {
-    fields.write(state, step);
-  };
-
-  loop.run(initial_state);
+  // The rest is the same for every thrown body, see lib/problems/thrown_body.cc.
+  // Without friction the momentum along the foundation stays what it is; off
+  // contact so does the angular momentum, although the ring turns and vibrates.
+  throw_body(parameters, triangulation, outer_circle, folder);
 }
 
 

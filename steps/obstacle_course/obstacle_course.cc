@@ -249,23 +249,13 @@ ObstacleCourse::run(RunFolder &folder)
   parallel::shared::Triangulation<2> triangulation(folder.communicator);
   make_grid(triangulation);
 
-  // The weight is a constant load: the mass matrix times the acceleration of
-  // gravity. It is there as soon as the mass matrix is, before anything asks for
-  // it.
+  // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
   const Material<2> elastic = material.make<2>();
-  Ricochet::Vector  weight;
-  Impact<2>         course(
-    impact,
-    triangulation,
-    /* degree */ 1,
-    elastic,
-    material.density,
-    /* clamped */ {},
-    {{surface, obstacle.make(impact.time.final_time)}},
-    [&](const double /*time*/, Ricochet::Vector &load) { load = weight; },
-    folder.communicator);
-  weight.reinit(course.body.owned_indices(), folder.communicator);
-  course.consistent_mass.vmult(weight, course.uniform(gravity));
+  ImpactSetup<2>    setup{elastic};
+  setup.density   = material.density;
+  setup.obstacles = {{surface, obstacle.make(impact.time.final_time)}};
+  setup.gravity   = gravity;
+  Impact<2> course(impact, triangulation, setup, folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
              " cells, " + std::to_string(course.body.owned_indices().size()) +
              " unknowns, " + material.law + ", " + impact.contact.treatment +

@@ -162,17 +162,13 @@ SpectralRadius::make_oscillator(const Triangulation<1>       &triangulation,
   parameters.contact.treatment    = "penalty";
   parameters.linear_solver.n_kept = 1;
   parameters.scheme               = scheme;
-  const Obstacles obstacles       = {
-          {BarEnds::left, half_space_at_rest<1>(Point<1>(-1e6), Tensor<1, 1>({1.}))}};
+  ImpactSetup<1> setup{LinearElastic{0., .5}};
+  setup.clamped   = {BarEnds::right};
+  setup.obstacles = {
+    {BarEnds::left, half_space_at_rest<1>(Point<1>(-1e6), Tensor<1, 1>({1.}))}};
   return std::make_unique<Impact<1>>(parameters,
                                      triangulation,
-                                     /* degree */ 1,
-                                     LinearElastic{0., .5},
-                                     /* density */ 1.,
-                                     /* clamped */
-                                     Body<1>::BoundaryIds{BarEnds::right},
-                                     obstacles,
-                                     SemiDiscreteSystem::Load(),
+                                     setup,
                                      communicator);
 }
 

@@ -241,22 +241,14 @@ Sphere::run(RunFolder &folder)
 {
   const auto mesh = make_mesh(folder.communicator);
 
-  // Gravity is a constant load: the mass matrix times the acceleration. It is
-  // there as soon as the mass matrix is, before anything asks for it.
+  // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
   const Material<3> material(LinearElastic{lambda, mu});
-  Ricochet::Vector  weight;
-  Impact<3>         sphere(
-    impact,
-    *mesh,
-    degree,
-    material,
-    density,
-    /* clamped */ {},
-    foundation_below<3>(BallBoundary::lower_half),
-    [&](const double /*time*/, Ricochet::Vector &load) { load = weight; },
-    folder.communicator);
-  weight.reinit(sphere.body.owned_indices(), folder.communicator);
-  sphere.consistent_mass.vmult(weight, sphere.uniform(gravity));
+  ImpactSetup<3>    setup{material};
+  setup.density   = density;
+  setup.degree    = degree;
+  setup.obstacles = foundation_below<3>(BallBoundary::lower_half);
+  setup.gravity   = gravity;
+  Impact<3> sphere(impact, *mesh, setup, folder.communicator);
 
   folder.log(std::to_string(mesh->n_global_active_cells()) + " cells, " +
              std::to_string(sphere.body.owned_indices().size()) +

@@ -3,7 +3,7 @@
 // Pointwise contact laws against automatic differentiation (Sacado), in open,
 // closed and grazing states, and against their own potentials.
 
-#include <contact/coulomb_friction.h>
+#include <contact/laws/coulomb_friction.h>
 #include <contact/laws/augmented_lagrangian.h>
 #include <contact/laws/nitsche.h>
 #include <contact/laws/nitsche_two_point.h>

@@ -24,15 +24,11 @@ namespace
   {
     ImpactParameters parameters;
     parameters.contact.treatment = "penalty";
-    return Impact<1>(parameters,
-                     bar.triangulation,
-                     /* degree */ 1,
-                     LinearElastic{0., .5},
-                     /* density */ 1.,
-                     {clamped},
-                     bar.plane(.1),
-                     {},
-                     MPI_COMM_WORLD);
+    return Impact<1>(
+      parameters,
+      bar.triangulation,
+      ImpactSetup<1>{LinearElastic{0., .5}, 1., 1, {clamped}, bar.plane(.1)},
+      MPI_COMM_WORLD);
   }
 } // namespace
 
@@ -48,12 +44,11 @@ BOOST_AUTO_TEST_CASE(boundaries_that_the_mesh_has_not_are_refused)
   ImpactParameters parameters;
   BOOST_CHECK_THROW(Impact<1>(parameters,
                               bar.triangulation,
-                              1,
-                              LinearElastic{0., .5},
-                              1.,
-                              {},
-                              {{5, bar.plane(.1).at(1)}},
-                              {},
+                              ImpactSetup<1>{LinearElastic{0., .5},
+                                             1.,
+                                             1,
+                                             {},
+                                             {{5, bar.plane(.1).at(1)}}},
                               MPI_COMM_WORLD),
                     InputError);
 }

@@ -6,15 +6,15 @@
 // a factor that is wrong in all of them alike passes; here it does not.
 
 #include <contact/obstacles/half_space.h>
-#include <contact/contact_treatment.h>
-#include <contact/coulomb_friction.h>
+#include <contact/treatments/contact_treatment.h>
+#include <contact/laws/coulomb_friction.h>
 #include <contact/laws/augmented_lagrangian.h>
 #include <contact/laws/nitsche.h>
 #include <contact/laws/nitsche_two_point.h>
 #include <contact/laws/normal_compliance.h>
 #include <contact/laws/penalty.h>
 #include <contact/laws/signorini_multiplier.h>
-#include <contact/nitsche_bound.h>
+#include <contact/treatments/nitsche_bound.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
 #include <materials/gonzalez.h>
@@ -739,15 +739,15 @@ BOOST_AUTO_TEST_CASE(momenta_of_a_rectangle)
   const Block<2>   block({1., 2.}, {4., 4.}, {3, 2});
   ImpactParameters parameters;
   parameters.contact.treatment = "penalty";
-  Impact<2>    impact(parameters,
-                   block.mesh,
-                   1,
-                   Material<2>(LinearElastic{1., 1.}),
+  Impact<2> impact(
+    parameters,
+    block.mesh,
+    ImpactSetup<2>{Material<2>(LinearElastic{1., 1.}),
                    3.,
+                   1,
                    {},
-                   plane<2>(2, Point<2>(), Tensor<1, 2>({0., 1.})),
-                   {},
-                   MPI_COMM_WORLD);
+                   plane<2>(2, Point<2>(), Tensor<1, 2>({0., 1.}))},
+    MPI_COMM_WORLD);
   const Vector velocity =
     interpolated<2>(impact.body,
                     {[](const Point<2> &x) { return .7 - 2. * x[1]; },
@@ -921,7 +921,7 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_in_nodes)
   parameters.treatment              = "standard normal compliance";
   parameters.compliance_coefficient = 80.;
   const auto   contact              = make_contact(parameters,
-                                    "midpoint",
+                                    scheme_traits("midpoint"),
                                     body,
                                     LinearElastic{1., 1.},
                                     foundation);
@@ -948,7 +948,7 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_in_nodes)
   // An active set reads the same force off the vector.
   parameters.treatment  = "Signorini active set";
   const auto active_set = make_contact(parameters,
-                                       "midpoint",
+                                       scheme_traits("midpoint"),
                                        body,
                                        LinearElastic{1., 1.},
                                        foundation);
@@ -964,7 +964,7 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_in_nodes)
   parameters.treatment           = "standard normal compliance";
   parameters.compliance_exponent = 3.;
   const auto cubic               = make_contact(parameters,
-                                  "midpoint",
+                                  scheme_traits("midpoint"),
                                   body,
                                   LinearElastic{1., 1.},
                                   foundation);
@@ -1000,7 +1000,7 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_by_integration)
   parameters.penalty_epsilon_0 = .1;
   const auto contact =
     make_contact(parameters,
-                 "midpoint",
+                 scheme_traits("midpoint"),
                  body,
                  LinearElastic{1., 1.},
                  plane<2>(2, Point<2>(), Tensor<1, 2>({0., 1.})));
@@ -1038,7 +1038,7 @@ BOOST_AUTO_TEST_CASE(nitsche_pressure_of_a_pressed_block)
   parameters.nitsche_gamma_0 = 100.;
   const auto contact =
     make_contact(parameters,
-                 "Crank-Nicolson",
+                 scheme_traits("Crank-Nicolson"),
                  body,
                  LinearElastic{lambda, mu},
                  plane<2>(2, Point<2>(), Tensor<1, 2>({0., 1.})));
@@ -1072,7 +1072,7 @@ BOOST_AUTO_TEST_CASE(gap_to_an_oblique_plane)
   parameters.compliance_coefficient = 10.;
   const auto contact =
     make_contact(parameters,
-                 "midpoint",
+                 scheme_traits("midpoint"),
                  body,
                  {},
                  plane<2>(2, Point<2>(), Tensor<1, 2>({.6, .8})));
@@ -1107,7 +1107,7 @@ BOOST_AUTO_TEST_CASE(traction_of_a_sticking_block)
       parameters.tangential_compliance = c_tau;
       const auto contact =
         make_contact(parameters,
-                     "midpoint",
+                     scheme_traits("midpoint"),
                      body,
                      LinearElastic{1., 1.},
                      plane<2>(2, Point<2>(), Tensor<1, 2>({0., 1.})));
@@ -1140,7 +1140,7 @@ BOOST_AUTO_TEST_CASE(persistent_contact_looks_half_a_step_ahead)
   parameters.treatment = "persistent contact";
   const auto contact =
     make_contact(parameters,
-                 "midpoint",
+                 scheme_traits("midpoint"),
                  body,
                  LinearElastic{1., 1.},
                  plane<2>(2, Point<2>(), Tensor<1, 2>({0., 1.})));
@@ -1205,12 +1205,11 @@ namespace
       impact                               = std::make_unique<Impact<1>>(
         parameters,
         block.mesh,
-        1,
-        Material<1>(LinearElastic{0., 2.}, viscosity),
-        3.,
-        std::set<dealii::types::boundary_id>{0},
-        plane<1>(1, Point<1>(1. + gap), Tensor<1, 1>({-1.})),
-        SemiDiscreteSystem::Load(),
+        ImpactSetup<1>{Material<1>(LinearElastic{0., 2.}, viscosity),
+                                                     3.,
+                                                     1,
+                                                     std::set<dealii::types::boundary_id>{0},
+                                                     plane<1>(1, Point<1>(1. + gap), Tensor<1, 1>({-1.}))},
         MPI_COMM_WORLD);
       start = impact->system.initial_state(
         interpolated<1>(impact->body, {[](const Point<1> &x) { return x[0]; }}),
@@ -1374,15 +1373,15 @@ BOOST_AUTO_TEST_CASE(velocity_without_inertia)
   parameters.contact.treatment = "penalty";
   parameters.scheme.name       = "midpoint";
   parameters.mass              = "redistributed";
-  Impact<1>   impact(parameters,
-                   block.mesh,
-                   1,
-                   Material<1>(LinearElastic{0., .5}),
+  Impact<1> impact(
+    parameters,
+    block.mesh,
+    ImpactSetup<1>{Material<1>(LinearElastic{0., .5}),
                    1.,
+                   1,
                    {0},
-                   plane<1>(1, Point<1>(100.), Tensor<1, 1>({-1.})),
-                   {},
-                   MPI_COMM_WORLD);
+                   plane<1>(1, Point<1>(100.), Tensor<1, 1>({-1.}))},
+    MPI_COMM_WORLD);
   const State start = impact.system.initial_state(
     interpolated<1>(impact.body, {[](const Point<1> &x) { return x[0]; }}),
     interpolated<1>(impact.body, {[](const Point<1> &x) { return 3. * x[0]; }}),
@@ -1425,12 +1424,15 @@ BOOST_AUTO_TEST_CASE(block_that_slides_down_its_speed)
       Impact<2>  impact(
         parameters,
         block.mesh,
-        1,
-        Material<2>(LinearElastic::from_young(1e4, .3)),
-        2.,
-        {},
-        plane<2>(2, Point<2>(), Tensor<1, 2>({0., 1.})),
-        [weight](const double, Vector &load) { load = *weight; },
+        ImpactSetup<2>{Material<2>(LinearElastic::from_young(1e4, .3)),
+                        2.,
+                        1,
+                        {},
+                        plane<2>(2, Point<2>(), Tensor<1, 2>({0., 1.})),
+                        {},
+                        [weight](const double, Vector &load) {
+                         load = *weight;
+                       }},
         MPI_COMM_WORLD);
       *weight = impact.body.make_vector();
       impact.consistent_mass.vmult(*weight,

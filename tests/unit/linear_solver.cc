@@ -9,7 +9,7 @@
 
 #include <contact/obstacles/half_space.h>
 #include <base/exceptions.h>
-#include <contact/contact_treatment.h>
+#include <contact/treatments/contact_treatment.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
 #include <materials/laws/ciarlet_geymonat.h>
@@ -96,7 +96,7 @@ namespace
                          multiplier_space(parameters),
                          MPI_COMM_WORLD);
     const auto                  contact = make_contact(parameters,
-                                      treatment.scheme,
+                                      scheme_traits(treatment.scheme),
                                       body,
                                       material,
                                       cube.plane(treatment.displacement / 1.5));
@@ -308,7 +308,7 @@ BOOST_AUTO_TEST_CASE(multigrid_needs_few_iterations)
             parameters.treatment = "penalty";
             const auto contact   = make_contact(
               parameters,
-              "midpoint",
+              scheme_traits("midpoint"),
               body,
               material,
               {{1,

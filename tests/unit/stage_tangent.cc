@@ -9,13 +9,13 @@
 #include "meshes.h"
 
 #include <base/exceptions.h>
-#include <contact/active_set_signature.h>
-#include <contact/contact_treatment.h>
-#include <contact/nitsche_bound.h>
+#include <contact/treatments/active_set_signature.h>
+#include <contact/treatments/contact_treatment.h>
+#include <contact/treatments/nitsche_bound.h>
 #include <contact/obstacles/cylinder_shape.h>
 #include <contact/obstacles/level_set.h>
 #include <contact/obstacles/sphere_shape.h>
-#include <contact/pointwise_contact.h>
+#include <contact/treatments/pointwise_contact.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
 #include <materials/laws/neo_hookean.h>
@@ -32,7 +32,7 @@ using dealii::VectorOperation;
 
 namespace
 {
-  const std::optional<LinearElastic> material = LinearElastic{1.5, 1.};
+  const LinearElastic material{1.5, 1.};
 
   template <int dim>
   void
@@ -63,7 +63,7 @@ namespace
                          MPI_COMM_WORLD);
     const auto      contact =
       make_contact(parameters,
-                   scheme,
+                   scheme_traits(scheme),
                    body,
                    material,
                    obstacles.empty() ? cube.plane(.02) : obstacles);
@@ -287,10 +287,13 @@ BOOST_AUTO_TEST_CASE(pressure_fields_do_not_remember_iterates)
                          {1},
                          MultiplierSpace::none,
                          MPI_COMM_WORLD);
-      const auto    contact =
-        make_contact(parameters, "midpoint", body, material, cube.plane(0.));
-      Vector zero = body.make_vector(), residual(zero), velocity(zero);
-      Vector pressed(zero), failed(zero);
+      const auto    contact = make_contact(parameters,
+                                        scheme_traits("midpoint"),
+                                        body,
+                                        material,
+                                        cube.plane(0.));
+      Vector        zero = body.make_vector(), residual(zero), velocity(zero);
+      Vector        pressed(zero), failed(zero);
       pressed = -.01;
       failed  = -.3;
       const ContactStart start{zero, zero, velocity, .1};
@@ -400,9 +403,9 @@ BOOST_AUTO_TEST_CASE(inverted_elements_next_to_clamped_unknowns)
       ContactParameters parameters;
       parameters.treatment                 = "penalty";
       const auto                   contact = make_contact<2>(parameters,
-                                           "midpoint",
+                                           scheme_traits("midpoint"),
                                            body,
-                                           std::nullopt,
+                                           nullptr,
                                            Obstacles());
       const Matrix                 mass    = assemble_mass_matrix(body, 1.);
       SemiDiscreteSystem::Unknowns unknowns;
@@ -469,9 +472,12 @@ BOOST_AUTO_TEST_CASE(clamped_contact_nodes_are_refused)
                          {1},
                          multiplier_space(parameters),
                          MPI_COMM_WORLD);
-      BOOST_CHECK_THROW(
-        make_contact(parameters, "HHT", body, material, cube.plane(.02)),
-        InputError);
+      BOOST_CHECK_THROW(make_contact(parameters,
+                                     scheme_traits("HHT"),
+                                     body,
+                                     material,
+                                     cube.plane(.02)),
+                        InputError);
     }
 }
 

@@ -75,12 +75,11 @@ namespace
     parameters.scheme.name             = scheme;
     Impact<dim> impact(parameters,
                        cube.triangulation,
-                       degree,
-                       Material<dim>(LinearElastic{0., mu}),
-                       1.,
-                       {2},
-                       cube.plane(-rise),
-                       {},
+                       ImpactSetup<dim>{Material<dim>(LinearElastic{0., mu}),
+                                        1.,
+                                        degree,
+                                        {2},
+                                        cube.plane(-rise)},
                        MPI_COMM_WORLD);
     const auto [solution, force] = equilibrium(impact);
 
@@ -165,12 +164,13 @@ namespace
     Impact<3>        impact(
       parameters,
       mesh,
-      /* degree */ 2,
-      Material<3>(material),
-      /* density */ 1.,
-      {2},
-      {{1, half_space_at_rest<3>(plane, dealii::Tensor<1, 3>({0., 0., 1.}))}},
-      {},
+      ImpactSetup<3>{
+               Material<3>(material),
+               1.,
+               2,
+               {2},
+               {{1,
+                 half_space_at_rest<3>(plane, dealii::Tensor<1, 3>({0., 0., 1.}))}}},
       MPI_COMM_WORLD);
     const auto [solution, force] = equilibrium(impact);
 

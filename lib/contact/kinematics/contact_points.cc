@@ -50,9 +50,10 @@ namespace Ricochet
 
   template <int dim>
   ContactPoints
-  make_quadrature_contact_points(const Body<dim>                    &body,
-                                 const std::optional<LinearElastic> &material,
-                                 const Obstacles                    &obstacles)
+  make_quadrature_contact_points(
+    const Body<dim>                             &body,
+    const std::common_type_t<LinearStress<dim>> &stress,
+    const Obstacles                             &obstacles)
   {
     const FEValuesExtractors::Vector displacement(0);
     const FiniteElement<dim>        &element = body.dof_handler().get_fe();
@@ -113,10 +114,10 @@ namespace Ricochet
                 for (const unsigned int i : face_values.dof_indices())
                   {
                     double stress_pressure = 0.;
-                    if (material)
+                    if (stress)
                       {
                         const Tensor<1, dim> traction =
-                          material->stress(
+                          stress(
                             face_values[displacement].symmetric_gradient(i,
                                                                          q)) *
                           face_values.normal_vector(q);
@@ -321,15 +322,15 @@ namespace Ricochet
 
   template ContactPoints
   make_quadrature_contact_points(const Body<1> &,
-                                 const std::optional<LinearElastic> &,
+                                 const LinearStress<1> &,
                                  const Obstacles &);
   template ContactPoints
   make_quadrature_contact_points(const Body<2> &,
-                                 const std::optional<LinearElastic> &,
+                                 const LinearStress<2> &,
                                  const Obstacles &);
   template ContactPoints
   make_quadrature_contact_points(const Body<3> &,
-                                 const std::optional<LinearElastic> &,
+                                 const LinearStress<3> &,
                                  const Obstacles &);
   template ContactPoints
   make_contact_nodes(const Body<1> &, const Obstacles &, const bool);

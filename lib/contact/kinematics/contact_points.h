@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ricochet_contact_contact_points_h
-#define ricochet_contact_contact_points_h
+#ifndef ricochet_contact_kinematics_contact_points_h
+#define ricochet_contact_kinematics_contact_points_h
 
-#include <contact/contact_law.h>
+#include <contact/laws/contact_law.h>
 #include <contact/obstacles/rigid_obstacle.h>
 #include <discretization/body.h>
-#include <materials/linear_elastic.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
-#include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace Ricochet
@@ -102,6 +102,12 @@ namespace Ricochet
     }
   };
 
+  /// Cauchy stress (Pa) as a linear function of the strain; empty for bodies
+  /// whose stress is not one.
+  template <int dim>
+  using LinearStress = std::function<dealii::SymmetricTensor<2, dim>(
+    const dealii::SymmetricTensor<2, dim> &)>;
+
   /**
    * The direction along which laws take the body's stress: the pressure is
    * direction . sigma n, n being the @p outward_normal of the body. Before a plane
@@ -116,14 +122,15 @@ namespace Ricochet
   /**
    * Quadrature points of all contact faces of owned cells.
    *
-   * The stress pressure is that of @p material on the face, see
-   * stress_direction(). Without a linear material it is zero.
+   * The stress pressure is that of @p stress on the face, see stress_direction();
+   * zero without.
    */
   template <int dim>
   ContactPoints
-  make_quadrature_contact_points(const Body<dim>                    &body,
-                                 const std::optional<LinearElastic> &material,
-                                 const Obstacles                    &obstacles);
+  make_quadrature_contact_points(
+    const Body<dim>                             &body,
+    const std::common_type_t<LinearStress<dim>> &stress,
+    const Obstacles                             &obstacles);
 
   /**
    * Owned nodes of the contact boundary, each with its lumped boundary mass,

@@ -3,7 +3,7 @@
 #define ricochet_contact_kinematics_point_evaluator_h
 
 #include <base/types.h>
-#include <contact/contact_law.h>
+#include <contact/laws/contact_law.h>
 #include <contact/kinematics/contact_points.h>
 
 #include <array>

@@ -2,7 +2,7 @@
 #ifndef ricochet_contact_laws_nitsche_two_point_h
 #define ricochet_contact_laws_nitsche_two_point_h
 
-#include <contact/contact_law.h>
+#include <contact/laws/contact_law.h>
 #include <contact/laws/nitsche.h>
 
 namespace Ricochet

@@ -2,7 +2,7 @@
 #ifndef ricochet_contact_laws_normal_compliance_h
 #define ricochet_contact_laws_normal_compliance_h
 
-#include <contact/contact_law.h>
+#include <contact/laws/contact_law.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef ricochet_contact_laws_penalty_h
 #define ricochet_contact_laws_penalty_h
 
-#include <contact/contact_law.h>
+#include <contact/laws/contact_law.h>
 
 namespace Ricochet
 {

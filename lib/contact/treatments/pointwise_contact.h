@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ricochet_contact_pointwise_contact_h
-#define ricochet_contact_pointwise_contact_h
+#ifndef ricochet_contact_treatments_pointwise_contact_h
+#define ricochet_contact_treatments_pointwise_contact_h
 
 #include <contact/contact_operator.h>
-#include <contact/coulomb_friction.h>
+#include <contact/treatments/closing_functionals.h>
+#include <contact/treatments/pointwise_friction.h>
 
 #include <memory>
 
@@ -15,12 +16,6 @@ namespace Ricochet
    * through the contact points and asks the law; Coulomb's friction with a
    * tangential compliance comes beside it, with the mean slip rate of the step.
    * Forces act along the directions that the kinematics gives.
-   *
-   * A stiff power law is a poor thing to linearise at a gap: from far too deep a
-   * penetration, or from contact at a point that leaves, Newton's method comes
-   * to the solution by a constant factor per iteration. So these laws are
-   * linearised where they meet the body's own line: the pressure that the last
-   * linearisation predicts at the new gap, and a stiffness r_0 / h_T.
    */
   class PointwiseContact : public ContactOperator
   {
@@ -44,13 +39,13 @@ namespace Ricochet
                      const double                augmentation    = 1.,
                      const bool                  modified_energy = true)
       : law(std::move(law))
-      , friction(friction)
+      , friction(friction, augmentation)
       , augmentation(augmentation)
       , modified_energy(modified_energy)
-      , kinematics(
-          make_kinematics(body,
-                          std::move(points),
-                          {/* way */ friction.coefficient > 0., false}))
+      , kinematics(make_kinematics(body,
+                                   std::move(points),
+                                   {/* way */ friction.coefficient > 0.,
+                                    /* prediction */ false}))
       , evaluator(kinematics->evaluator)
       , stress_evaluator(body, std::move(stress_points))
       , force(body.make_vector())
@@ -60,7 +55,15 @@ namespace Ricochet
                               body.multiplier_indices().n_elements())
     {
       compute_row_scaling();
-      find_directions();
+      // Whether the law is of that kind does not depend on h_T.
+      const ContactLawTraits traits = this->law->traits();
+      if (kinematics->has_constant_rows() &&
+          closing_directions(*this->law, 1.) &&
+          !(this->friction.exists() &&
+            (traits.uses_stress || traits.needs_multiplier)))
+        functionals.emplace(*this->law,
+                            this->friction.exists(),
+                            evaluator.coefficients());
     }
 
     void
@@ -108,7 +111,7 @@ namespace Ricochet
     const Vector *
     friction_force() const override
     {
-      return friction.coefficient > 0. ? &friction_part : nullptr;
+      return friction.exists() ? &friction_part : nullptr;
     }
 
     double
@@ -166,29 +169,6 @@ namespace Ricochet
     void
     compute_row_scaling();
 
-    /**
-     * How closing changes the tangent of the law in a point: by a number times
-     * test trial^T, where test and trial are directions in the space of gap,
-     * stress pressure and multiplier that depend on the law and h_T only. The
-     * number can be read off one entry.
-     */
-    struct Closing
-    {
-      unsigned int         row = 0, column = 0;
-      dealii::Tensor<1, 3> test, trial;
-    };
-
-    /// None if the law's tangent changes by more than one direction.
-    std::optional<Closing>
-    closing_directions(const double cell_diameter) const;
-
-    void
-    find_directions();
-
-    /// The law's tangent when a point with this h_T is open.
-    ContactPointTangent
-    open_tangent(const double cell_diameter) const;
-
     /// What is kept is a force on displacements; the equations of the
     /// multipliers hold at the end of a stage and are never averaged.
     void
@@ -208,28 +188,15 @@ namespace Ricochet
     void
     add_turning(const unsigned int p, Matrix &tangent) const;
 
-    /// The pressure that friction sees (Pa).
-    double
-    friction_pressure(const unsigned int p) const;
-
-    /// Derivatives of the friction traction with respect to the slip rate and the
-    /// pressure.
-    struct FrictionDerivatives
+    /// Whether there is friction in a point: whether it is pressed.
+    bool
+    friction_acts(const unsigned int p) const
     {
-      dealii::Tensor<2, 3> with_slip_rate;
-      dealii::Tensor<1, 3> with_pressure;
-    };
-
-    /// None without pressure or friction.
-    std::optional<FrictionDerivatives>
-    friction_derivatives(const unsigned int p) const;
-
-    /// Choose stick or slip for the residual at #state.
-    void
-    choose_friction_branches();
+      return friction.exists() && friction.pressure(p) > 0.;
+    }
 
     const std::unique_ptr<ContactLaw>        law;
-    const CoulombFriction                    friction;
+    PointwiseFriction                        friction;
     const double                             augmentation;
     const bool                               modified_energy;
     const std::unique_ptr<ContactKinematics> kinematics;
@@ -237,31 +204,16 @@ namespace Ricochet
     ContactPointEvaluator           &evaluator;
     ContactPointEvaluator            stress_evaluator;
     double                           weight     = 1.;
-    double                           time_step  = 0.;
     unsigned int                     n_iterates = 0;
     std::vector<ContactPointState<>> state, old_state, stress_state;
     // Where the law is linearised: now, and at the last accepted iterate.
     std::vector<ContactPointState<>> linearisation, accepted_linearisation;
-    // Force of the law per area (Pa) and slip rate (m/s) at the last
-    // complete_residual().
-    std::vector<ContactPointForce<>>  point_force;
-    std::vector<dealii::Tensor<1, 3>> slip_rate;
-    // The same as for the law, for friction.
-    std::vector<CoulombFriction::Branch> friction_branch, accepted_branch;
-    Vector                               force, friction_part, scaling;
-    const unsigned int                   n_displacements_owned;
-
-    // The functionals of a point: of the law (test and trial, often the same),
-    // and of the displacement along the foundation, with friction.
-    struct PointDirections
-    {
-      Closing                           closing;
-      unsigned int                      test, trial, first_tangential;
-      std::vector<dealii::Tensor<1, 3>> tangential;
-    };
-    // Empty if the law is not of that kind.
-    std::vector<PointDirections>                 directions;
-    std::optional<ContactStructure::ActsThrough> acts_through;
+    // Force of the law per area (Pa) at the last complete_residual().
+    std::vector<ContactPointForce<>> point_force;
+    Vector                           force, friction_part, scaling;
+    const unsigned int               n_displacements_owned;
+    // None if they do not stay the same.
+    std::optional<ClosingFunctionals> functionals;
   };
 } // namespace Ricochet
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ricochet_contact_active_set_signature_h
-#define ricochet_contact_active_set_signature_h
+#ifndef ricochet_contact_treatments_active_set_signature_h
+#define ricochet_contact_treatments_active_set_signature_h
 
 #include <mpi.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <contact/active_set_contact.h>
-#include <contact/active_set_signature.h>
+#include <contact/treatments/active_set_contact.h>
+#include <contact/treatments/active_set_signature.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <contact/nitsche_bound.h>
+#include <contact/treatments/nitsche_bound.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -43,9 +43,9 @@ namespace Ricochet
 
   template <int dim>
   double
-  nitsche_trace_constant(const Body<dim>     &body,
-                         const LinearElastic &material,
-                         const Obstacles     &obstacles)
+  nitsche_trace_constant(const Body<dim>                             &body,
+                         const std::common_type_t<LinearStress<dim>> &stress,
+                         const Obstacles                             &obstacles)
   {
     const FEValuesExtractors::Vector displacement(0);
     const FiniteElement<dim>        &element = body.dof_handler().get_fe();
@@ -85,7 +85,7 @@ namespace Ricochet
                   pressure[i] =
                     along *
                     in_space(
-                      material.stress(
+                      stress(
                         face_values[displacement].symmetric_gradient(i, q)) *
                       face_values.normal_vector(q));
                 traction.noalias() += cell->diameter() * face_values.JxW(q) *
@@ -99,11 +99,12 @@ namespace Ricochet
         for (const unsigned int q : cell_values.quadrature_point_indices())
           for (unsigned int i = 0; i < n; ++i)
             {
-              const SymmetricTensor<2, dim> stress = material.stress(
-                cell_values[displacement].symmetric_gradient(i, q));
+              const SymmetricTensor<2, dim> cell_stress =
+                stress(cell_values[displacement].symmetric_gradient(i, q));
               for (unsigned int j = 0; j < n; ++j)
                 energy(i, j) += cell_values.JxW(q) *
-                  (stress * cell_values[displacement].symmetric_gradient(j, q));
+                  (cell_stress *
+                   cell_values[displacement].symmetric_gradient(j, q));
             }
         largest = std::max(largest, largest_eigenvalue(traction, energy));
       }
@@ -113,14 +114,14 @@ namespace Ricochet
 
   template double
   nitsche_trace_constant(const Body<1> &,
-                         const LinearElastic &,
+                         const LinearStress<1> &,
                          const Obstacles &);
   template double
   nitsche_trace_constant(const Body<2> &,
-                         const LinearElastic &,
+                         const LinearStress<2> &,
                          const Obstacles &);
   template double
   nitsche_trace_constant(const Body<3> &,
-                         const LinearElastic &,
+                         const LinearStress<3> &,
                          const Obstacles &);
 } // namespace Ricochet

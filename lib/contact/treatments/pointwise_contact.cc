@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <contact/active_set_signature.h>
-#include <contact/pointwise_contact.h>
+#include <contact/treatments/active_set_signature.h>
+#include <contact/treatments/pointwise_contact.h>
+#include <contact/treatments/power_law_linearisation.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -10,17 +11,12 @@ namespace Ricochet
 {
   using dealii::VectorOperation;
 
-  namespace
-  {
-    const dealii::Tensor<2, 3> identity(dealii::unit_symmetric_tensor<3>());
-  }
-
   void
   PointwiseContact::begin_stage(const ContactStart &start, const double weight_)
   {
     weight     = weight_;
-    time_step  = start.time_step;
     n_iterates = 0;
+    friction.begin_stage(start.time_step);
     point_force.assign(evaluator.contact_points().size(), {});
     kinematics->begin_step(start, old_state);
   }
@@ -33,7 +29,7 @@ namespace Ricochet
     ++n_iterates;
     if (!law->traits().piecewise_linear)
       accepted_linearisation = linearisation;
-    accepted_branch = friction_branch;
+    friction.accept_iterate();
   }
 
 
@@ -48,41 +44,13 @@ namespace Ricochet
       return;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
-        // The pressure that the last linearisation has at the new gap.
-        const double h = evaluator.contact_points()[p].cell_diameter;
-        const ContactPointState<> &at = accepted_linearisation[p];
-        const double predicted        = -law->force(at, old_state[p], h).gap -
-          law->tangent(at, old_state[p], h)[0][0] * (state[p].gap - at.gap);
-
-        // Where the law meets the body's line through gap and predicted pressure:
-        // excess(gap) = law's pressure - body's pressure falls with the gap. The
-        // law's pressure being never negative and falling, the zero lies between
-        // the gap and where the excess there would be used up by the body alone.
-        const double        body_stiffness = augmentation / h;
-        ContactPointState<> trial          = state[p];
-        const auto          excess         = [&]() {
-          return -law->force(trial, old_state[p], h).gap - predicted -
-            body_stiffness * (trial.gap - state[p].gap);
-        };
-        double       value = excess();
-        const double far   = state[p].gap + value / body_stiffness;
-        double       low   = std::min(state[p].gap, far);
-        double       high  = std::max(state[p].gap, far);
-        const double close = 1e-3 * (high - low);
-        for (unsigned int k = 0; k < 60 && high - low > close; ++k)
-          {
-            (value > 0. ? low : high) = trial.gap;
-            const double slope =
-              -law->tangent(trial, old_state[p], h)[0][0] - body_stiffness;
-            const double step = -value / slope;
-            if (std::abs(step) < close)
-              break;
-            trial.gap += step;
-            if (!(trial.gap > low && trial.gap < high))
-              trial.gap = .5 * (low + high);
-            value = excess();
-          }
-        linearisation[p].gap = trial.gap;
+        const double h       = evaluator.contact_points()[p].cell_diameter;
+        linearisation[p].gap = linearisation_gap(*law,
+                                                 accepted_linearisation[p],
+                                                 state[p],
+                                                 old_state[p],
+                                                 h,
+                                                 augmentation / h);
       }
   }
 
@@ -105,7 +73,7 @@ namespace Ricochet
   double
   PointwiseContact::linearisation_error() const
   {
-    if (law->traits().piecewise_linear && friction.coefficient == 0.)
+    if (law->traits().piecewise_linear && !friction.exists())
       return 0.;
     double square = 0.;
     for (unsigned int p = 0; p < state.size(); ++p)
@@ -115,13 +83,9 @@ namespace Ricochet
           (point_force[p].gap -
            law->force(state[p], old_state[p], point.cell_diameter).gap);
         square += error * error;
-        const double pressure =
-          friction.coefficient > 0. ? friction_pressure(p) : 0.;
-        if (pressure > 0.)
-          square += point.weight * point.weight *
-            (friction.traction_on(friction_branch[p], pressure, slip_rate[p]) -
-             friction.traction(pressure, slip_rate[p]))
-              .norm_square();
+        if (friction_acts(p))
+          square +=
+            point.weight * point.weight * friction.error(p).norm_square();
       }
     return std::sqrt(
       dealii::Utilities::MPI::sum(square, evaluator.communicator));
@@ -130,36 +94,15 @@ namespace Ricochet
 
 
   double
-  PointwiseContact::friction_pressure(const unsigned int p) const
+  PointwiseContact::friction_dissipation() const
   {
-    return positive_part(-point_force[p].gap);
-  }
-
-
-
-  void
-  PointwiseContact::choose_friction_branches()
-  {
-    friction_branch.resize(state.size());
+    if (!friction.exists())
+      return 0.;
+    double sum = 0.;
     for (unsigned int p = 0; p < state.size(); ++p)
-      {
-        const double               pressure = friction_pressure(p);
-        const dealii::Tensor<1, 3> rate     = slip_rate[p];
-        dealii::Tensor<1, 3> trial = friction.tangential_compliance * rate;
-        if (n_iterates > 0 && accepted_branch.size() == state.size())
-          {
-            // The traction that the last iterate predicts.
-            const dealii::Tensor<1, 3> traction =
-              friction.traction_on(accepted_branch[p], pressure, rate);
-            const double r =
-              std::min(friction.tangential_compliance,
-                       augmentation * time_step /
-                         evaluator.contact_points()[p].cell_diameter);
-            trial =
-              traction + r * (rate - traction / friction.tangential_compliance);
-          }
-        friction_branch[p] = friction.choose_branch(pressure, rate, trial);
-      }
+      if (friction_acts(p))
+        sum += evaluator.contact_points()[p].weight * friction.dissipation(p);
+    return dealii::Utilities::MPI::sum(sum, evaluator.communicator);
   }
 
 
@@ -191,72 +134,22 @@ namespace Ricochet
         evaluator.add(p, point_force[p], force);
       }
     force.compress(VectorOperation::add);
-    if (friction.coefficient > 0.)
+    if (friction.exists())
       {
-        slip_rate.assign(state.size(), dealii::Tensor<1, 3>());
+        std::vector<double> pressures(state.size());
         for (unsigned int p = 0; p < state.size(); ++p)
-          if (kinematics->has_constant_rows() || friction_pressure(p) > 0.)
-            slip_rate[p] = kinematics->geometry(p).slip() / time_step;
-        choose_friction_branches();
+          pressures[p] = positive_part(-point_force[p].gap);
+        friction.evaluate(pressures, *kinematics);
         friction_part = 0.;
         for (unsigned int p = 0; p < state.size(); ++p)
-          {
-            const double pressure = friction_pressure(p);
-            if (pressure > 0.)
-              evaluator.add(p,
-                            friction.traction_on(friction_branch[p],
-                                                 pressure,
-                                                 slip_rate[p]),
-                            friction_part);
-          }
+          if (friction_acts(p))
+            evaluator.add(p, friction.traction(p), friction_part);
         friction_part.compress(VectorOperation::add);
         force += friction_part;
       }
     residual.add(weight, force);
 
     clear_multipliers(force);
-  }
-
-
-
-  double
-  PointwiseContact::friction_dissipation() const
-  {
-    if (friction.coefficient == 0.)
-      return 0.;
-    double sum = 0.;
-    for (unsigned int p = 0; p < state.size(); ++p)
-      if (const double pressure = friction_pressure(p); pressure > 0.)
-        sum += evaluator.contact_points()[p].weight * time_step *
-          (friction.traction_on(friction_branch[p], pressure, slip_rate[p]) *
-           slip_rate[p]);
-    return dealii::Utilities::MPI::sum(sum, evaluator.communicator);
-  }
-
-
-
-  std::optional<PointwiseContact::FrictionDerivatives>
-  PointwiseContact::friction_derivatives(const unsigned int p) const
-  {
-    const double pressure =
-      friction.coefficient > 0. ? friction_pressure(p) : 0.;
-    if (pressure == 0.)
-      return {};
-    FrictionDerivatives  derivatives;
-    const PointGeometry &geometry = kinematics->geometry(p);
-    const bool           constant = kinematics->has_constant_rows();
-    friction.derivatives(friction_branch[p],
-                         pressure,
-                         slip_rate[p],
-                         constant ? tangent_plane(geometry.normal) : identity,
-                         derivatives.with_slip_rate,
-                         derivatives.with_pressure);
-    // Slip follows the way, and the turning of the plane in which it is.
-    if (!constant)
-      derivatives.with_slip_rate = derivatives.with_slip_rate *
-        (tangent_plane(geometry.normal) * geometry.relative_way_derivative +
-         geometry.projection_derivative(geometry.relative_way));
-    return derivatives;
   }
 
 
@@ -274,12 +167,13 @@ namespace Ricochet
         evaluator.add(p, weight, law_tangent, tangent);
         add_turning(p, tangent);
 
-        if (const auto derivatives = friction_derivatives(p))
+        if (friction_acts(p))
           {
-            const dealii::Tensor<1, 3> &slope = derivatives->with_pressure;
+            const auto derivatives = friction.derivatives(p, *kinematics);
+            const dealii::Tensor<1, 3> &slope = derivatives.with_pressure;
             evaluator.add(p,
                           weight,
-                          derivatives->with_slip_rate / time_step,
+                          derivatives.with_slip_rate,
                           {{-law_tangent[0][0] * slope,
                             -law_tangent[0][1] * slope,
                             -law_tangent[0][2] * slope}},
@@ -312,117 +206,10 @@ namespace Ricochet
     for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
       evaluator.add(p,
                     weight,
-                    open_tangent(evaluator.contact_points()[p].cell_diameter),
+                    open_tangent(*law,
+                                 evaluator.contact_points()[p].cell_diameter),
                     tangent);
     tangent.compress(VectorOperation::add);
-  }
-
-
-
-  ContactPointTangent
-  PointwiseContact::open_tangent(const double cell_diameter) const
-  {
-    ContactPointState<> open;
-    open.gap = cell_diameter;
-    return law->tangent(open, open, cell_diameter);
-  }
-
-
-
-  std::optional<PointwiseContact::Closing>
-  PointwiseContact::closing_directions(const double cell_diameter) const
-  {
-    ContactPointState<> open, closed;
-    open.gap   = cell_diameter;
-    closed.gap = -cell_diameter;
-    const ContactPointTangent change =
-      law->tangent(closed, open, cell_diameter) - open_tangent(cell_diameter);
-    Closing closing;
-    while (closing.row < 2 && change[closing.row].norm() == 0.)
-      ++closing.row;
-    while (closing.column < 2 && change[closing.row][closing.column] == 0.)
-      ++closing.column;
-    const double entry = change[closing.row][closing.column];
-    if (entry == 0.)
-      return {};
-    closing.trial = change[closing.row] / entry;
-    for (unsigned int c = 0; c < 3; ++c)
-      closing.test[c] = change[c][closing.column] / entry;
-    for (unsigned int c = 0; c < 3; ++c)
-      for (unsigned int d = 0; d < 3; ++d)
-        if (std::abs(change[c][d] -
-                     entry * closing.test[c] * closing.trial[d]) >
-            1e-12 * std::abs(change[c][d]))
-          return {};
-    return closing;
-  }
-
-
-
-  void
-  PointwiseContact::find_directions()
-  {
-    // Whether the law is of that kind does not depend on h_T.
-    if (!kinematics->has_constant_rows() || !closing_directions(1.) ||
-        (friction.coefficient > 0. &&
-         (law->traits().uses_stress || law->traits().needs_multiplier)))
-      return;
-    acts_through.emplace();
-    Functionals         &functionals = acts_through->functionals;
-    const ContactPoints &points      = evaluator.coefficients();
-    for (const ContactPoint &point : points.points)
-      {
-        const auto add = [&](const auto &coefficient) {
-          for (unsigned int k = point.begin; k < point.end; ++k)
-            if (const double value = coefficient(k); value != 0.)
-              functionals.add(points.index[k], value);
-          functionals.end_functional();
-          acts_through->order.push_back(point.initial_gap);
-          return functionals.size() - 1;
-        };
-        const auto add_law = [&](const dealii::Tensor<1, 3> &direction) {
-          return add([&](const unsigned int k) {
-            return direction[0] * points.gap_coefficient[k] +
-              direction[1] * points.stress_pressure_coefficient[k] +
-              direction[2] * points.multiplier_coefficient[k];
-          });
-        };
-        PointDirections own;
-        own.closing          = *closing_directions(point.cell_diameter);
-        own.test             = add_law(own.closing.test);
-        own.trial            = own.closing.trial == own.closing.test
-                     ? own.test
-                     : add_law(own.closing.trial);
-        own.first_tangential = functionals.size();
-        if (friction.coefficient > 0.)
-          {
-            // Two directions across the normal, or one in the plane: the
-            // longest projections of the axes.
-            dealii::Tensor<2, 3> plane  = tangent_plane(point.obstacle_normal);
-            unsigned int         n_axes = 0;
-            for (unsigned int k = point.begin; k < point.end; ++k)
-              n_axes = std::max(n_axes, points.component[k] + 1);
-            for (unsigned int axis = 0; axis < n_axes; ++axis)
-              for (unsigned int c = n_axes; c < 3; ++c)
-                plane[axis][c] = plane[c][axis] = 0.;
-            for (unsigned int t = 0; t + 1 < n_axes; ++t)
-              {
-                unsigned int longest = 0;
-                for (unsigned int axis = 1; axis < n_axes; ++axis)
-                  if (plane[axis].norm() > plane[longest].norm())
-                    longest = axis;
-                const dealii::Tensor<1, 3> tangential =
-                  plane[longest] / plane[longest].norm();
-                add([&](const unsigned int k) {
-                  return tangential[points.component[k]] *
-                    points.shape_value[k];
-                });
-                own.tangential.push_back(tangential);
-                plane -= outer_product(tangential, tangential);
-              }
-          }
-        directions.push_back(own);
-      }
   }
 
 
@@ -431,13 +218,14 @@ namespace Ricochet
   PointwiseContact::tangent_structure() const
   {
     ContactStructure structure;
-    structure.rows                = evaluator.unknowns();
-    structure.functionals         = acts_through;
+    structure.rows = evaluator.unknowns();
+    if (functionals)
+      structure.functionals = functionals->all();
     structure.has_multipliers     = law->traits().needs_multiplier;
     structure.is_nearly_symmetric = !structure.has_multipliers;
-    const auto closing            = closing_directions(1.);
+    const auto closing            = closing_directions(*law, 1.);
     structure.is_symmetric        = structure.is_nearly_symmetric && closing &&
-      closing->test == closing->trial && friction.coefficient == 0. &&
+      closing->test == closing->trial && !friction.exists() &&
       kinematics->has_constant_rows();
     return structure;
   }
@@ -449,32 +237,33 @@ namespace Ricochet
   {
     for (unsigned int p = 0; p < state.size(); ++p)
       {
-        const ContactPoint       &point = evaluator.contact_points()[p];
-        const PointDirections    &own   = directions[p];
-        const ContactPointTangent law_tangent =
+        const ContactPoint              &point = evaluator.contact_points()[p];
+        const ClosingFunctionals::Point &own   = (*functionals)[p];
+        const ContactPointTangent        law_tangent =
           law->tangent(linearisation[p], old_state[p], point.cell_diameter);
         const double factor = weight * point.weight;
         const double closing =
           law_tangent[own.closing.row][own.closing.column] -
           open_tangent(
+            *law,
             point.cell_diameter)[own.closing.row][own.closing.column];
         if (closing != 0.)
           change[own.test].emplace_back(own.trial, factor * closing);
 
-        const auto derivatives = friction_derivatives(p);
-        if (!derivatives)
+        if (!friction_acts(p))
           continue;
+        const auto derivatives = friction.derivatives(p, *kinematics);
         for (unsigned int t = 0; t < own.tangential.size(); ++t)
           {
             auto &row = change[own.first_tangential + t];
             for (unsigned int s = 0; s < own.tangential.size(); ++s)
               row.emplace_back(own.first_tangential + s,
-                               factor / time_step *
+                               factor *
                                  (own.tangential[t] *
-                                  derivatives->with_slip_rate *
+                                  derivatives.with_slip_rate *
                                   own.tangential[s]));
             if (const double with_gap = -law_tangent[0][0] *
-                  (own.tangential[t] * derivatives->with_pressure);
+                  (own.tangential[t] * derivatives.with_pressure);
                 with_gap != 0.)
               row.emplace_back(own.trial, factor * with_gap);
           }
@@ -501,12 +290,10 @@ namespace Ricochet
           point.weight * stiffness * kinematics->gap_round_off(p, state[p].gap);
         square += force * force;
         // Slip is a difference of displacements over a step.
-        if (friction.coefficient > 0. && friction_branch[p].sticks &&
-            friction_pressure(p) > 0.)
+        if (friction_acts(p) && friction.sticks(p))
           {
-            const double friction_force = point.weight *
-              friction.tangential_compliance / time_step *
-              kinematics->way_round_off(p);
+            const double friction_force =
+              point.weight * friction.round_off(p, *kinematics);
             square += friction_force * friction_force;
           }
       }
@@ -535,16 +322,16 @@ namespace Ricochet
     // Without contact every law is linear.
     const std::vector<int> values = branches();
     const bool             turns  = !kinematics->has_constant_rows();
-    if (!law->traits().piecewise_linear || friction.coefficient > 0. || turns)
+    if (!law->traits().piecewise_linear || friction.exists() || turns)
       {
         bool active = std::any_of(values.begin(),
                                   values.end(),
                                   [](const int value) { return value != 0; });
         // A multiplier presses until the stage is solved, whatever the branch.
-        if (friction.coefficient > 0. || turns)
+        if (friction.exists() || turns)
           for (unsigned int p = 0; p < state.size(); ++p)
-            active = active || friction_pressure(p) > 0. ||
-              (turns && point_force[p].gap != 0.);
+            active =
+              active || friction_acts(p) || (turns && point_force[p].gap != 0.);
         if (dealii::Utilities::MPI::max(active ? 1 : 0,
                                         evaluator.communicator) == 1)
           return {};
@@ -558,8 +345,9 @@ namespace Ricochet
   PointwiseContact::active_set_signature() const
   {
     std::vector<int> values = branches();
-    for (unsigned int p = 0; p < friction_branch.size(); ++p)
-      values.push_back(friction_branch[p].sticks);
+    if (friction.exists())
+      for (unsigned int p = 0; p < state.size(); ++p)
+        values.push_back(friction.sticks(p));
     return global_hash(values, evaluator.communicator);
   }
 
@@ -569,11 +357,11 @@ namespace Ricochet
   PointwiseContact::active_set_description() const
   {
     std::string text = count_active(branches(), evaluator.communicator);
-    if (friction.coefficient > 0.)
+    if (friction.exists())
       {
         unsigned int n_sticking = 0;
-        for (unsigned int p = 0; p < friction_branch.size(); ++p)
-          n_sticking += friction_branch[p].sticks && friction_pressure(p) > 0.;
+        for (unsigned int p = 0; p < state.size(); ++p)
+          n_sticking += friction_acts(p) && friction.sticks(p);
         text += ", " +
           std::to_string(dealii::Utilities::MPI::sum(n_sticking,
                                                      evaluator.communicator)) +

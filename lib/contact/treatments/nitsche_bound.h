@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ricochet_contact_nitsche_bound_h
-#define ricochet_contact_nitsche_bound_h
+#ifndef ricochet_contact_treatments_nitsche_bound_h
+#define ricochet_contact_treatments_nitsche_bound_h
 
 #include <contact/kinematics/contact_points.h>
 
@@ -22,9 +22,9 @@ namespace Ricochet
    */
   template <int dim>
   double
-  nitsche_trace_constant(const Body<dim>     &body,
-                         const LinearElastic &material,
-                         const Obstacles     &obstacles);
+  nitsche_trace_constant(const Body<dim>                             &body,
+                         const std::common_type_t<LinearStress<dim>> &stress,
+                         const Obstacles &obstacles);
 } // namespace Ricochet
 
 #endif

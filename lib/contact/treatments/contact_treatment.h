@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ricochet_contact_contact_treatment_h
-#define ricochet_contact_contact_treatment_h
+#ifndef ricochet_contact_treatments_contact_treatment_h
+#define ricochet_contact_treatments_contact_treatment_h
 
 #include <base/parameter_file.h>
 #include <contact/contact_operator.h>
+#include <time_integration/scheme_traits.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -55,7 +56,7 @@ namespace Ricochet
    */
   void
   check_combination(const ContactParameters &parameters,
-                    const std::string       &scheme,
+                    const SchemeTraits      &scheme,
                     const bool               redistributed_mass,
                     const bool               linear_material,
                     const bool               viscous);
@@ -65,19 +66,19 @@ namespace Ricochet
   multiplier_space(const ContactParameters &parameters);
 
   /// The treatment that @p parameters name, for the time scheme @p scheme, on
-  /// @p body against @p obstacles. @p material gives the stress on the contact
-  /// boundary; none for hyperelastic bodies, with which the treatments that
-  /// use that stress are refused.
+  /// @p body against @p obstacles. @p stress is that of the body on the contact
+  /// boundary; empty where it is not linear, and then the treatments that use it
+  /// are refused.
   ///
   /// @throws InputError when Nitsche's parameter is below its bound of stability
   /// on this mesh, or the points of contact cannot be made.
   template <int dim>
   std::unique_ptr<ContactOperator>
-  make_contact(const ContactParameters            &parameters,
-               const std::string                  &scheme,
-               const Body<dim>                    &body,
-               const std::optional<LinearElastic> &material,
-               const Obstacles                    &obstacles);
+  make_contact(const ContactParameters                     &parameters,
+               const SchemeTraits                          &scheme,
+               const Body<dim>                             &body,
+               const std::common_type_t<LinearStress<dim>> &stress,
+               const Obstacles                             &obstacles);
 } // namespace Ricochet
 
 #endif

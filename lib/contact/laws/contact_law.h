@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ricochet_contact_contact_law_h
-#define ricochet_contact_contact_law_h
+#ifndef ricochet_contact_laws_contact_law_h
+#define ricochet_contact_laws_contact_law_h
 
 #include <deal.II/base/tensor.h>
 

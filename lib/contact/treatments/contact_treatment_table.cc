@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
-#include <contact/active_set_contact.h>
-#include <contact/contact_treatment.h>
+#include <contact/treatments/active_set_contact.h>
+#include <contact/treatments/contact_treatment.h>
 #include <contact/laws/augmented_lagrangian.h>
 #include <contact/laws/nitsche.h>
 #include <contact/laws/nitsche_two_point.h>
 #include <contact/laws/normal_compliance.h>
 #include <contact/laws/penalty.h>
 #include <contact/laws/signorini_multiplier.h>
-#include <contact/nitsche_bound.h>
-#include <contact/pointwise_contact.h>
+#include <contact/treatments/nitsche_bound.h>
+#include <contact/treatments/pointwise_contact.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -191,17 +191,13 @@ namespace Ricochet
                   const bool               redistributed_mass)
   {
     const ContactLawTraits traits = find(parameters).traits;
-    if (traits.is_two_point)
-      return {"midpoint"};
-    std::vector<std::string> schemes = {"Crank-Nicolson",
-                                        "HHT",
-                                        "TR-BDF2",
-                                        "midpoint"};
-    // A differential equation with an invertible mass and a potential from
-    // which the work against contact can be read.
-    if (!redistributed_mass && !traits.needs_multiplier &&
-        traits.has_potential && has_modified_energy(parameters))
-      schemes.push_back("ARKODE");
+    const bool is_function = !redistributed_mass && !traits.needs_multiplier &&
+      traits.has_potential && has_modified_energy(parameters);
+    std::vector<std::string> schemes;
+    for (const SchemeTraits &scheme : all_scheme_traits())
+      if ((scheme.contact_over_step || !traits.is_two_point) &&
+          (is_function || !scheme.needs_potential))
+        schemes.push_back(scheme.name);
     return schemes;
   }
 
@@ -234,7 +230,7 @@ namespace Ricochet
 
   void
   check_combination(const ContactParameters &parameters,
-                    const std::string       &scheme,
+                    const SchemeTraits      &scheme,
                     const bool               redistributed_mass,
                     const bool               linear_material,
                     const bool               viscous)
@@ -274,9 +270,9 @@ namespace Ricochet
             "The contact treatment '" + parameters.treatment +
             "' cannot be combined with friction.\nAllowed with it: " +
             names_of([](const auto &t) { return t.takes_friction; }) + ".");
-        if (scheme != "midpoint")
+        if (!scheme.contact_over_step)
           throw InputError(
-            "Friction cannot be combined with the time scheme '" + scheme +
+            "Friction cannot be combined with the time scheme '" + scheme.name +
             "'.\nAllowed with it: midpoint. There friction acts against the "
             "mean slip rate of the step, so that its work is never negative.");
         if (find(parameters).make_law &&
@@ -288,7 +284,7 @@ namespace Ricochet
 
     const std::vector<std::string> allowed =
       schemes_allowed(parameters, redistributed_mass);
-    if (std::find(allowed.begin(), allowed.end(), scheme) != allowed.end())
+    if (std::find(allowed.begin(), allowed.end(), scheme.name) != allowed.end())
       return;
 
     std::string message = "The contact treatment '" + parameters.treatment +
@@ -296,11 +292,11 @@ namespace Ricochet
          ? "' with theta = " + to_text(parameters.nitsche_theta)
          : "'") +
       " and the " + (redistributed_mass ? "redistributed" : "consistent") +
-      " mass cannot be combined with the time scheme '" + scheme +
+      " mass cannot be combined with the time scheme '" + scheme.name +
       "'.\nAllowed with them: " + join(allowed) + ".\n";
-    if (scheme == "ARKODE")
-      message +=
-        "ARKODE integrates ordinary differential equations with a "
+    if (scheme.needs_potential)
+      message += scheme.name +
+        " integrates ordinary differential equations with a "
         "potential: Nitsche with theta = 1, penalty or standard normal "
         "compliance, with the consistent mass.";
     else
@@ -354,12 +350,12 @@ namespace Ricochet
     void
     check_nitsche_bound(const ContactParameters &parameters,
                         const Body<dim>         &body,
-                        const LinearElastic     &material,
+                        const LinearStress<dim> &stress,
                         const Obstacles         &obstacles)
     {
       const double theta = parameters.nitsche_theta;
       const double bound = .25 * (1. + theta) * (1. + theta) *
-        nitsche_trace_constant(body, material, obstacles);
+        nitsche_trace_constant(body, stress, obstacles);
       // Equal is not enough, and both come with round-off.
       if (parameters.nitsche_gamma_0 > (1. + 1e-9) * bound)
         return;
@@ -376,22 +372,22 @@ namespace Ricochet
 
   template <int dim>
   std::unique_ptr<ContactOperator>
-  make_contact(const ContactParameters            &parameters,
-               const std::string                  &scheme,
-               const Body<dim>                    &body,
-               const std::optional<LinearElastic> &material,
-               const Obstacles                    &obstacles)
+  make_contact(const ContactParameters                     &parameters,
+               const SchemeTraits                          &scheme,
+               const Body<dim>                             &body,
+               const std::common_type_t<LinearStress<dim>> &stress,
+               const Obstacles                             &obstacles)
   {
     const Treatment &treatment = find(parameters);
     if (treatment.traits.uses_stress)
-      check_nitsche_bound(parameters, body, *material, obstacles);
+      check_nitsche_bound(parameters, body, stress, obstacles);
     ContactPoints stress_points;
-    if (material || !treatment.traits.nodal)
-      stress_points = make_quadrature_contact_points(body, material, obstacles);
+    if (stress || !treatment.traits.nodal)
+      stress_points = make_quadrature_contact_points(body, stress, obstacles);
     ContactPoints points = treatment.traits.nodal
       ? make_nodal_contact_points(body, obstacles)
       : stress_points;
-    if (!material)
+    if (!stress)
       stress_points = ContactPoints();
     if (!treatment.make_law)
       return std::make_unique<ActiveSetContact>(
@@ -401,7 +397,8 @@ namespace Ricochet
         treatment.condition,
         parameters.augmentation,
         parameters.friction_coefficient);
-    const auto &make_law = scheme == "midpoint" && treatment.make_midpoint_law
+    const auto &make_law =
+      scheme.contact_over_step && treatment.make_midpoint_law
       ? treatment.make_midpoint_law
       : treatment.make_law;
     return std::make_unique<PointwiseContact>(
@@ -483,20 +480,20 @@ namespace Ricochet
 
   template std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &,
-               const std::string &,
+               const SchemeTraits &,
                const Body<1> &,
-               const std::optional<LinearElastic> &,
+               const LinearStress<1> &,
                const Obstacles &);
   template std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &,
-               const std::string &,
+               const SchemeTraits &,
                const Body<2> &,
-               const std::optional<LinearElastic> &,
+               const LinearStress<2> &,
                const Obstacles &);
   template std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &,
-               const std::string &,
+               const SchemeTraits &,
                const Body<3> &,
-               const std::optional<LinearElastic> &,
+               const LinearStress<3> &,
                const Obstacles &);
 } // namespace Ricochet

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <contact/active_set_signature.h>
+#include <contact/treatments/active_set_signature.h>
 
 #include <deal.II/base/mpi.h>
 

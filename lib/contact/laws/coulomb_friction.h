@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ricochet_contact_coulomb_friction_h
-#define ricochet_contact_coulomb_friction_h
+#ifndef ricochet_contact_laws_coulomb_friction_h
+#define ricochet_contact_laws_coulomb_friction_h
 
 #include <deal.II/base/symmetric_tensor.h>
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_base_run_folder_h
+#define ricochet_base_run_folder_h
+
+#include <base/files.h>
+
+#include <string>
+
+namespace Ricochet
+{
+  /**
+   * The folder a run writes to, and its log. It holds `log.txt`, the parameter
+   * file as it was given, `parameters.prm` with the values of all parameters,
+   * `run.txt` that says whose run it is, and what the output classes add. All
+   * members are called on all ranks; only rank 0 touches files.
+   *
+   * One process at a time writes to a folder. What an earlier run has left is
+   * untouched until begin(): a run that is refused while it is set up leaves
+   * everything as it was.
+   */
+  class RunFolder
+  {
+  public:
+    struct Options
+    {
+      std::string path;
+      /// Name of the program.
+      std::string program;
+      /// Empty for none.
+      std::string parameter_file;
+      bool        resume    = false;
+      bool        overwrite = false;
+      bool        quiet     = false;
+    };
+
+    /**
+     * Create the folder if need be, and lock it.
+     * @throws InputError on all ranks when it cannot be created or written to,
+     * is in use, or holds the run of another program or parameter file and
+     * neither resume nor overwrite is asked for.
+     */
+    RunFolder(const Options &options, const MPI_Comm communicator);
+
+    /// Take away what an earlier run has left, unless it is resumed, and begin
+    /// the log. Called when the set-up has succeeded; further calls do nothing.
+    void
+    begin();
+
+    /// Print one line on the console and into `log.txt`.
+    /// @throws ComputationError when the disk is full.
+    void
+    log(const std::string &line);
+
+    /// Path of @p name inside the folder.
+    std::string
+    file(const std::string &name) const;
+
+    const MPI_Comm communicator;
+    const bool     is_root;
+    const bool     resume;
+
+    /// All parameters that change the results of a step, as text: a run can be
+    /// resumed only with the same. Output, final time and the settings of the
+    /// solvers are not among them.
+    std::string parameters_that_matter;
+
+    /// All parameters, for `parameters.prm`.
+    std::string all_parameters;
+
+  private:
+    void
+    check_whose_run_it_holds() const;
+
+    void
+    remove_earlier_results() const;
+
+    const Options options;
+    FolderLock    lock;
+    // What run.txt says of this run.
+    std::string identity;
+    bool        begun = false;
+    GrowingFile log_file;
+    // What was logged before begin().
+    std::string early_lines;
+  };
+} // namespace Ricochet
+
+#endif

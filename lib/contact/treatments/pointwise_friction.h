@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_treatments_pointwise_friction_h
+#define ricochet_contact_treatments_pointwise_friction_h
+
+#include <contact/kinematics/contact_kinematics.h>
+#include <contact/laws/coulomb_friction.h>
+
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * Coulomb's friction with a tangential compliance in the points of a pointwise
+   * treatment, with the mean slip rate of the step: what each point knows of stick
+   * and slip in the course of Newton's method.
+   */
+  class PointwiseFriction
+  {
+  public:
+    /// @param law none if its coefficient is 0.
+    /// @param augmentation r_0 (Pa); r_0 / h_T tells stick and slip apart.
+    PointwiseFriction(const CoulombFriction &law, const double augmentation)
+      : law(law)
+      , augmentation(augmentation)
+    {}
+
+    /// Whether there is friction.
+    bool
+    exists() const
+    {
+      return law.coefficient > 0.;
+    }
+
+    void
+    begin_stage(const double step_length)
+    {
+      time_step  = step_length;
+      n_iterates = 0;
+    }
+
+    /// The state of the last evaluate() is the next iterate.
+    void
+    accept_iterate()
+    {
+      ++n_iterates;
+      accepted_branch = branch;
+    }
+
+    /// Choose stick or slip in all points, which have the @p pressures (Pa).
+    void
+    evaluate(const std::vector<double> &pressures,
+             const ContactKinematics   &kinematics);
+
+    /// The pressure that point @p p had in evaluate() (Pa).
+    double
+    pressure(const unsigned int p) const
+    {
+      return pressures[p];
+    }
+
+    bool
+    sticks(const unsigned int p) const
+    {
+      return branch[p].sticks;
+    }
+
+    /// Pa; the same as Coulomb's at a solution.
+    dealii::Tensor<1, 3>
+    traction(const unsigned int p) const
+    {
+      return law.traction_on(branch[p], pressures[p], slip_rate[p]);
+    }
+
+    /// By how much traction() is not Coulomb's (Pa).
+    dealii::Tensor<1, 3>
+    error(const unsigned int p) const
+    {
+      return traction(p) - law.traction(pressures[p], slip_rate[p]);
+    }
+
+    /// Derivatives of traction() with respect to the way of the point over the
+    /// step, per time (Pa s/m), and to the pressure.
+    struct Derivatives
+    {
+      dealii::Tensor<2, 3> with_slip_rate;
+      dealii::Tensor<1, 3> with_pressure;
+    };
+
+    Derivatives
+    derivatives(const unsigned int       p,
+                const ContactKinematics &kinematics) const;
+
+    /// Energy taken in point @p p per area over the step (J/m^2).
+    double
+    dissipation(const unsigned int p) const
+    {
+      return time_step * (traction(p) * slip_rate[p]);
+    }
+
+    /// Traction (Pa) that round-off in the way of a sticking point can cause.
+    double
+    round_off(const unsigned int p, const ContactKinematics &kinematics) const
+    {
+      return law.tangential_compliance / time_step *
+        kinematics.way_round_off(p);
+    }
+
+  private:
+    const CoulombFriction law;
+    const double          augmentation;
+    double                time_step  = 0.;
+    unsigned int          n_iterates = 0;
+    std::vector<double>   pressures;
+    // m/s
+    std::vector<dealii::Tensor<1, 3>>    slip_rate;
+    std::vector<CoulombFriction::Branch> branch, accepted_branch;
+  };
+} // namespace Ricochet
+
+#endif
