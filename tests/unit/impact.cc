@@ -6,6 +6,7 @@
 #include "meshes.h"
 
 #include <base/exceptions.h>
+#include <output/node_probe.h>
 #include <problems/impact.h>
 
 #include <boost/test/unit_test.hpp>
@@ -86,6 +87,38 @@ BOOST_AUTO_TEST_CASE(errors_that_nobody_foresaw_leave_a_checkpoint)
       BOOST_CHECK(std::filesystem::exists(folder.file(name)));
   }
   std::filesystem::remove_all(path);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+
+BOOST_AUTO_TEST_SUITE(node_probe)
+
+// On any number of ranks the node is the nearest of all, and not of one rank's
+// part: values that are the coordinates tell which one it is.
+BOOST_AUTO_TEST_CASE(the_nearest_node_of_all)
+{
+  const CubeAbovePlane<2> cube(false, 4);
+  const Body<2>           body(cube.triangulation,
+                     1,
+                     {},
+                     {1},
+                     MultiplierSpace::none,
+                     MPI_COMM_WORLD);
+  Vector                  positions;
+  body.interpolate(dealii::FunctionFromFunctionObjects<2>(
+                     {[](const dealii::Point<2> &x) { return x[0]; },
+                      [](const dealii::Point<2> &x) { return x[1]; }}),
+                   positions);
+  for (const dealii::Point<2> &corner : {dealii::Point<2>(0., 0.),
+                                         dealii::Point<2>(1., 0.),
+                                         dealii::Point<2>(0., 1.),
+                                         dealii::Point<2>(1., 1.)})
+    {
+      const NodeProbe<2> probe(body, corner);
+      for (unsigned int c = 0; c < 2; ++c)
+        BOOST_CHECK_SMALL(probe.value(positions, c) - corner[c], 1e-14);
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
