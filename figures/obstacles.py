@@ -347,7 +347,7 @@ def checks_o1():
 
 BOWL = 2.0  # m, its radius
 START = np.array([-1.2, -0.9])
-# The fewer nodes, the sooner these runs are done; their checks do not depend on them.
+# Conservation, and the order in the time step, need no fine mesh.
 SMALL = ("Body/Boundary nodes=32",)
 
 

@@ -14,7 +14,8 @@ PATIENCE = 20.
 
 # Methods of different kinds, and longer runs than elsewhere: a kill should come
 # while something is computed.
-STEPS = {"bar_sd": 240, "bar_ss": 240, "elastic_ball": 60, "hyperelastic_ring": 40}
+STEPS = {"bar_sd": 240, "bar_ss": 240, "elastic_ball": 60, "hyperelastic_ring": 40,
+         "obstacle_course": 40}
 VARIANTS = {
     "bar_sd": [{}, {"Contact/Treatment": "Signorini active set",
                     "Time/Scheme": "HHT"}],
@@ -23,6 +24,8 @@ VARIANTS = {
     "elastic_ball": [{}, {"Contact/Treatment": "persistent contact"}],
     "hyperelastic_ring": [{}, {"Contact/Treatment": "Signorini active set",
                                "Contact/Friction coefficient": "0.2"}],
+    "obstacle_course": [{}, {"Obstacle/Translation": "0; 0.5*t",
+                             "Contact/Friction coefficient": "0.2"}],
 }
 
 

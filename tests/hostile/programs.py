@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, field
 
 BARS = ["bar_sd", "bar_ss"]
-THROWN = ["elastic_ball", "hyperelastic_ring"]
+THROWN = ["elastic_ball", "hyperelastic_ring", "obstacle_course"]
 RUNS = BARS + THROWN + ["sphere"]
 ALL = RUNS + ["spectral_radius"]
 
@@ -17,17 +17,20 @@ MESH = {
     "elastic_ball": {"Mesh/Nodes": "200", "Mesh/Boundary nodes": "32"},
     "hyperelastic_ring": {"Mesh/Nodes around": "32", "Mesh/Nodes across": "3"},
     "sphere": {"Mesh/Mesh size": "10", "Mesh/Degree": "1"},
+    "obstacle_course": {"Body/Boundary nodes": "32"},
     "spectral_radius": {"Spectrum/Points": "11"},
 }
 START = {
     "elastic_ball": {"Start/Initial gap": "0.0055"},
     "hyperelastic_ring": {"Start/Initial gap": "0.055"},
     "sphere": {"Start/Initial velocity": "0, 0, -4"},
+    "obstacle_course": {"Start/Initial velocity": "0, -2"},
 }
 FINAL_TIME = {"bar_sd": "1.5", "bar_ss": "1", "elastic_ball": "0.015",
-              "hyperelastic_ring": "0.15", "sphere": "1"}
+              "hyperelastic_ring": "0.15", "sphere": "1",
+              "obstacle_course": "0.03"}
 TIME_STEP = {"bar_sd": .05, "bar_ss": .05, "elastic_ball": .001,
-             "hyperelastic_ring": .01, "sphere": .25}
+             "hyperelastic_ring": .01, "sphere": .25, "obstacle_course": .002}
 
 
 def small(program):
