@@ -20,7 +20,8 @@ def commands_in(file, prefix):
 # What takes minutes is cut short: the command line is what is tested.
 SHORTENED = {"elastic_ball": "Time/Final time=0.01",
              "hyperelastic_ring": "Time/Final time=0.05",
-             "sphere": "Time/Final time=1"}
+             "sphere": "Time/Final time=1",
+             "obstacle_course": "Time/Final time=0.05"}
 
 
 class DocumentedCommands(ProgramTest):
