@@ -3,7 +3,7 @@
 #include <base/memory.h>
 #include <base/parameter_file.h>
 #include <discretization/body.h>
-#include <discretization/ghost_flags.h>
+#include <discretization/boundary_dofs.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -12,16 +12,13 @@
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/la_parallel_vector.h>
 #include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/numerics/vector_tools.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <string>
-#include <tuple>
 
 namespace Ricochet
 {
@@ -54,8 +51,6 @@ namespace Ricochet
       return smallest;
     }
 
-
-
     template <int dim>
     void
     refuse_inverted_cells(const Triangulation<dim> &triangulation,
@@ -79,23 +74,7 @@ namespace Ricochet
               text + ") m.");
           }
     }
-
-
-
-    /// The unknowns of the nodes on boundaries with these @p ids.
-    template <int dim>
-    IndexSet
-    boundary_dofs(const DoFHandler<dim>              &dofs,
-                  const std::set<types::boundary_id> &ids)
-    {
-      // An empty set of ids means "all boundaries" to deal.II.
-      return ids.empty()
-        ? IndexSet(dofs.n_dofs())
-        : DoFTools::extract_boundary_dofs(dofs, ComponentMask(), ids);
-    }
   } // namespace
-
-
 
   template <int dim>
   Body<dim>::Body(const Triangulation<dim> &triangulation,
@@ -157,8 +136,6 @@ namespace Ricochet
     make_sparsity_patterns();
     return_freed_memory();
   }
-
-
 
   template <int dim>
   void
@@ -243,8 +220,6 @@ namespace Ricochet
     relevant.compress();
   }
 
-
-
   template <int dim>
   types::global_dof_index
   Body<dim>::system_index(const types::global_dof_index i) const
@@ -255,8 +230,6 @@ namespace Ricochet
     return i + rank_shift[next - rank_begin.begin() - 1];
   }
 
-
-
   template <int dim>
   types::global_dof_index
   Body<dim>::multiplier_system_index(const types::global_dof_index i) const
@@ -265,8 +238,6 @@ namespace Ricochet
     return entry == multiplier_index.end() ? numbers::invalid_dof_index
                                            : entry->second;
   }
-
-
 
   template <int dim>
   void
@@ -332,8 +303,6 @@ namespace Ricochet
     component_pattern.reinit(owned, by_component, communicator);
   }
 
-
-
   template <int dim>
   void
   Body<dim>::interpolate(const Function<dim> &function, Vector &vector) const
@@ -349,8 +318,6 @@ namespace Ricochet
       vector(system_index(i)) = displacement(i);
     vector.compress(VectorOperation::insert);
   }
-
-
 
   template <int dim>
   Vector
@@ -369,219 +336,6 @@ namespace Ricochet
     return ghosted;
   }
 
-
-
-  template <int dim>
-  std::vector<types::global_dof_index>
-  Body<dim>::canonical_positions() const
-  {
-    // A key for each owned unknown: the smallest of the cells that have it, and
-    // its number there (multipliers behind displacements). All these cells are
-    // owned or ghosts.
-    using Key = std::pair<std::string, unsigned int>;
-    std::map<types::global_dof_index, Key> key_of;
-    std::vector<types::global_dof_index>   indices, cell_dofs;
-    for (const auto &cell : displacement_dofs.active_cell_iterators())
-      {
-        if (cell->is_artificial())
-          continue;
-        cell_dofs.resize(displacement_element->n_dofs_per_cell());
-        cell->get_dof_indices(cell_dofs);
-        indices.clear();
-        for (const auto i : cell_dofs)
-          indices.push_back(system_index(i));
-        if (has_multipliers())
-          {
-            cell_dofs.resize(multiplier_element->n_dofs_per_cell());
-            multiplier_cell(cell)->get_dof_indices(cell_dofs);
-            for (const auto i : cell_dofs)
-              indices.push_back(multiplier_system_index(i));
-          }
-        const auto  bytes = cell->id().template to_binary<dim>();
-        std::string name;
-        // Most significant digits first, so that strings sort like numbers.
-        for (const unsigned int word : bytes)
-          for (int shift = 24; shift >= 0; shift -= 8)
-            name += static_cast<char>(word >> shift & 0xff);
-        for (unsigned int k = 0; k < indices.size(); ++k)
-          if (owned.is_element(indices[k]))
-            {
-              const Key  key{name, k};
-              const auto known = key_of.emplace(indices[k], key).first;
-              known->second    = std::min(known->second, key);
-            }
-      }
-
-    // The first rank sorts the keys of all and tells each rank its places.
-    std::vector<std::string>  names;
-    std::vector<unsigned int> numbers;
-    for (const auto &entry : key_of)
-      {
-        names.push_back(entry.second.first);
-        numbers.push_back(entry.second.second);
-      }
-    const auto all_names   = Utilities::MPI::gather(communicator, names);
-    const auto all_numbers = Utilities::MPI::gather(communicator, numbers);
-    std::map<unsigned int, std::vector<types::global_dof_index>> places;
-    std::vector<std::tuple<Key, unsigned int, unsigned int>>     sorted;
-    for (unsigned int rank = 0; rank < all_names.size(); ++rank)
-      {
-        places[rank].resize(all_names[rank].size());
-        for (unsigned int k = 0; k < all_names[rank].size(); ++k)
-          sorted.emplace_back(Key{all_names[rank][k], all_numbers[rank][k]},
-                              rank,
-                              k);
-      }
-    std::sort(sorted.begin(), sorted.end());
-    for (std::size_t place = 0; place < sorted.size(); ++place)
-      places[std::get<1>(sorted[place])][std::get<2>(sorted[place])] = place;
-    return Utilities::MPI::some_to_some(communicator, places).at(0);
-  }
-
-
-
-  namespace
-  {
-    /// CoarseSpace::rigid_body_modes of the displacements @p dofs.
-    template <int dim>
-    std::vector<Vector>
-    rigid_body_modes(const Mapping<dim>    &mapping,
-                     const DoFHandler<dim> &dofs,
-                     const MPI_Comm         communicator)
-    {
-      // A translation and a gradient of each.
-      std::vector<std::pair<Tensor<1, dim>, Tensor<2, dim>>> modes;
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          Tensor<1, dim> translation;
-          translation[c] = 1.;
-          modes.emplace_back(translation, Tensor<2, dim>());
-        }
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int d = c + 1; d < dim; ++d)
-          {
-            Tensor<2, dim> rotation;
-            rotation[c][d] = -1.;
-            rotation[d][c] = 1.;
-            modes.emplace_back(Tensor<1, dim>(), rotation);
-          }
-      std::vector<Vector> vectors;
-      for (const auto &[translation, gradient] : modes)
-        {
-          std::vector<std::function<double(const Point<dim> &)>> components;
-          for (unsigned int c = 0; c < dim; ++c)
-            components.emplace_back([value = translation[c],
-                                     slope = gradient[c]](const Point<dim> &x) {
-              return value + slope * x;
-            });
-          vectors.emplace_back(dofs.locally_owned_dofs(), communicator);
-          VectorTools::interpolate(mapping,
-                                   dofs,
-                                   FunctionFromFunctionObjects<dim>(components),
-                                   vectors.back());
-        }
-      return vectors;
-    }
-  } // namespace
-
-
-
-  template <int dim>
-  CoarseSpace
-  Body<dim>::coarse_space() const
-  {
-    AssertThrow(!has_multipliers(),
-                ExcMessage("There is no coarse space for multipliers."));
-    CoarseSpace space;
-    if (displacement_element->degree == 1)
-      {
-        space.rigid_body_modes =
-          rigid_body_modes(*geometry, displacement_dofs, communicator);
-        return space;
-      }
-
-    // The multipliers' element is scalar, of degree 1 and on the same cells.
-    const FESystem<dim> element(*multiplier_element, dim);
-    DoFHandler<dim>     dofs(displacement_dofs.get_triangulation());
-    dofs.distribute_dofs(element);
-    const IndexSet &coarse_owned = dofs.locally_owned_dofs();
-    IndexSet        coarse_relevant;
-    DoFTools::extract_locally_relevant_dofs(dofs, coarse_relevant);
-    space.clamped     = boundary_dofs(dofs, clamped_ids) & coarse_owned;
-    Vector is_clamped = make_ghosted_vector();
-    flag_with_ghosts(clamped, is_clamped);
-    Vector is_coarse_clamped(coarse_owned, coarse_relevant, communicator);
-    flag_with_ghosts(space.clamped, is_coarse_clamped);
-    space.rigid_body_modes = rigid_body_modes(*geometry, dofs, communicator);
-
-    DynamicSparsityPattern couplings(coarse_relevant);
-    DoFTools::make_sparsity_pattern(dofs, couplings);
-    SparsityTools::distribute_sparsity_pattern(couplings,
-                                               coarse_owned,
-                                               communicator,
-                                               coarse_relevant);
-    space.pattern.reinit(coarse_owned, couplings, communicator);
-
-    // A node of the body has the values of the coarse shape functions there, the
-    // same in all cells.
-    const std::vector<Point<dim>> &nodes =
-      displacement_element->get_unit_support_points();
-    const unsigned int                   n_coarse = element.dofs_per_cell;
-    std::vector<types::global_dof_index> indices(nodes.size());
-    std::vector<types::global_dof_index> coarse_indices(n_coarse);
-    std::vector<std::map<types::global_dof_index, double>> rows(
-      relevant.n_elements());
-    for (const auto &cell : dofs.active_cell_iterators())
-      {
-        if (cell->is_artificial())
-          continue;
-        cell->get_dof_indices(coarse_indices);
-        typename DoFHandler<dim>::active_cell_iterator(
-          &dofs.get_triangulation(),
-          cell->level(),
-          cell->index(),
-          &displacement_dofs)
-          ->get_dof_indices(indices);
-        for (unsigned int i = 0; i < nodes.size(); ++i)
-          {
-            auto &row = rows[relevant.index_within_set(indices[i])];
-            if (!row.empty() || is_clamped(indices[i]) != 0.)
-              continue;
-            for (unsigned int j = 0; j < n_coarse; ++j)
-              if (const double value = element.shape_value(j, nodes[i]);
-                  displacement_element->system_to_component_index(i).first ==
-                    element.system_to_component_index(j).first &&
-                  std::abs(value) > 1e-12 &&
-                  is_coarse_clamped(coarse_indices[j]) == 0.)
-                row.emplace(coarse_indices[j], value);
-          }
-      }
-
-    space.relevant = relevant;
-    DynamicSparsityPattern parents(owned.size(), dofs.n_dofs(), owned);
-    for (unsigned int k = 0; k < rows.size(); ++k)
-      {
-        const types::global_dof_index index = relevant.nth_index_in_set(k);
-        for (const auto &[parent, value] : rows[k])
-          {
-            space.parents.add(parent, value);
-            if (owned.is_element(index))
-              parents.add(index, parent);
-          }
-        space.parents.end_functional();
-      }
-    space.prolongation.reinit(owned, coarse_owned, parents, communicator);
-    for (unsigned int k = 0; k < rows.size(); ++k)
-      if (const auto index = relevant.nth_index_in_set(k);
-          owned.is_element(index))
-        for (const auto &[parent, value] : rows[k])
-          space.prolongation.set(index, parent, value);
-    space.prolongation.compress(VectorOperation::insert);
-    return space;
-  }
-
-
-
   template <int dim>
   Vector
   Body<dim>::make_vector() const
@@ -589,15 +343,12 @@ namespace Ricochet
     return Vector(owned, communicator);
   }
 
-
-
   template <int dim>
   Vector
   Body<dim>::make_ghosted_vector() const
   {
     return Vector(owned, relevant, communicator);
   }
-
 
   template class Body<1>;
   template class Body<2>;

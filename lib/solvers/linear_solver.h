@@ -4,16 +4,13 @@
 
 #include <base/types.h>
 #include <solvers/coarse_space.h>
-#include <solvers/corrected_factorisation.h>
-#include <solvers/tangent.h>
+#include <solvers/factorisation_choice.h>
+#include <solvers/tangent_solver.h>
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <cstdint>
 #include <functional>
-#include <list>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,8 +65,6 @@ namespace Ricochet
                  const std::size_t                   n_unknowns,
                  const unsigned int                  n_ranks);
 
-    ~LinearSolver();
-
     /**
      * Solve @p tangent * @p solution = @p right_hand_side, which must be zero in
      * clamped unknowns.
@@ -90,102 +85,31 @@ namespace Ricochet
     /// not depend on what came before, so that a resumed run repeats them digit
     /// for digit.
     void
-    begin_stage()
-    {
-      stage_begins = true;
-    }
+    begin_stage();
 
     /// Number of factorisations, or set-ups of multigrid, made so far.
     unsigned int
-    n_factorisations() const
-    {
-      return factorisation_count;
-    }
+    n_factorisations() const;
 
     /// Time spent in factoring, in solving for columns of corrections, and in
     /// setting up multigrid (s).
     double
-    factorisation_seconds() const
-    {
-      return factorising;
-    }
+    factorisation_seconds() const;
 
     /// Time spent in solving with factorisations or multigrid (s).
     double
-    back_substitution_seconds() const
-    {
-      return substituting;
-    }
+    back_substitution_seconds() const;
 
     /// What is used, in words: "CHOLMOD, corrected for contact".
     std::string
     description() const;
 
   private:
-    struct Direct;
-    struct Corrected;
-    struct MultigridState;
-
-    /// @param symmetric the matrix is, or its symmetric part will do.
-    std::string
-    chosen_factorisation(const bool symmetric) const;
-
-    /// @param approximate the symmetric part of the matrix will do.
-    std::unique_ptr<Factorisation>
-    make_factorisation(const bool symmetric,
-                       const bool approximate = false) const;
-
-    Corrected
-    factorise_body(const Tangent &tangent);
-
-    void
-    solve_direct(const Tangent &tangent,
-                 const Vector  &right_hand_side,
-                 Vector        &solution,
-                 const bool     may_reuse);
-
-    void
-    solve_corrected(const Tangent &tangent,
-                    const Vector  &right_hand_side,
-                    Vector        &solution);
-
-    /// @return whether it converged.
-    bool
-    solve_iteratively(const Tangent &tangent,
-                      const Vector  &right_hand_side,
-                      Vector        &solution,
-                      const bool     may_reuse,
-                      const double   tolerance);
-
-    /// The tangent as multigrid takes it.
-    void
-    update_multigrid_tangent(const Tangent          &tangent,
-                             const dealii::IndexSet &owned,
-                             const MPI_Comm          communicator);
-
-    void
-    solve_by_multigrid(const Tangent &tangent,
-                       const Vector  &right_hand_side,
-                       Vector        &solution,
-                       const bool     may_reuse,
-                       const double   tolerance);
-
-    const Parameters                        parameters;
-    const ContactStructure                  contact;
-    const dealii::IndexSet                  clamped;
-    const bool                              linear_body;
-    const unsigned int                      dim;
-    const std::size_t                       n_unknowns;
-    const unsigned int                      n_ranks;
-    std::string                             type;
-    std::list<std::unique_ptr<Direct>>      kept_direct;
-    std::list<Corrected>                    kept_corrected;
-    std::unique_ptr<Direct>                 changing_direct;
-    std::unique_ptr<CorrectedFactorisation> changing_corrected;
-    std::unique_ptr<MultigridState>         multigrid;
-    bool                                    stage_begins        = true;
-    unsigned int                            factorisation_count = 0;
-    double                                  factorising = 0., substituting = 0.;
+    const bool                linear_body;
+    const FactorisationChoice factorisations;
+    std::string               type;
+    // The ways to solve, one after the other until one succeeds.
+    std::vector<std::unique_ptr<TangentSolver>> ways;
   };
 } // namespace Ricochet
 

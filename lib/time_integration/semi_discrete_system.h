@@ -7,6 +7,7 @@
 #include <discretization/bulk_operator.h>
 #include <solvers/linear_solver.h>
 #include <solvers/newton.h>
+#include <time_integration/stage.h>
 
 #include <functional>
 #include <string>
@@ -39,47 +40,13 @@ namespace Ricochet
   };
 
   /**
-   * One nonlinear system, as every time scheme poses it: find x such that
-   *
-   *     inertia M (x - inertia_origin) + bulk force + contact force = load,
-   *
-   * where the forces are either weighted sums of their values at the old and
-   * the new point, or those of a whole step between both.
-   */
-  struct Stage
-  {
-    /// 1/s^2
-    double inertia = 0.;
-    /// m
-    Vector inertia_origin;
-
-    /// Length of the step (s); needed by step forces, slip and predictors of the
-    /// gap, so by the midpoint scheme only.
-    double time_step = 0.;
-    /// Time of the new point (s), at which obstacles are where they are.
-    double end_time = 0.;
-
-    /// The bulk force is that of a step; its weights are not used.
-    bool   bulk_step_force = false;
-    double bulk_weight_new = 1.;
-    double bulk_weight_old = 0.;
-
-    /// With a two-point contact law, contact_weight_new is 1.
-    double contact_weight_new = 1.;
-    double contact_weight_old = 0.;
-
-    /// External load (N), already weighted.
-    Vector load;
-  };
-
-  /**
-   * The system of ordinary differential equations (or inclusions)
-   *
-   *     M a + bulk(u) + contact(u) = load(t)
-   *
-   * that time schemes integrate: paper C, (22), (23). It owns none of its parts
-   * and knows neither material nor contact treatment nor scheme.
-   */
+ * The system of ordinary differential equations (or inclusions)
+ *
+ *     M a + bulk(u) + contact(u) = load(t)
+ *
+ * that time schemes integrate: paper C, (22), (23). It owns none of its parts
+ * and knows neither material nor contact treatment nor scheme.
+ */
   class SemiDiscreteSystem
   {
   public:
@@ -107,11 +74,11 @@ namespace Ricochet
     };
 
     /**
-     * @param mass mass matrix of the equation of motion; with redistributed
-     * mass its rows on the contact boundary are zero.
-     * @param invertible_mass consistent mass matrix, for the initial
-     * acceleration.
-     */
+   * @param mass mass matrix of the equation of motion; with redistributed
+   * mass its rows on the contact boundary are zero.
+   * @param invertible_mass consistent mass matrix, for the initial
+   * acceleration.
+   */
     SemiDiscreteSystem(const Matrix                   &mass,
                        const Matrix                   &invertible_mass,
                        const BulkOperator             &bulk,
@@ -130,12 +97,12 @@ namespace Ricochet
                   const double  time);
 
     /**
-     * Solve @p stage. @p solution holds the initial guess and gets the
-     * result; @p contact_force gets the contact force at the result.
-     *
-     * @return the number of Newton iterations (linear solves).
-     * @throws NewtonFailure
-     */
+   * Solve @p stage. @p solution holds the initial guess and gets the
+   * result; @p contact_force gets the contact force at the result.
+   *
+   * @return the number of Newton iterations (linear solves).
+   * @throws NewtonFailure
+   */
     unsigned int
     solve_stage(const Stage &stage,
                 const State &old_state,
@@ -212,14 +179,6 @@ namespace Ricochet
       newton_observer;
 
   private:
-    void
-    set_clamped_to_zero(Vector &vector) const;
-
-    /// l2 norm of the displacements in a system vector (m): those of multipliers
-    /// are pressures.
-    double
-    displacement_norm(const Vector &vector) const;
-
     const Matrix &mass;
     const Matrix &invertible_mass;
     std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type> clamped_list;

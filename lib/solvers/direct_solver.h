@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_direct_solver_h
+#define ricochet_solvers_direct_solver_h
+
+#include <solvers/factorisation_choice.h>
+#include <solvers/tangent_solver.h>
+
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <optional>
+
+namespace Ricochet
+{
+  /// Factors a tangent for each state of contact and keeps the last few; tangents
+  /// without a name are factored one by one.
+  class DirectSolver : public TangentSolver
+  {
+  public:
+    DirectSolver(const FactorisationChoice &factorisations,
+                 const unsigned int         n_kept)
+      : factorisations(factorisations)
+      , n_kept(n_kept)
+    {}
+
+    /// @return true.
+    /// @throws NewtonFailure when the matrix cannot be factored.
+    bool
+    solve(const Tangent &tangent,
+          const Vector  &right_hand_side,
+          Vector        &solution,
+          const bool     may_reuse,
+          const double   tolerance) override;
+
+  private:
+    /// A factored tangent and its name.
+    struct Factored
+    {
+      std::optional<BodyKey>         body;
+      std::uint64_t                  contact = 0;
+      Matrix                         matrix;
+      std::unique_ptr<Factorisation> factorisation;
+    };
+
+    void
+    factorise(const Tangent &tangent, const bool keep_pivots, Factored &entry);
+
+    const FactorisationChoice            factorisations;
+    const unsigned int                   n_kept;
+    std::list<std::unique_ptr<Factored>> kept;
+    Factored                             changing;
+  };
+} // namespace Ricochet
+
+#endif

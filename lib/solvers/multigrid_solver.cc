@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <base/memory.h>
+#include <base/stopwatch.h>
+#include <solvers/multigrid_solver.h>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Give @p contact_matrix the part of the pattern of @p matrix that couples
+    /// the unknowns @p rows of all ranks.
+    void
+    reinit_contact_matrix(const Matrix                               &matrix,
+                          const std::vector<types::global_dof_index> &rows,
+                          Matrix &contact_matrix)
+    {
+      const IndexSet owned = matrix.locally_owned_range_indices();
+      IndexSet       contact(owned.size());
+      {
+        std::vector<types::global_dof_index> sorted = rows;
+        std::sort(sorted.begin(), sorted.end());
+        contact.add_indices(sorted.begin(), sorted.end());
+      }
+      // Not by deal.II's iterators, which copy each row.
+      const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
+      DynamicSparsityPattern  pattern(owned.size(), owned.size(), owned);
+      for (const auto row : contact &owned)
+        {
+          int  n_entries = 0;
+          int *indices   = nullptr;
+          epetra.Graph().ExtractMyRowView(
+            epetra.LRID(static_cast<TrilinosWrappers::types::int_type>(row)),
+            n_entries,
+            indices);
+          for (int k = 0; k < n_entries; ++k)
+            if (const types::global_dof_index column =
+                  epetra.GCID64(indices[k]);
+                contact.is_element(column))
+              pattern.add(row, column);
+        }
+      contact_matrix.reinit(owned, pattern, matrix.get_mpi_communicator());
+    }
+  } // namespace
+
+
+
+  MultigridSolver::MultigridSolver(const ContactStructure &contact,
+                                   const bool              linear_body,
+                                   const IndexSet         &clamped,
+                                   CoarseSpace             coarse_space)
+    : contact(contact)
+    , clamped(clamped)
+    , is_sum(linear_body && contact.functionals.has_value() &&
+             coarse_space.prolongation.m() > 0)
+    , multigrid(std::move(coarse_space), linear_body && contact.is_symmetric)
+  {
+    return_freed_memory();
+  }
+
+
+
+  void
+  MultigridSolver::update_tangent(const Tangent  &tangent,
+                                  const IndexSet &owned,
+                                  const MPI_Comm  communicator)
+  {
+    if (!current)
+      current =
+        std::make_unique<TangentOperator>(owned,
+                                          clamped,
+                                          is_sum
+                                            ? contact.functionals->functionals
+                                            : Functionals(),
+                                          communicator);
+    if (!is_sum)
+      {
+        assemble(tangent, matrix);
+        current->set_terms({{1., &matrix}});
+        return;
+      }
+
+    const unsigned int n_functionals = contact.functionals->functionals.size();
+    if (!(body == tangent.body))
+      {
+        body.reset();
+        MatrixSum terms = tangent.body_terms;
+        if (tangent.complete_contact)
+          {
+            if (matrix.m() == 0)
+              reinit_contact_matrix(*terms[0].matrix, contact.rows, matrix);
+            matrix = 0.;
+            tangent.complete_open_contact(matrix);
+            terms.push_back({1., &matrix});
+          }
+        current->set_terms(terms);
+        current->set_change(std::vector<FunctionalRow>(n_functionals));
+        const Stopwatch stopwatch(spent.factorising);
+        multigrid.set_body(*current, tangent.body_terms.size());
+        body = tangent.body;
+      }
+    std::vector<FunctionalRow> change(n_functionals);
+    if (tangent.complete_contact)
+      tangent.contact_change(change);
+    current->set_change(std::move(change));
+  }
+
+
+
+  bool
+  MultigridSolver::solve(const Tangent &tangent,
+                         const Vector  &right_hand_side,
+                         Vector        &solution,
+                         const bool     may_reuse,
+                         const double   tolerance)
+  {
+    const Name new_name{tangent.body, tangent.contact};
+    // The tangent, unless it is the same as before.
+    if (!(name == new_name) && !(may_reuse && !stage_begins && !name.contact))
+      {
+        name = {};
+        update_tangent(tangent,
+                       right_hand_side.locally_owned_elements(),
+                       right_hand_side.get_mpi_communicator());
+        name = new_name;
+      }
+    const auto set_up = [&]() {
+      const Stopwatch stopwatch(spent.factorising);
+      ++spent.n_factorisations;
+      if (!is_sum)
+        multigrid.set_body(*current, 0);
+      multigrid.setup();
+      set_up_name = new_name;
+    };
+    const auto iterate = [&]() {
+      const Stopwatch stopwatch(spent.substituting);
+      return multigrid.solve(right_hand_side, solution, tolerance);
+    };
+    // A tangent with a name gets a preconditioner of its own. Others share one
+    // within a stage, but never beyond: so results do not depend on what came
+    // before the stage.
+    if (stage_begins)
+      set_up_in_stage = false;
+    stage_begins          = false;
+    const bool   has_name = new_name.body && new_name.contact;
+    const bool   is_first = !has_name && !set_up_in_stage;
+    const double decades  = -std::log10(tolerance);
+    if (has_name ? !(set_up_name == new_name) : is_first)
+      set_up();
+    if (is_first)
+      set_up_in_stage = true;
+    int n_iterations = iterate();
+    if (is_first)
+      first_iterations_per_decade = n_iterations / decades;
+    else if (!has_name &&
+             (n_iterations < 0 ||
+              n_iterations > 5 + 2. * decades * first_iterations_per_decade))
+      {
+        // The next solution of this stage will have a better one.
+        set_up();
+        if (n_iterations < 0)
+          n_iterations = iterate();
+      }
+    if (n_iterations < 0)
+      throw NewtonFailure("Multigrid does not converge.");
+    return true;
+  }
+} // namespace Ricochet

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_multigrid_solver_h
+#define ricochet_solvers_multigrid_solver_h
+
+#include <solvers/coarse_space.h>
+#include <solvers/multigrid.h>
+#include <solvers/tangent_operator.h>
+#include <solvers/tangent_solver.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace Ricochet
+{
+  /// Solves each system by multigrid, for bodies in three dimensions whose
+  /// factorisation takes too long or too much memory.
+  class MultigridSolver : public TangentSolver
+  {
+  public:
+    /// @param clamped unknowns of this rank.
+    MultigridSolver(const ContactStructure &contact,
+                    const bool              linear_body,
+                    const dealii::IndexSet &clamped,
+                    CoarseSpace             coarse_space);
+
+    /// @return true.
+    /// @throws NewtonFailure when it does not converge.
+    bool
+    solve(const Tangent &tangent,
+          const Vector  &right_hand_side,
+          Vector        &solution,
+          const bool     may_reuse,
+          const double   tolerance) override;
+
+  private:
+    /// What a tangent was made of.
+    struct Name
+    {
+      std::optional<BodyKey>       body;
+      std::optional<std::uint64_t> contact;
+
+      bool
+      operator==(const Name &other) const
+      {
+        return body && contact && body == other.body &&
+          contact == other.contact;
+      }
+    };
+
+    /// The tangent as multigrid takes it.
+    void
+    update_tangent(const Tangent          &tangent,
+                   const dealii::IndexSet &owned,
+                   const MPI_Comm          communicator);
+
+    const ContactStructure contact;
+    const dealii::IndexSet clamped;
+    // The tangent is the sum of the body's constant terms, of open contact and
+    // of what contact does through its functionals; otherwise one matrix.
+    const bool is_sum;
+    // Open contact, or all of it.
+    Matrix                           matrix;
+    std::optional<BodyKey>           body;
+    std::unique_ptr<TangentOperator> current;
+    // Smooths with this very tangent, even when it has changed since the setup: a
+    // large body has no room for another one.
+    Multigrid multigrid;
+    Name      name, set_up_name;
+    // For tangents without a name: whether there was a set-up for them in this
+    // stage, and the iterations for a decade of the residual that it needed.
+    bool   set_up_in_stage             = false;
+    double first_iterations_per_decade = 0.;
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_tangent_solver_h
+#define ricochet_solvers_tangent_solver_h
+
+#include <solvers/tangent.h>
+
+namespace Ricochet
+{
+  /// One way to solve with the tangents of Newton's method; LinearSolver chooses.
+  class TangentSolver
+  {
+  public:
+    /// What was spent so far.
+    struct Costs
+    {
+      /// Factorisations, or set-ups of multigrid.
+      unsigned int n_factorisations = 0;
+      /// Time spent in them and in solving for columns of corrections (s).
+      double factorising = 0.;
+      /// Time spent in solving with them (s).
+      double substituting = 0.;
+    };
+
+    virtual ~TangentSolver() = default;
+
+    /// Whether it is made for such tangents.
+    virtual bool
+    takes(const Tangent & /*tangent*/) const
+    {
+      return true;
+    }
+
+    /// See LinearSolver::solve(). @return whether @p solution solves; otherwise
+    /// another way has to.
+    virtual bool
+    solve(const Tangent &tangent,
+          const Vector  &right_hand_side,
+          Vector        &solution,
+          const bool     may_reuse,
+          const double   tolerance) = 0;
+
+    /// See LinearSolver::begin_stage().
+    void
+    begin_stage()
+    {
+      stage_begins = true;
+    }
+
+    const Costs &
+    costs() const
+    {
+      return spent;
+    }
+
+  protected:
+    bool  stage_begins = true;
+    Costs spent;
+  };
+
+  /// Overwrite @p matrix with the whole @p tangent.
+  inline void
+  assemble(const Tangent &tangent, Matrix &matrix)
+  {
+    tangent.assemble_body(matrix);
+    if (tangent.complete_contact)
+      tangent.complete_contact(matrix);
+  }
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/stopwatch.h>
+#include <time_integration/stage_problem.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  StageProblem::StageProblem(const Parts  &parts,
+                             const Stage  &stage,
+                             const Vector &old_solution,
+                             const Vector &old_contact_force,
+                             const Vector &solution)
+    : parts(parts)
+    , stage(stage)
+    , old_solution(old_solution)
+    , solution(solution)
+  {
+    // What does not change during the iteration: old forces and load.
+    Vector &constant_part = parts.constant_part;
+    constant_part         = 0.;
+    if (!stage.bulk_step_force && stage.bulk_weight_old != 0.)
+      {
+        parts.bulk.force(old_solution, parts.force);
+        constant_part.add(stage.bulk_weight_old, parts.force);
+      }
+    if (stage.contact_weight_old != 0.)
+      constant_part.add(stage.contact_weight_old, old_contact_force);
+    constant_part.add(-1., stage.load);
+    constant_scale = constant_part.l2_norm();
+
+    // The forces that nearly cancel in a residual are what "small" is measured
+    // against: inertia, bulk, contact and what is constant. Inertia and bulk
+    // forces are small differences of large numbers when the step is short or
+    // the body far from where it started, and so is a small gap; their
+    // round-off remains, whatever Newton's method does.
+    parts.mass.vmult(parts.work, stage.inertia_origin);
+    bulk_round_off = 4. * std::numeric_limits<double>::epsilon() *
+      (stage.inertia * parts.work.l2_norm() +
+       parts.bulk.stiffness_scale() * displacement_norm(stage.inertia_origin));
+  }
+
+  NewtonSolver::Problem
+  StageProblem::for_newton()
+  {
+    return {[this](const Vector &point, Vector &result) {
+              residual(point, result);
+            },
+            [this](const Vector &right_hand_side,
+                   Vector       &update,
+                   const bool    may_reuse,
+                   const double  tolerance) {
+              solve(right_hand_side, update, may_reuse, tolerance);
+            },
+            [this](const Vector &result) { return norm(result); },
+            [this]() { parts.contact.accept_iterate(); },
+            [this]() { return parts.contact.active_set_description(); },
+            [this]() { return force_scale; },
+            [this]() {
+              return bulk_round_off +
+                stage.contact_weight_new * parts.contact.round_off();
+            },
+            &old_solution};
+  }
+
+  void
+  StageProblem::forget_tangents()
+  {
+    parts.linear_solver.begin_stage();
+    factored_active_set.reset();
+  }
+
+  void
+  StageProblem::residual(const Vector &point, Vector &result)
+  {
+    const Stopwatch stopwatch(parts.residual_seconds);
+    parts.work = point;
+    parts.work -= stage.inertia_origin;
+    parts.mass.vmult(result, parts.work);
+    result *= stage.inertia;
+    force_scale = constant_scale + result.l2_norm();
+    if (stage.bulk_step_force)
+      {
+        parts.bulk.step_force(old_solution,
+                              point,
+                              stage.time_step,
+                              parts.force);
+        force_scale += parts.force.l2_norm();
+        result += parts.force;
+      }
+    else
+      {
+        parts.bulk.force(point, parts.force);
+        force_scale += parts.force.l2_norm();
+        result.add(stage.bulk_weight_new, parts.force);
+      }
+    result += parts.constant_part;
+    parts.contact.complete_residual(point, result);
+    force_scale +=
+      stage.contact_weight_new * parts.contact.contact_force().l2_norm();
+    set_clamped_to_zero(parts.clamped, result);
+  }
+
+  Tangent
+  StageProblem::tangent()
+  {
+    const double bulk_weight =
+      stage.bulk_step_force ? .5 : stage.bulk_weight_new;
+    Tangent tangent;
+    if (parts.bulk.is_linear())
+      {
+        tangent.body =
+          BodyKey{stage.inertia, bulk_weight, stage.contact_weight_new};
+        tangent.contact    = parts.contact.tangent_signature();
+        tangent.body_terms = stage.bulk_step_force
+          ? parts.bulk.step_tangent_terms(stage.time_step)
+          : parts.bulk.tangent_terms(bulk_weight);
+        AssertThrow(!tangent.body_terms.empty(), ExcInternalError());
+        tangent.body_terms.push_back({stage.inertia, &parts.mass});
+      }
+    tangent.assemble_body = [this, bulk_weight](Matrix &matrix) {
+      const Stopwatch stopwatch(parts.tangent_seconds);
+      if (matrix.n_nonzero_elements() == parts.pattern.n_nonzero_elements())
+        matrix = 0.;
+      else
+        matrix.reinit(parts.pattern);
+      matrix.add(stage.inertia, parts.mass);
+      if (stage.bulk_step_force)
+        parts.bulk.add_step_tangent(old_solution,
+                                    solution,
+                                    stage.time_step,
+                                    matrix);
+      else
+        parts.bulk.add_tangent(bulk_weight, solution, matrix);
+    };
+    const auto complete = [this](void (TangentContact::*add)(Matrix &) const) {
+      return [this, add](Matrix &matrix) {
+        const Stopwatch stopwatch(parts.tangent_seconds);
+        (parts.contact.*add)(matrix);
+        matrix.clear_rows(parts.clamped, 1.);
+      };
+    };
+    tangent.complete_contact = complete(&TangentContact::complete_tangent);
+    tangent.complete_open_contact =
+      complete(&TangentContact::complete_open_tangent);
+    tangent.contact_change = [this](std::vector<FunctionalRow> &change) {
+      const Stopwatch stopwatch(parts.tangent_seconds);
+      parts.contact.tangent_change(change);
+    };
+    return tangent;
+  }
+
+  void
+  StageProblem::solve(const Vector &right_hand_side,
+                      Vector       &update,
+                      const bool    may_reuse,
+                      const double  tolerance)
+  {
+    ++iterations;
+    const Tangent       current    = tangent();
+    const bool          has_name   = current.body && current.contact;
+    const std::uint64_t active_set = parts.contact.active_set_signature();
+    const bool          reuse =
+      may_reuse && !has_name && factored_active_set == active_set;
+    if (!has_name)
+      factored_active_set = active_set;
+    parts.linear_solver.solve(current,
+                              right_hand_side,
+                              update,
+                              reuse,
+                              tolerance);
+  }
+
+  double
+  StageProblem::norm(const Vector &result)
+  {
+    parts.work = result;
+    parts.work.scale(parts.contact.row_scaling());
+    return parts.work.l2_norm() +
+      stage.contact_weight_new * parts.contact.linearisation_error();
+  }
+
+  double
+  StageProblem::displacement_norm(const Vector &vector) const
+  {
+    const double      *values = vector.trilinos_vector()[0];
+    const unsigned int n = vector.locally_owned_size() - parts.n_multipliers;
+    const double square  = std::inner_product(values, values + n, values, 0.);
+    return std::sqrt(
+      Utilities::MPI::sum(square, parts.mass.get_mpi_communicator()));
+  }
+
+  void
+  set_clamped_to_zero(
+    const std::vector<TrilinosWrappers::SparseMatrix::size_type> &clamped,
+    Vector                                                       &vector)
+  {
+    for (const auto i : clamped)
+      vector(i) = 0. * vector(i);
+    vector.compress(VectorOperation::insert);
+  }
+} // namespace Ricochet

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_time_integration_stage_problem_h
+#define ricochet_time_integration_stage_problem_h
+
+#include <contact/contact_operator.h>
+#include <discretization/bulk_operator.h>
+#include <solvers/linear_solver.h>
+#include <solvers/newton.h>
+#include <time_integration/stage.h>
+
+#include <optional>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+ * The nonlinear system of one stage, as Newton's method sees it: residual,
+ * tangent, norms, and what "small" is measured against.
+ */
+  class StageProblem
+  {
+  public:
+    /// What stays the same for all stages. All of it must outlive the problem.
+    struct Parts
+    {
+      const Matrix       &mass;
+      const BulkOperator &bulk;
+      ContactOperator    &contact;
+      LinearSolver       &linear_solver;
+      /// Unknowns of zero displacement on this rank.
+      const std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type>
+        &clamped;
+      /// Of this rank; they are the last of its unknowns.
+      unsigned int n_multipliers = 0;
+      /// Of the tangents.
+      const dealii::TrilinosWrappers::SparsityPattern &pattern;
+      /// s, summed up.
+      double &residual_seconds, &tangent_seconds;
+      // Work space, so that nothing is allocated in a time step.
+      Vector &work, &force, &constant_part;
+    };
+
+    /// @param solution the iterate: residuals are looked at elsewhere, too, but
+    /// tangents are those of this vector.
+    StageProblem(const Parts  &parts,
+                 const Stage  &stage,
+                 const Vector &old_solution,
+                 const Vector &old_contact_force,
+                 const Vector &solution);
+
+    /// What NewtonSolver::solve() takes.
+    NewtonSolver::Problem
+    for_newton();
+
+    /// Begin anew: no tangent of another stage may be used, so that a resumed run
+    /// does the same.
+    void
+    forget_tangents();
+
+    /// Linear solves made, those of a first attempt that failed included.
+    unsigned int
+    n_iterations() const
+    {
+      return iterations;
+    }
+
+  private:
+    void
+    residual(const Vector &point, Vector &result);
+
+    void
+    solve(const Vector &right_hand_side,
+          Vector       &update,
+          const bool    may_reuse,
+          const double  tolerance);
+
+    /// The tangent at the iterate.
+    Tangent
+    tangent();
+
+    double
+    norm(const Vector &result);
+
+    /// l2 norm of the displacements in a system vector (m): those of multipliers
+    /// are pressures.
+    double
+    displacement_norm(const Vector &vector) const;
+
+    const Parts   parts;
+    const Stage  &stage;
+    const Vector &old_solution, &solution;
+    double        constant_scale = 0., force_scale = 0.;
+    double        bulk_round_off = 0.;
+    unsigned int  iterations     = 0;
+    // Which points are active in the tangent without a name, if there is one.
+    std::optional<std::uint64_t> factored_active_set;
+  };
+
+  /// Set the @p clamped entries of @p vector to zero. What is not a number stays
+  /// so: it may be the mark of an element that is turned inside out.
+  void
+  set_clamped_to_zero(
+    const std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type>
+           &clamped,
+    Vector &vector);
+} // namespace Ricochet
+
+#endif
