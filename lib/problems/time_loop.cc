@@ -293,7 +293,7 @@ namespace Ricochet
                     sizeof(modified_energy),
                     "%.7e",
                     value("modified_energy"));
-    char line[160];
+    char line[200];
     std::snprintf(line,
                   sizeof(line),
                   "%8u/%-8u %12.6g %14.7e %14s %10.2e %12.4e %7.0f %7.0f%s",
