@@ -8,6 +8,9 @@
 #include <base/exceptions.h>
 #include <output/node_probe.h>
 #include <problems/impact.h>
+#include <problems/round_meshes.h>
+
+#include <deal.II/distributed/tria.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -92,20 +95,55 @@ BOOST_AUTO_TEST_CASE(errors_that_nobody_foresaw_leave_a_checkpoint)
 BOOST_AUTO_TEST_SUITE_END()
 
 
+namespace
+{
+  double
+  area_of(const dealii::Triangulation<2> &mesh)
+  {
+    double area = 0.;
+    for (const auto &cell : mesh.active_cell_iterators())
+      area += cell->measure();
+    return area;
+  }
+} // namespace
+
+
+BOOST_AUTO_TEST_SUITE(round_meshes)
+
+// The area of a polygon of n edges with the radius r is n/2 r^2 sin(2 pi/n).
+BOOST_AUTO_TEST_CASE(areas_by_hand)
+{
+  const unsigned int n      = 24;
+  const double       factor = .5 * n * std::sin(2. * dealii::numbers::PI / n);
+  for (const CellShape shape :
+       {CellShape::triangles, CellShape::quadrilaterals})
+    {
+      dealii::Triangulation<2> ring;
+      make_ring(dealii::Point<2>(3., 1.), .8, 1., n, 4, shape, ring);
+      BOOST_CHECK_EQUAL(ring.n_vertices(), 4 * n);
+      BOOST_CHECK_CLOSE(area_of(ring), factor * (1. - .64), 1e-10);
+    }
+  dealii::Triangulation<2> disk;
+  make_disk_of_triangles(dealii::Point<2>(3., 1.), 2., n, 61, disk);
+  BOOST_CHECK_EQUAL(disk.n_vertices(), 61u);
+  BOOST_CHECK_CLOSE(area_of(disk), factor * 4., 1e-10);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+
 BOOST_AUTO_TEST_SUITE(node_probe)
 
 // On any number of ranks the node is the nearest of all, and not of one rank's
 // part: values that are the coordinates tell which one it is.
 BOOST_AUTO_TEST_CASE(the_nearest_node_of_all)
 {
-  const CubeAbovePlane<2> cube(false, 4);
-  const Body<2>           body(cube.triangulation,
-                     1,
-                     {},
-                     {1},
-                     MultiplierSpace::none,
-                     MPI_COMM_WORLD);
-  Vector                  positions;
+  // A mesh of which each rank knows its part and what is next to it only.
+  dealii::parallel::distributed::Triangulation<2> mesh(MPI_COMM_WORLD);
+  dealii::GridGenerator::hyper_cube(mesh);
+  mesh.refine_global(3);
+  const Body<2> body(mesh, 1, {}, {0}, MultiplierSpace::none, MPI_COMM_WORLD);
+  Vector        positions;
   body.interpolate(dealii::FunctionFromFunctionObjects<2>(
                      {[](const dealii::Point<2> &x) { return x[0]; },
                       [](const dealii::Point<2> &x) { return x[1]; }}),
