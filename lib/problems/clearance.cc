@@ -49,6 +49,26 @@ namespace Ricochet
 
 
 
+  void
+  check_motions(const SchemeTraits &scheme, const Obstacles &obstacles)
+  {
+    if (!scheme.needs_potential)
+      return;
+    std::string allowed;
+    for (const SchemeTraits &other : all_scheme_traits())
+      if (!other.needs_potential)
+        allowed += (allowed.empty() ? "" : ", ") + other.name;
+    for (const auto &entry : obstacles)
+      if (!entry.second->motion().is_at_rest())
+        throw InputError(
+          "The time scheme " + scheme.name +
+          " cannot be combined with an obstacle that moves: it "
+          "reads the work of contact off a potential.\nAllowed: " +
+          allowed + ".");
+  }
+
+
+
   template <int dim>
   void
   check_clearance(const Body<dim> &body, const Obstacles &obstacles)

@@ -4,9 +4,14 @@
 
 #include <contact/obstacles/rigid_obstacle.h>
 #include <discretization/body.h>
+#include <time_integration/scheme_traits.h>
 
 namespace Ricochet
 {
+  /// Obstacles that move go with the time @p scheme. @throws InputError
+  void
+  check_motions(const SchemeTraits &scheme, const Obstacles &obstacles);
+
   /**
    * The undeformed @p body and the @p obstacles at time 0 do not overlap. Vertices
    * of the mesh are looked at, and the centre of each obstacle: an overlap at the

@@ -141,11 +141,7 @@ namespace Ricochet
              parameters.linear_solver)
     , scheme(make_time_scheme(parameters.scheme))
   {
-    if (contact->has_moving_obstacles() &&
-        scheme_traits(parameters.scheme.name).needs_potential)
-      throw InputError("The time scheme " + parameters.scheme.name +
-                       " cannot be combined with an obstacle that moves: it "
-                       "reads the work of contact off a potential.");
+    check_motions(scheme_traits(parameters.scheme.name), obstacles);
   }
 
 

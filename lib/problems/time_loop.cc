@@ -132,7 +132,7 @@ namespace Ricochet
       {
         StepReport report =
           scheme.step(system, old_state, time_step, new_state);
-        if (obstacle_work)
+        if (obstacle_work && system.contact.has_moving_obstacles())
           {
             Vector force(new_state.contact_force);
             if (!scheme.contact_force_is_of_step())

@@ -40,12 +40,12 @@
 //     obstacle_course parameter_files/obstacle_course/default.prm
 //     obstacle_course --print-parameters
 
-#include <base/exceptions.h>
 #include <base/program.h>
 #include <contact/obstacles/obstacle_parameters.h>
 #include <materials/material_parameters.h>
 #include <output/obstacle_work.h>
 #include <output/vtu_series.h>
+#include <problems/clearance.h>
 #include <problems/thrown_body.h>
 
 #include <deal.II/distributed/shared_tria.h>
@@ -182,12 +182,8 @@ ObstacleCourse::validate() const
   material.validate(2, impact.scheme.name);
   impact.validate(material.law == "linear elastic",
                   material.viscosity != "none" && material.viscosity_eta > 0.);
-  const auto rigid = obstacle.make(impact.time.final_time);
-  if (impact.scheme.name == "ARKODE" && !rigid->motion().is_at_rest())
-    throw InputError(
-      "The time scheme ARKODE cannot be combined with an obstacle that moves: "
-      "it reads the work of contact off a potential.\nAllowed: Crank-Nicolson, "
-      "HHT, TR-BDF2, midpoint.");
+  check_motions(scheme_traits(impact.scheme.name),
+                {{surface, obstacle.make(impact.time.final_time)}});
   impact.check_size(2. * n_boundary_nodes * n_boundary_nodes / 8., 2);
   Triangulation<2> triangulation;
   make_grid(triangulation);

@@ -136,10 +136,7 @@ namespace Ricochet
     force.compress(VectorOperation::add);
     if (friction.exists())
       {
-        std::vector<double> pressures(state.size());
-        for (unsigned int p = 0; p < state.size(); ++p)
-          pressures[p] = positive_part(-point_force[p].gap);
-        friction.evaluate(pressures, *kinematics);
+        friction.evaluate(point_force, *kinematics);
         friction_part = 0.;
         for (unsigned int p = 0; p < state.size(); ++p)
           if (friction_acts(p))

@@ -8,15 +8,16 @@ namespace Ricochet
   using dealii::Tensor;
 
   void
-  PointwiseFriction::evaluate(const std::vector<double> &new_pressures,
-                              const ContactKinematics   &kinematics)
+  PointwiseFriction::evaluate(const std::vector<ContactPointForce<>> &forces,
+                              const ContactKinematics &kinematics)
   {
-    pressures                   = new_pressures;
-    const unsigned int n_points = pressures.size();
+    const unsigned int n_points = forces.size();
+    pressures.resize(n_points);
     slip_rate.assign(n_points, Tensor<1, 3>());
     branch.resize(n_points);
     for (unsigned int p = 0; p < n_points; ++p)
       {
+        pressures[p] = positive_part(-forces[p].gap);
         // Where nothing presses, geometry may be that of another state.
         if (kinematics.has_constant_rows() || pressures[p] > 0.)
           slip_rate[p] = kinematics.geometry(p).slip() / time_step;

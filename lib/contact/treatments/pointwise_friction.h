@@ -46,10 +46,10 @@ namespace Ricochet
       accepted_branch = branch;
     }
 
-    /// Choose stick or slip in all points, which have the @p pressures (Pa).
+    /// Choose stick or slip in all points, in which the law has the @p forces.
     void
-    evaluate(const std::vector<double> &pressures,
-             const ContactKinematics   &kinematics);
+    evaluate(const std::vector<ContactPointForce<>> &forces,
+             const ContactKinematics                &kinematics);
 
     /// The pressure that point @p p had in evaluate() (Pa).
     double
