@@ -6,6 +6,7 @@
 #include <contact/contact_report.h>
 #include <contact/kinematics/contact_kinematics.h>
 #include <solvers/tangent.h>
+#include <solvers/united_pattern.h>
 
 #include <cstdint>
 #include <optional>
@@ -111,6 +112,14 @@ namespace Ricochet
     /// Complete @p tangent as if all points were open.
     virtual void
     complete_open_tangent(Matrix &tangent) const = 0;
+
+    /// What complete_tangent() couples at the last complete_residual() beyond the
+    /// couplings of the body; null if it never does. Collective.
+    virtual const Couplings *
+    couplings()
+    {
+      return nullptr;
+    }
 
     /// How complete_tangent() enters a tangent: contact spreads by initial gap.
     /// It is symmetric if it keeps a symmetric tangent symmetric, but for

@@ -73,6 +73,13 @@ namespace Ricochet
     virtual bool
     has_moving_obstacles() const = 0;
 
+    /// Whether there may be times at which no point has a gap.
+    virtual bool
+    gaps_may_be_unknown() const
+    {
+      return false;
+    }
+
     /// Contact pressure (Pa), as a field for pictures: the average around each
     /// node of the contact boundary, in the place of the node's first
     /// displacement; zero elsewhere. It depends on the arguments alone: in nodes

@@ -82,7 +82,8 @@ namespace Ricochet
                   const BoundaryIds        &clamped_ids,
                   const BoundaryIds        &contact_ids,
                   const MultiplierSpace     multipliers,
-                  const MPI_Comm            communicator)
+                  const MPI_Comm            communicator,
+                  const HeldComponents     &held)
     : communicator(communicator)
     , displacement_dofs(triangulation)
     , multiplier_dofs(triangulation)
@@ -90,11 +91,14 @@ namespace Ricochet
     , clamped_ids(clamped_ids)
     , contact_ids(contact_ids)
   {
+    const unsigned int n_multipliers =
+      multipliers == MultiplierSpace::linear_vector ? dim : 1;
     if (triangulation.all_reference_cells_are_hyper_cube())
       {
         displacement_element =
           std::make_unique<FESystem<dim>>(FE_Q<dim>(degree), dim);
-        multiplier_element = std::make_unique<FE_Q<dim>>(1);
+        multiplier_element =
+          std::make_unique<FESystem<dim>>(FE_Q<dim>(1), n_multipliers);
         // MappingQ and not MappingFE: the latter knows no faces in 1D.
         geometry  = std::make_unique<MappingQ<dim>>(1);
         cell_rule = std::make_unique<QGauss<dim>>(degree + 1);
@@ -104,7 +108,8 @@ namespace Ricochet
       {
         displacement_element =
           std::make_unique<FESystem<dim>>(FE_SimplexP<dim>(degree), dim);
-        multiplier_element = std::make_unique<FE_SimplexP<dim>>(1);
+        multiplier_element =
+          std::make_unique<FESystem<dim>>(FE_SimplexP<dim>(1), n_multipliers);
         geometry  = std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
         cell_rule = std::make_unique<QGaussSimplex<dim>>(degree + 1);
         face_rule = std::make_unique<QGaussSimplex<dim - 1>>(degree + 1);
@@ -118,23 +123,83 @@ namespace Ricochet
     displacement_dofs.distribute_dofs(*displacement_element);
     number_multipliers();
 
-    const auto system_set = [&](const IndexSet &displacement_set) {
-      IndexSet set(owned.size());
-      for (const types::global_dof_index i : displacement_set)
-        {
-          const types::global_dof_index index = system_index(i);
-          if (owned.is_element(index))
-            set.add_index(index);
-        }
-      set.compress();
-      return set;
-    };
-    clamped = system_set(boundary_dofs(displacement_dofs, clamped_ids));
+    clamped =
+      owned_system_indices(boundary_dofs(displacement_dofs, clamped_ids));
+    for (const auto &[id, components] : held)
+      for (unsigned int c = 0; c < dim; ++c)
+        if (components[c])
+          clamped.add_indices(boundary_displacements(id, c));
+    clamped.compress();
     contact_displacements =
-      system_set(boundary_dofs(displacement_dofs, contact_ids));
+      owned_system_indices(boundary_dofs(displacement_dofs, contact_ids));
 
     make_sparsity_patterns();
     return_freed_memory();
+  }
+
+  template <int dim>
+  IndexSet
+  Body<dim>::owned_system_indices(const IndexSet &displacement_set) const
+  {
+    IndexSet set(owned.size());
+    for (const types::global_dof_index i : displacement_set)
+      {
+        const types::global_dof_index index = system_index(i);
+        if (owned.is_element(index))
+          set.add_index(index);
+      }
+    set.compress();
+    return set;
+  }
+
+  template <int dim>
+  IndexSet
+  Body<dim>::boundary_displacements(const types::boundary_id id,
+                                    const unsigned int       component) const
+  {
+    ComponentMask mask(dim, false);
+    mask.set(component, true);
+    return owned_system_indices(
+      DoFTools::extract_boundary_dofs(displacement_dofs, mask, {id}));
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  Body<dim>::parts_of_unknowns(const unsigned int n_parts) const
+  {
+    std::vector<unsigned int>            parts(owned.n_elements(), n_parts);
+    std::vector<unsigned int>            n_cells(n_parts, 0);
+    std::vector<types::global_dof_index> indices(
+      displacement_element->n_dofs_per_cell());
+    unsigned int largest = 0;
+    for (const auto &cell : displacement_dofs.active_cell_iterators())
+      {
+        if (cell->is_artificial())
+          continue;
+        const unsigned int own = part(cell, n_parts);
+        largest                = std::max(largest, own);
+        if (own >= n_parts)
+          continue;
+        n_cells[own] += cell->is_locally_owned();
+        cell->get_dof_indices(indices);
+        for (const auto i : indices)
+          if (const auto index = system_index(i); owned.is_element(index))
+            {
+              unsigned int &known = parts[owned.index_within_set(index)];
+              known               = std::min(known, own);
+            }
+      }
+    largest = Utilities::MPI::max(largest, communicator);
+    if (largest >= n_parts)
+      throw InputError("The mesh has cells with the material id " +
+                       std::to_string(largest) + ", but there are " +
+                       std::to_string(n_parts) +
+                       " parts: ids are the numbers of parts, from 0.");
+    for (unsigned int p = 0; p < n_parts; ++p)
+      if (Utilities::MPI::sum(n_cells[p], communicator) == 0)
+        throw InputError("The mesh has no cell of part " + std::to_string(p) +
+                         ", that is with this material id.");
+    return parts;
   }
 
   template <int dim>

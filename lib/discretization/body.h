@@ -13,6 +13,7 @@
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <set>
@@ -25,7 +26,9 @@ namespace Ricochet
   {
     none,
     /// Continuous, piecewise linear: W^h of paper C, (4).
-    linear
+    linear,
+    /// As many as there are directions: one for pressure, the others for traction.
+    linear_vector
   };
 
   /**
@@ -45,19 +48,25 @@ namespace Ricochet
   {
   public:
     using BoundaryIds = std::set<dealii::types::boundary_id>;
+    /// Which components of the displacement are prescribed, by boundary id.
+    using HeldComponents =
+      std::map<dealii::types::boundary_id, std::array<bool, dim>>;
 
     /**
      * @param triangulation any of deal.II's, all cells of the same kind.
      * @param degree polynomial degree of the displacement.
      * @param clamped boundary ids with zero displacement.
      * @param contact boundary ids that can touch the obstacle.
+     * @param held boundary ids of which some components of the displacement are
+     * prescribed.
      */
     Body(const dealii::Triangulation<dim> &triangulation,
          const unsigned int                degree,
          const BoundaryIds                &clamped,
          const BoundaryIds                &contact,
          const MultiplierSpace             multipliers,
-         const MPI_Comm                    communicator);
+         const MPI_Comm                    communicator,
+         const HeldComponents             &held = {});
 
     /// System index of displacement DoF @p i of the DoFHandler.
     dealii::types::global_dof_index
@@ -125,6 +134,22 @@ namespace Ricochet
       return multiplier_dofs;
     }
 
+    /// A body may be made of parts that do not hang together, or differ in what they
+    /// are made of: which of @p n_parts the @p cell belongs to, by its material id.
+    /// With one part ids do not matter.
+    unsigned int
+    part(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
+         const unsigned int n_parts) const
+    {
+      return n_parts > 1 ? cell->material_id() : 0;
+    }
+
+    /// The part of each owned displacement, in the order of owned_indices(); where
+    /// two parts meet, the first. @throws InputError when a cell belongs to none of
+    /// @p n_parts, or a part has no cell.
+    std::vector<unsigned int>
+    parts_of_unknowns(const unsigned int n_parts) const;
+
     /// The cell of multiplier_dof_handler() behind @p cell of dof_handler().
     typename dealii::DoFHandler<dim>::active_cell_iterator
     multiplier_cell(
@@ -166,7 +191,13 @@ namespace Ricochet
       return contact_ids;
     }
 
-    /// Owned system indices whose displacement is prescribed to be zero.
+    /// Owned system indices of the displacements in direction @p component of nodes
+    /// on the boundary @p id. Collective.
+    dealii::IndexSet
+    boundary_displacements(const dealii::types::boundary_id id,
+                           const unsigned int               component) const;
+
+    /// Owned system indices whose displacement is prescribed.
     const dealii::IndexSet &
     clamped_indices() const
     {
@@ -197,6 +228,10 @@ namespace Ricochet
     const MPI_Comm communicator;
 
   private:
+    /// The owned ones of displacements of the DoFHandler, as system indices.
+    dealii::IndexSet
+    owned_system_indices(const dealii::IndexSet &displacement_set) const;
+
     void
     number_multipliers();
 
@@ -204,7 +239,7 @@ namespace Ricochet
     make_sparsity_patterns();
 
     std::unique_ptr<dealii::FESystem<dim>>       displacement_element;
-    std::unique_ptr<dealii::FiniteElement<dim>>  multiplier_element;
+    std::unique_ptr<dealii::FESystem<dim>>       multiplier_element;
     std::unique_ptr<dealii::Mapping<dim>>        geometry;
     std::unique_ptr<dealii::Quadrature<dim>>     cell_rule;
     std::unique_ptr<dealii::Quadrature<dim - 1>> face_rule;

@@ -5,6 +5,7 @@
 #include <base/types.h>
 
 #include <string>
+#include <vector>
 
 namespace Ricochet
 {
@@ -69,6 +70,10 @@ namespace Ricochet
     /// Stored energy (J).
     virtual double
     energy(const Vector &solution) const = 0;
+
+    /// The same for each part of the body, see Body::part().
+    virtual std::vector<double>
+    energies_of_parts(const Vector &solution) const = 0;
 
     /// Energy (J) that viscosity takes in a step; never negative.
     virtual double

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace Ricochet
 {
@@ -60,15 +61,17 @@ namespace Ricochet
 
 
   template <int dim>
-  HyperelasticBulk<dim>::HyperelasticBulk(const Body<dim>     &body,
-                                          const Material<dim> &material)
-    : material(material)
+  HyperelasticBulk<dim>::HyperelasticBulk(
+    const Body<dim>                  &body,
+    const std::vector<Material<dim>> &materials)
+    : materials(materials)
     , communicator(body.communicator)
     , ghosted_old(body.make_ghosted_vector())
     , ghosted_new(body.make_ghosted_vector())
   {
-    AssertThrow(material.hyperelastic,
-                ExcMessage("The material is not hyperelastic."));
+    for (const Material<dim> &material : materials)
+      AssertThrow(material.hyperelastic,
+                  ExcMessage("The material is not hyperelastic."));
     const FiniteElement<dim> &element = body.dof_handler().get_fe();
 
     // The gradients of linear simplices are constant: one point is enough.
@@ -103,6 +106,7 @@ namespace Ricochet
 
         ++n_cells;
         cell_is_owned.push_back(cell->is_locally_owned());
+        cell_part.push_back(body.part(cell, materials.size()));
         cell_centers.push_back(cell->center());
         for (unsigned int a = 0; a < n_nodes; ++a)
           for (unsigned int c = 0; c < dim; ++c)
@@ -257,7 +261,8 @@ namespace Ricochet
             // C_new - C_old = 2 sym(F_mean^T (F_new - F_old)), without
             // cancellation.
             const Tensor<2, dim> mean_f = old_f + .5 * difference_f;
-            stress_function(symmetrize(transpose(old_f) * old_f),
+            stress_function(materials[cell_part[cell]],
+                            symmetrize(transpose(old_f) * old_f),
                             2. * symmetrize(transpose(mean_f) * difference_f),
                             stress,
                             nullptr);
@@ -317,7 +322,8 @@ namespace Ricochet
           {
             deformation(cell, q, old_f, difference_f);
             const Tensor<2, dim> mean_f = old_f + .5 * difference_f;
-            stress_function(symmetrize(transpose(old_f) * old_f),
+            stress_function(materials[cell_part[cell]],
+                            symmetrize(transpose(old_f) * old_f),
                             2. * symmetrize(transpose(mean_f) * difference_f),
                             stress,
                             &stress_derivative);
@@ -383,28 +389,31 @@ namespace Ricochet
 
 
   template <int dim>
-  double
+  std::vector<double>
   HyperelasticBulk<dim>::integrate(
-    const std::function<double(const Symmetric2 &, const Symmetric2 &)>
-                 &density,
-    const Vector &old_solution,
-    const Vector &new_solution) const
+    const std::function<double(const Material<dim> &,
+                               const Symmetric2 &,
+                               const Symmetric2 &)> &density,
+    const Vector                                    &old_solution,
+    const Vector                                    &new_solution) const
   {
-    ghosted_old        = old_solution;
-    ghosted_new        = new_solution;
-    double         sum = 0.;
-    Tensor<2, dim> old_f, difference_f;
+    ghosted_old = old_solution;
+    ghosted_new = new_solution;
+    std::vector<double> my_sums(materials.size(), 0.), sums(materials.size());
+    Tensor<2, dim>      old_f, difference_f;
     for (unsigned int cell = 0; cell < n_cells; ++cell)
       if (cell_is_owned[cell])
         for (unsigned int q = 0; q < n_points; ++q)
           {
             deformation(cell, q, old_f, difference_f);
             const Tensor<2, dim> mean_f = old_f + .5 * difference_f;
-            sum += jxw[cell * n_points + q] *
-              density(symmetrize(transpose(old_f) * old_f),
+            my_sums[cell_part[cell]] += jxw[cell * n_points + q] *
+              density(materials[cell_part[cell]],
+                      symmetrize(transpose(old_f) * old_f),
                       2. * symmetrize(transpose(mean_f) * difference_f));
           }
-    return Utilities::MPI::sum(sum, communicator);
+    Utilities::MPI::sum(my_sums, communicator, sums);
+    return sums;
   }
 
 
@@ -413,10 +422,11 @@ namespace Ricochet
   typename HyperelasticBulk<dim>::StressFunction
   HyperelasticBulk<dim>::collocation_stress() const
   {
-    return [this](const Symmetric2 &old_c,
-                  const Symmetric2 &difference,
-                  Symmetric2       &stress,
-                  Symmetric4       *tangent) {
+    return [](const Material<dim> &material,
+              const Symmetric2    &old_c,
+              const Symmetric2    &difference,
+              Symmetric2          &stress,
+              Symmetric4          *tangent) {
       if (tangent)
         {
           material.hyperelastic->derivatives(old_c + difference,
@@ -436,10 +446,11 @@ namespace Ricochet
   typename HyperelasticBulk<dim>::StressFunction
   HyperelasticBulk<dim>::step_stress(const double time_step) const
   {
-    return [this, time_step](const Symmetric2 &old_c,
-                             const Symmetric2 &difference,
-                             Symmetric2       &stress,
-                             Symmetric4       *tangent) {
+    return [time_step](const Material<dim> &material,
+                       const Symmetric2    &old_c,
+                       const Symmetric2    &difference,
+                       Symmetric2          &stress,
+                       Symmetric4          *tangent) {
       if (tangent)
         GonzalezStress<dim>::stress_and_tangent(*material.hyperelastic,
                                                 old_c,
@@ -519,10 +530,20 @@ namespace Ricochet
   double
   HyperelasticBulk<dim>::energy(const Vector &solution) const
   {
+    const std::vector<double> energies = energies_of_parts(solution);
+    return std::accumulate(energies.begin(), energies.end(), 0.);
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  HyperelasticBulk<dim>::energies_of_parts(const Vector &solution) const
+  {
     return integrate(
-      [this](const Symmetric2 &c, const Symmetric2 &) {
-        return material.hyperelastic->energy(c);
-      },
+      [](const Material<dim> &material,
+         const Symmetric2    &c,
+         const Symmetric2 &) { return material.hyperelastic->energy(c); },
       solution,
       solution);
   }
@@ -535,10 +556,18 @@ namespace Ricochet
                                              const Vector &new_solution,
                                              const double  time_step) const
   {
-    if (!material.viscosity.is_active())
+    if (std::none_of(materials.begin(),
+                     materials.end(),
+                     [](const Material<dim> &material) {
+                       return material.viscosity.is_active();
+                     }))
       return 0.;
-    return integrate(
-      [this, time_step](const Symmetric2 &old_c, const Symmetric2 &difference) {
+    const std::vector<double> sums = integrate(
+      [time_step](const Material<dim> &material,
+                  const Symmetric2    &old_c,
+                  const Symmetric2    &difference) {
+        if (!material.viscosity.is_active())
+          return 0.;
         return .5 *
           (viscous_stress(*material.hyperelastic,
                           material.viscosity,
@@ -549,6 +578,7 @@ namespace Ricochet
       },
       old_solution,
       new_solution);
+    return std::accumulate(sums.begin(), sums.end(), 0.);
   }
 
 

@@ -25,7 +25,13 @@ namespace Ricochet
   class HyperelasticBulk : public BulkOperator
   {
   public:
-    HyperelasticBulk(const Body<dim> &body, const Material<dim> &material);
+    /// @param materials of the parts of the body.
+    HyperelasticBulk(const Body<dim>                  &body,
+                     const std::vector<Material<dim>> &materials);
+
+    HyperelasticBulk(const Body<dim> &body, const Material<dim> &material)
+      : HyperelasticBulk(body, std::vector<Material<dim>>(1, material))
+    {}
 
     void
     force(const Vector &solution, Vector &force) const override;
@@ -49,6 +55,9 @@ namespace Ricochet
 
     double
     energy(const Vector &solution) const override;
+
+    std::vector<double>
+    energies_of_parts(const Vector &solution) const override;
 
     double
     viscous_dissipation(const Vector &old_solution,
@@ -74,12 +83,13 @@ namespace Ricochet
     using Symmetric2 = dealii::SymmetricTensor<2, dim>;
     using Symmetric4 = dealii::SymmetricTensor<4, dim>;
 
-    /// Stress S and, if asked for, its derivative dS/dC at a point, from C_old
-    /// and the difference of C.
-    using StressFunction = std::function<void(const Symmetric2 &old_c,
-                                              const Symmetric2 &difference,
-                                              Symmetric2       &stress,
-                                              Symmetric4       *tangent)>;
+    /// Stress S and, if asked for, its derivative dS/dC at a point of a material,
+    /// from C_old and the difference of C.
+    using StressFunction = std::function<void(const Material<dim> &material,
+                                              const Symmetric2    &old_c,
+                                              const Symmetric2    &difference,
+                                              Symmetric2          &stress,
+                                              Symmetric4          *tangent)>;
 
     void
     find_matrix_entries(const Matrix &matrix);
@@ -105,10 +115,11 @@ namespace Ricochet
                const Vector         &new_solution,
                Matrix               &tangent) const;
 
-    /// Sum over the owned cells of @p density, a function of C_old and the
-    /// difference of C, on all ranks.
-    double
-    integrate(const std::function<double(const Symmetric2 &,
+    /// Sum over the owned cells of @p density, a function of the material, C_old
+    /// and the difference of C, on all ranks and for each part.
+    std::vector<double>
+    integrate(const std::function<double(const Material<dim> &,
+                                         const Symmetric2 &,
                                          const Symmetric2 &)> &density,
               const Vector                                    &old_solution,
               const Vector &new_solution) const;
@@ -127,13 +138,14 @@ namespace Ricochet
     StressFunction
     step_stress(const double time_step) const;
 
-    const Material<dim>                 material;
+    const std::vector<Material<dim>>    materials;
     const MPI_Comm                      communicator;
     double                              scale    = 0.;
     unsigned int                        n_cells  = 0;
     unsigned int                        n_points = 0;
     unsigned int                        n_nodes  = 0;
     std::vector<char>                   cell_is_owned;
+    std::vector<unsigned int>           cell_part;
     std::vector<dealii::Point<dim>>     cell_centers;
     std::vector<dealii::Tensor<1, dim>> shape_gradients; // cell, point, node
     std::vector<double>                 jxw;             // cell, point

@@ -4,6 +4,7 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/full_matrix.h>
 
+#include <algorithm>
 #include <functional>
 
 namespace Ricochet
@@ -46,12 +47,20 @@ namespace Ricochet
       matrix.compress(VectorOperation::add);
     }
 
-    /// The matrix of stress(strain(u)) : strain(v).
+    /// The number of the part at which @p fe_values are, of @p n_parts.
+    template <int dim>
+    unsigned int
+    part_of(const FEValues<dim> &fe_values, const unsigned int n_parts)
+    {
+      return n_parts > 1 ? fe_values.get_cell()->material_id() : 0;
+    }
+
+    /// The matrix of stress(strain(u)) : strain(v), with the law of each part.
     template <int dim>
     void
-    assemble_strain_matrix(const Body<dim>     &body,
-                           const LinearElastic &law,
-                           Matrix              &matrix)
+    assemble_strain_matrix(const Body<dim>                  &body,
+                           const std::vector<LinearElastic> &laws,
+                           Matrix                           &matrix)
     {
       matrix.reinit(body.sparsity_pattern());
       const FEValuesExtractors::Vector     displacement(0);
@@ -65,6 +74,7 @@ namespace Ricochet
             FullMatrix<double>  &cell_matrix) {
           for (const unsigned int i : fe_values.dof_indices())
             strains[i] = fe_values[displacement].symmetric_gradient(i, q);
+          const LinearElastic &law = laws[part_of(fe_values, laws.size())];
           for (const unsigned int j : fe_values.dof_indices())
             {
               const SymmetricTensor<2, dim> stress = law.stress(strains[j]);
@@ -79,19 +89,21 @@ namespace Ricochet
 
 
   template <int dim>
-  LinearBulk<dim>::LinearBulk(const Body<dim>     &body,
-                              const LinearElastic &material,
-                              const Viscosity     &viscosity)
-    : has_viscosity(viscosity.is_active())
+  LinearBulk<dim>::LinearBulk(const Body<dim>                  &body,
+                              const std::vector<Material<dim>> &materials)
+    : has_viscosity(std::any_of(materials.begin(),
+                                materials.end(),
+                                [](const Material<dim> &material) {
+                                  return material.viscosity.is_active();
+                                }))
     , communicator(body.communicator)
-    , component(body.owned_indices().n_elements(), dim)
+    , n_parts(materials.size())
+    , group(body.owned_indices().n_elements(), n_parts * dim)
     , work(body.make_vector())
     , product(body.make_vector())
   {
-    AssertThrow(viscosity.law == Viscosity::Law::none ||
-                  viscosity.law == Viscosity::Law::linear,
-                ExcMessage("A linear body has linear viscosity."));
-    const FiniteElement<dim>            &element = body.dof_handler().get_fe();
+    const std::vector<unsigned int> parts   = body.parts_of_unknowns(n_parts);
+    const FiniteElement<dim>       &element = body.dof_handler().get_fe();
     std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
     for (const auto &cell : body.dof_handler().active_cell_iterators())
       if (!cell->is_artificial())
@@ -100,20 +112,33 @@ namespace Ricochet
           for (unsigned int i = 0; i < indices.size(); ++i)
             {
               const auto index = body.system_index(indices[i]);
-              if (body.owned_indices().is_element(index))
-                component[body.owned_indices().index_within_set(index)] =
-                  element.system_to_component_index(i).first;
+              if (!body.owned_indices().is_element(index))
+                continue;
+              const auto own = body.owned_indices().index_within_set(index);
+              group[own] =
+                parts[own] * dim + element.system_to_component_index(i).first;
             }
         }
 
-    assemble_strain_matrix(body, material, stiffness);
-    scale = stiffness.linfty_norm();
     // W_v = eta/2 tr(strain_rate^2): the viscous stress is eta times the strain
     // rate.
+    std::vector<LinearElastic> laws, viscosities;
+    for (const Material<dim> &material : materials)
+      {
+        AssertThrow(material.linear,
+                    ExcMessage("The material is not linear elastic."));
+        AssertThrow(material.viscosity.law == Viscosity::Law::none ||
+                      material.viscosity.law == Viscosity::Law::linear,
+                    ExcMessage("A linear body has linear viscosity."));
+        laws.push_back(*material.linear);
+        viscosities.push_back(
+          {0.,
+           material.viscosity.is_active() ? .5 * material.viscosity.eta : 0.});
+      }
+    assemble_strain_matrix(body, laws, stiffness);
+    scale = stiffness.linfty_norm();
     if (has_viscosity)
-      assemble_strain_matrix(body,
-                             LinearElastic{0., .5 * viscosity.eta},
-                             viscosity_matrix);
+      assemble_strain_matrix(body, viscosities, viscosity_matrix);
   }
 
 
@@ -201,18 +226,19 @@ namespace Ricochet
   void
   LinearBulk<dim>::remove_translation() const
   {
-    double             *values = work.trilinos_vector()[0];
-    std::vector<double> my_sums(2 * dim, 0.), sums(2 * dim);
-    for (unsigned int i = 0; i < component.size(); ++i)
-      if (component[i] < dim)
+    double             *values   = work.trilinos_vector()[0];
+    const unsigned int  n_groups = n_parts * dim;
+    std::vector<double> my_sums(2 * n_groups, 0.), sums(2 * n_groups);
+    for (unsigned int i = 0; i < group.size(); ++i)
+      if (group[i] < n_groups)
         {
-          my_sums[component[i]] += values[i];
-          my_sums[dim + component[i]] += 1.;
+          my_sums[group[i]] += values[i];
+          my_sums[n_groups + group[i]] += 1.;
         }
     Utilities::MPI::sum(my_sums, communicator, sums);
-    for (unsigned int i = 0; i < component.size(); ++i)
-      if (component[i] < dim)
-        values[i] -= sums[component[i]] / sums[dim + component[i]];
+    for (unsigned int i = 0; i < group.size(); ++i)
+      if (group[i] < n_groups)
+        values[i] -= sums[group[i]] / sums[n_groups + group[i]];
   }
 
 
@@ -225,6 +251,24 @@ namespace Ricochet
     remove_translation();
     stiffness.vmult(product, work);
     return .5 * (product * work);
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  LinearBulk<dim>::energies_of_parts(const Vector &solution) const
+  {
+    work = solution;
+    remove_translation();
+    stiffness.vmult(product, work);
+    std::vector<double> my_energies(n_parts, 0.), energies(n_parts);
+    for (unsigned int i = 0; i < group.size(); ++i)
+      if (group[i] < n_parts * dim)
+        my_energies[group[i] / dim] +=
+          .5 * product.trilinos_vector()[0][i] * work.trilinos_vector()[0][i];
+    Utilities::MPI::sum(my_energies, communicator, energies);
+    return energies;
   }
 
 
@@ -247,7 +291,8 @@ namespace Ricochet
 
   template <int dim>
   Matrix
-  assemble_mass_matrix(const Body<dim> &body, const double density)
+  assemble_mass_matrix(const Body<dim>           &body,
+                       const std::vector<double> &densities)
   {
     // Components do not couple.
     const FiniteElement<dim> &element = body.dof_handler().get_fe();
@@ -259,6 +304,7 @@ namespace Ricochet
       [&](const FEValues<dim> &fe_values,
           const unsigned int   q,
           FullMatrix<double>  &cell_matrix) {
+        const double density = densities[part_of(fe_values, densities.size())];
         for (const unsigned int i : fe_values.dof_indices())
           for (const unsigned int j : fe_values.dof_indices())
             if (element.system_to_component_index(i).first ==
@@ -275,9 +321,9 @@ namespace Ricochet
   template class LinearBulk<2>;
   template class LinearBulk<3>;
   template Matrix
-  assemble_mass_matrix(const Body<1> &, const double);
+  assemble_mass_matrix(const Body<1> &, const std::vector<double> &);
   template Matrix
-  assemble_mass_matrix(const Body<2> &, const double);
+  assemble_mass_matrix(const Body<2> &, const std::vector<double> &);
   template Matrix
-  assemble_mass_matrix(const Body<3> &, const double);
+  assemble_mass_matrix(const Body<3> &, const std::vector<double> &);
 } // namespace Ricochet

@@ -4,8 +4,7 @@
 
 #include <discretization/body.h>
 #include <discretization/bulk_operator.h>
-#include <materials/linear_elastic.h>
-#include <materials/viscosity.h>
+#include <materials/material.h>
 
 namespace Ricochet
 {
@@ -18,10 +17,17 @@ namespace Ricochet
   class LinearBulk : public BulkOperator
   {
   public:
+    /// @param materials of the parts of the body, linear elastic, with linear
+    /// viscosity or none.
+    LinearBulk(const Body<dim>                  &body,
+               const std::vector<Material<dim>> &materials);
+
     /// @param viscosity none or linear.
     LinearBulk(const Body<dim>     &body,
                const LinearElastic &material,
-               const Viscosity     &viscosity = {});
+               const Viscosity     &viscosity = {})
+      : LinearBulk(body, std::vector<Material<dim>>(1, {material, viscosity}))
+    {}
 
     void
     force(const Vector &solution, Vector &force) const override;
@@ -52,6 +58,9 @@ namespace Ricochet
     double
     energy(const Vector &solution) const override;
 
+    std::vector<double>
+    energies_of_parts(const Vector &solution) const override;
+
     double
     viscous_dissipation(const Vector &old_solution,
                         const Vector &new_solution,
@@ -70,28 +79,39 @@ namespace Ricochet
     }
 
   private:
-    /// Take the mean translation, which stores nothing, out of #work: far from
-    /// where it started, the displacement of a body is much larger than its
-    /// differences.
+    /// Take the mean translation of each part, which stores nothing, out of #work:
+    /// far from where it started, the displacement of a body is much larger than
+    /// its differences.
     void
     remove_translation() const;
 
     const bool     has_viscosity;
     const MPI_Comm communicator;
-    // The component of each owned displacement; dim for multipliers.
-    std::vector<unsigned char> component;
-    Matrix                     stiffness;
-    Matrix                     viscosity_matrix;
-    double                     scale = 0.;
+    // dim times the part of each owned displacement, and its component; larger for
+    // multipliers.
+    unsigned int              n_parts = 1;
+    std::vector<unsigned int> group;
+    Matrix                    stiffness;
+    Matrix                    viscosity_matrix;
+    double                    scale = 0.;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, product;
   };
 
-  /// Consistent mass matrix (kg) of @p body with the constant @p density
-  /// (kg/m^dim), on Body::component_sparsity_pattern().
+  /// Consistent mass matrix (kg) of @p body with the constant @p densities of its
+  /// parts (kg/m^dim), on Body::component_sparsity_pattern().
   template <int dim>
   Matrix
-  assemble_mass_matrix(const Body<dim> &body, const double density);
+  assemble_mass_matrix(const Body<dim>           &body,
+                       const std::vector<double> &densities);
+
+  /// The same with one density.
+  template <int dim>
+  Matrix
+  assemble_mass_matrix(const Body<dim> &body, const double density)
+  {
+    return assemble_mass_matrix(body, std::vector<double>(1, density));
+  }
 } // namespace Ricochet
 
 #endif

@@ -8,9 +8,11 @@ namespace Ricochet
   using namespace dealii;
 
   template <int dim>
-  Momenta<dim>::Momenta(const Body<dim> &body,
-                        const Matrix    &mass,
-                        const bool       small_strains)
+  Momenta<dim>::Momenta(const Body<dim>   &body,
+                        const Matrix      &mass,
+                        const bool         small_strains,
+                        const unsigned int n_parts,
+                        const unsigned int part)
     : communicator(body.communicator)
     , mass(mass)
     , small_strains(small_strains)
@@ -20,7 +22,7 @@ namespace Ricochet
     std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
     std::set<types::global_dof_index>    seen;
     for (const auto &cell : body.dof_handler().active_cell_iterators())
-      if (!cell->is_artificial())
+      if (!cell->is_artificial() && body.part(cell, n_parts) == part)
         {
           cell->get_dof_indices(indices);
           for (unsigned int i = 0; i < indices.size(); ++i)

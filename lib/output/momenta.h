@@ -19,10 +19,13 @@ namespace Ricochet
      * @param mass mass matrix of the equation of motion (kg).
      * @param small_strains take the lever arms in the reference position, as
      * linear elasticity balances them; otherwise in the current one.
+     * @param n_parts, part only that part of the body, see Body::part().
      */
-    Momenta(const Body<dim> &body,
-            const Matrix    &mass,
-            const bool       small_strains);
+    Momenta(const Body<dim>   &body,
+            const Matrix      &mass,
+            const bool         small_strains,
+            const unsigned int n_parts = 1,
+            const unsigned int part    = 0);
 
     /// kg m/s
     dealii::Tensor<1, dim>

@@ -18,13 +18,24 @@ namespace Ricochet
 
   namespace
   {
+    /// The material of the cell in which @p inputs are.
+    template <int dim, typename Inputs>
+    const Material<dim> &
+    material_at(const Inputs                     &inputs,
+                const std::vector<Material<dim>> &materials)
+    {
+      return materials.size() == 1
+        ? materials[0]
+        : materials[inputs.template get_cell<dim>()->material_id()];
+    }
+
     template <int dim>
     class StressPostprocessor : public DataPostprocessorTensor<dim>
     {
     public:
-      explicit StressPostprocessor(const Material<dim> &material)
+      explicit StressPostprocessor(const std::vector<Material<dim>> &materials)
         : DataPostprocessorTensor<dim>("stress", update_gradients)
-        , material(material)
+        , materials(materials)
       {}
 
       void
@@ -38,7 +49,7 @@ namespace Ricochet
             for (unsigned int i = 0; i < dim; ++i)
               gradient[i] = inputs.solution_gradients[p][i];
             const SymmetricTensor<2, dim> stress =
-              material.cauchy_stress(gradient);
+              material_at(inputs, materials).cauchy_stress(gradient);
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
                 stresses[p][Tensor<2, dim>::component_to_unrolled_index(
@@ -55,22 +66,23 @@ namespace Ricochet
         for (unsigned int p = 0; p < stresses.size(); ++p)
           {
             Tensor<2, dim> gradient;
-            gradient[0]    = inputs.solution_gradients[p];
-            stresses[p][0] = material.cauchy_stress(gradient)[0][0];
+            gradient[0] = inputs.solution_gradients[p];
+            stresses[p][0] =
+              material_at(inputs, materials).cauchy_stress(gradient)[0][0];
           }
       }
 
     private:
-      const Material<dim> material;
+      const std::vector<Material<dim>> materials;
     };
 
     template <int dim>
     class VonMises : public DataPostprocessorScalar<dim>
     {
     public:
-      explicit VonMises(const Material<dim> &material)
+      explicit VonMises(const std::vector<Material<dim>> &materials)
         : DataPostprocessorScalar<dim>("von_mises", update_gradients)
-        , material(material)
+        , materials(materials)
       {}
 
       void
@@ -83,12 +95,12 @@ namespace Ricochet
             Tensor<2, dim> gradient;
             for (unsigned int i = 0; i < dim; ++i)
               gradient[i] = inputs.solution_gradients[p][i];
-            values[p][0] = material.von_mises(gradient);
+            values[p][0] = material_at(inputs, materials).von_mises(gradient);
           }
       }
 
     private:
-      const Material<dim> material;
+      const std::vector<Material<dim>> materials;
     };
 
     /// The distance of each point to the nearest obstacle.
@@ -223,13 +235,13 @@ namespace Ricochet
 
 
   template <int dim>
-  VtuSeries<dim>::VtuSeries(const Body<dim>     &body,
-                            const Material<dim> &material,
-                            ContactOperator     &contact,
-                            const Obstacles     &obstacles,
-                            RunFolder           &folder)
+  VtuSeries<dim>::VtuSeries(const Body<dim>                  &body,
+                            const std::vector<Material<dim>> &materials,
+                            ContactOperator                  &contact,
+                            const Obstacles                  &obstacles,
+                            RunFolder                        &folder)
     : body(body)
-    , material(material)
+    , materials(materials)
     , contact(contact)
     , obstacles(obstacles)
     , folder(folder)
@@ -278,10 +290,10 @@ namespace Ricochet
     const Vector pressure = body.displacement_part(
       contact.pressure_field(state.solution, state.contact_force, state.time));
 
-    const StressPostprocessor<dim> stress(material);
+    const StressPostprocessor<dim> stress(materials);
     const FirstComponent<dim>      contact_pressure("contact_pressure");
     const Gap<dim>                 gap(obstacles, state.time);
-    const VonMises<dim>            von_mises(material);
+    const VonMises<dim>            von_mises(materials);
     PieceOfFile<dim>               data_out;
     data_out.attach_dof_handler(body.dof_handler());
     const auto add = [&](const Vector &vector, const std::string &name) {
@@ -298,7 +310,14 @@ namespace Ricochet
     if constexpr (dim > 1)
       data_out.add_data_vector(body.dof_handler(), displacement, von_mises);
     data_out.add_data_vector(body.dof_handler(), pressure, contact_pressure);
-    data_out.add_data_vector(body.dof_handler(), displacement, gap);
+    if (!obstacles.empty())
+      data_out.add_data_vector(body.dof_handler(), displacement, gap);
+    dealii::Vector<float> part(
+      body.dof_handler().get_triangulation().n_active_cells());
+    for (const auto &cell : body.dof_handler().active_cell_iterators())
+      part(cell->active_cell_index()) = body.part(cell, materials.size());
+    if (materials.size() > 1)
+      data_out.add_data_vector(part, "part");
     data_out.build_patches(body.mapping(), body.dof_handler().get_fe().degree);
 
     const std::string name =

@@ -12,8 +12,9 @@ namespace Ricochet
   /**
    * The fields of a body for ParaView: displacement, velocity, acceleration,
    * elastic Cauchy stress and von Mises stress (Pa), the contact force of each
-   * node (N, on the body), the contact pressure (Pa) and the gap (m; of all points
-   * of the body, to the nearest obstacle), as `solution/step-NNNNNN.vtu` with their
+   * node (N, on the body), the contact pressure (Pa), the gap (m; of all points
+   * of the body, to the nearest obstacle, if there is one) and the number of the part
+   * (if there are several), as `solution/step-NNNNNN.vtu` with their
    * time, and `solution.pvd` that ties them to their times.
    */
   template <int dim>
@@ -24,7 +25,20 @@ namespace Ricochet
               const Material<dim> &material,
               ContactOperator     &contact,
               const Obstacles     &obstacles,
-              RunFolder           &folder);
+              RunFolder           &folder)
+      : VtuSeries(body,
+                  std::vector<Material<dim>>(1, material),
+                  contact,
+                  obstacles,
+                  folder)
+    {}
+
+    /// The same with the @p materials of several parts.
+    VtuSeries(const Body<dim>                  &body,
+              const std::vector<Material<dim>> &materials,
+              ContactOperator                  &contact,
+              const Obstacles                  &obstacles,
+              RunFolder                        &folder);
 
     /// Write @p state as step number @p step. A step that is written again,
     /// after a resumed run, takes the place of the old one.
@@ -33,11 +47,11 @@ namespace Ricochet
     write(const State &state, const unsigned int step);
 
   private:
-    const Body<dim>    &body;
-    const Material<dim> material;
-    ContactOperator    &contact;
-    const Obstacles     obstacles;
-    RunFolder          &folder;
+    const Body<dim>                 &body;
+    const std::vector<Material<dim>> materials;
+    ContactOperator                 &contact;
+    const Obstacles                  obstacles;
+    RunFolder                       &folder;
     // Time and file name of each step written, by step.
     std::map<unsigned int, std::pair<double, std::string>> written;
   };

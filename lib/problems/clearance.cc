@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
+#include <contact/surfaces/contact_surface.h>
 #include <problems/clearance.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace Ricochet
 {
@@ -113,6 +115,75 @@ namespace Ricochet
   }
 
 
+  namespace
+  {
+    /// How far @p x is within @p cell, whose faces are straight (m): negative
+    /// outside.
+    template <int dim>
+    double
+    depth_inside(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                 const Point<dim>                                     &x)
+    {
+      double depth = std::numeric_limits<double>::max();
+      for (const auto &face : cell->face_iterators())
+        {
+          Tensor<1, dim> outward;
+          if constexpr (dim == 1)
+            outward[0] = 1.;
+          else
+            outward = cross_product_2d(face->vertex(1) - face->vertex(0));
+          if (outward * (face->center() - cell->center()) < 0.)
+            outward *= -1.;
+          depth =
+            std::min(depth, outward * (face->vertex(0) - x) / outward.norm());
+        }
+      return depth;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  check_clearance(const Body<dim> &body, const std::vector<ContactPair> &pairs)
+  {
+    for (const ContactPair &pair : pairs)
+      {
+        std::set<types::boundary_id> boundaries = pair.slave;
+        boundaries.insert(pair.master.begin(), pair.master.end());
+        const ContactSurface<dim> surface(body, boundaries);
+        std::string               problem;
+        for (const auto &cell : body.dof_handler().active_cell_iterators())
+          if (cell->is_locally_owned())
+            for (const auto &node : surface.nodes)
+              {
+                const Point<dim> &x = node.reference_position;
+                if (!cell->bounding_box().point_inside(x))
+                  continue;
+                // Nodes on faces touch; a little is that of a mesh.
+                const double depth = depth_inside<dim>(cell, x);
+                if (depth > 1e-6 * cell->diameter())
+                  {
+                    std::string text;
+                    for (unsigned int c = 0; c < dim; ++c)
+                      text += (c == 0 ? "" : ", ") + to_text(x[c]);
+                    problem = "At the start bodies overlap: the node at (" +
+                      text + ") m of the contact '" + pair.name + "' is " +
+                      to_text(depth) +
+                      " m or more inside another one. Move one of them away.";
+                  }
+              }
+        problem = first_text(problem, body.communicator);
+        if (!problem.empty())
+          throw InputError(problem);
+      }
+  }
+
+
+  template void
+  check_clearance(const Body<1> &, const std::vector<ContactPair> &);
+  template void
+  check_clearance(const Body<2> &, const std::vector<ContactPair> &);
   template void
   check_clearance(const Body<1> &, const Obstacles &);
   template void

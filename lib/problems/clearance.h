@@ -3,6 +3,7 @@
 #define ricochet_problems_clearance_h
 
 #include <contact/obstacles/rigid_obstacle.h>
+#include <contact/surfaces/contact_pair.h>
 #include <discretization/body.h>
 #include <time_integration/scheme_traits.h>
 
@@ -23,6 +24,16 @@ namespace Ricochet
   template <int dim>
   void
   check_clearance(const Body<dim> &body, const Obstacles &obstacles);
+
+  /**
+   * No node of a surface of the @p pairs is within a cell of another body: parts do
+   * not overlap before any displacement; they may touch.
+   *
+   * @throws InputError. Collective.
+   */
+  template <int dim>
+  void
+  check_clearance(const Body<dim> &body, const std::vector<ContactPair> &pairs);
 } // namespace Ricochet
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <contact/obstacles/half_space.h>
 #include <base/exceptions.h>
+#include <discretization/boundary_load.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
 #include <problems/clearance.h>
@@ -14,14 +15,106 @@ namespace Ricochet
 
   namespace
   {
+    /// The boundaries on which contact is formulated.
     template <int dim>
     typename Body<dim>::BoundaryIds
-    boundary_ids(const Obstacles &obstacles)
+    contact_ids(const ImpactSetup<dim> &setup)
     {
       typename Body<dim>::BoundaryIds ids;
-      for (const auto &obstacle : obstacles)
+      for (const auto &obstacle : setup.obstacles)
         ids.insert(obstacle.first);
+      for (const ContactPair &pair : setup.pairs)
+        ids.insert(pair.slave.begin(), pair.slave.end());
       return ids;
+    }
+
+    /// All boundaries that something is said about.
+    template <int dim>
+    typename Body<dim>::BoundaryIds
+    named_ids(const ImpactSetup<dim> &setup)
+    {
+      typename Body<dim>::BoundaryIds ids = contact_ids(setup);
+      ids.insert(setup.clamped.begin(), setup.clamped.end());
+      for (const ContactPair &pair : setup.pairs)
+        ids.insert(pair.master.begin(), pair.master.end());
+      for (const auto &entry : setup.imposed)
+        ids.insert(entry.first);
+      for (const auto &entry : setup.tractions)
+        ids.insert(entry.first);
+      return ids;
+    }
+
+    template <int dim>
+    typename Body<dim>::HeldComponents
+    held_components(const ImpactSetup<dim> &setup)
+    {
+      typename Body<dim>::HeldComponents held;
+      for (const auto &[id, imposed] : setup.imposed)
+        held[id] = imposed.components;
+      return held;
+    }
+
+    /// Where conditions meet, zero comes first, then the smaller boundary id.
+    template <int dim>
+    std::vector<typename Impact<dim>::Prescription>
+    make_prescriptions(const Body<dim> &body, const ImpactSetup<dim> &setup)
+    {
+      std::map<types::global_dof_index, typename Impact<dim>::Prescription> all;
+      for (const auto &[id, imposed] : setup.imposed)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (imposed.components[c])
+            for (const auto unknown : body.boundary_displacements(id, c))
+              all.insert({unknown, {unknown, c, imposed.value}});
+      for (const auto id : setup.clamped)
+        for (unsigned int c = 0; c < dim; ++c)
+          for (const auto unknown : body.boundary_displacements(id, c))
+            all.erase(unknown);
+      std::vector<typename Impact<dim>::Prescription> list;
+      for (const auto &entry : all)
+        list.push_back(entry.second);
+      return list;
+    }
+
+    template <int dim>
+    bool
+    is_moved(const ImpactSetup<dim> &setup)
+    {
+      for (const auto &entry : setup.imposed)
+        if (entry.second.value)
+          return true;
+      return false;
+    }
+
+    template <int dim>
+    std::vector<Material<dim>>
+    materials_of(const ImpactSetup<dim> &setup)
+    {
+      std::vector<Material<dim>> materials;
+      for (const Part<dim> &part : setup.parts)
+        {
+          materials.push_back(part.material);
+          if (part.material.linear.has_value() !=
+              materials[0].linear.has_value())
+            throw InputError(
+              "The parts '" + setup.parts[0].name + "' and '" + part.name +
+              "' cannot be combined: one is linear elastic, the other is not. "
+              "Take Saint Venant-Kirchhoff instead of linear elastic.");
+        }
+      if (materials.empty())
+        materials.push_back(setup.material);
+      return materials;
+    }
+
+    template <int dim>
+    std::vector<double>
+    densities_of(const ImpactSetup<dim> &setup)
+    {
+      std::vector<double> densities;
+      for (const Part<dim> &part : setup.parts)
+        densities.push_back(part.density);
+      if (densities.empty())
+        densities.push_back(setup.density);
+      return densities;
     }
 
     /// The mesh has each of the @p boundaries. @return the mesh.
@@ -74,14 +167,66 @@ namespace Ricochet
 
     template <int dim>
     std::unique_ptr<BulkOperator>
-    make_bulk(const Body<dim> &body, const Material<dim> &material)
+    make_bulk(const Body<dim>                  &body,
+              const std::vector<Material<dim>> &materials)
     {
+      // Each cell has a material.
+      body.parts_of_unknowns(materials.size());
       if constexpr (dim > 1)
-        if (!material.linear)
-          return std::make_unique<HyperelasticBulk<dim>>(body, material);
-      return std::make_unique<LinearBulk<dim>>(body,
-                                               *material.linear,
-                                               material.viscosity);
+        if (!materials[0].linear)
+          return std::make_unique<HyperelasticBulk<dim>>(body, materials);
+      return std::make_unique<LinearBulk<dim>>(body, materials);
+    }
+
+    template <int dim>
+    std::unique_ptr<ContactOperator>
+    make_any_contact(const ImpactParameters &parameters,
+                     const Body<dim>        &body,
+                     const ImpactSetup<dim> &setup)
+    {
+      const SchemeTraits &scheme = scheme_traits(parameters.scheme.name);
+      if (setup.pairs.empty())
+        return make_contact(parameters.contact,
+                            scheme,
+                            body,
+                            setup.material.linear
+                              ? LinearStress<dim>(*setup.material.linear)
+                              : LinearStress<dim>(),
+                            setup.obstacles);
+      if (!setup.obstacles.empty())
+        throw InputError(
+          "Contact between bodies and contact with rigid "
+          "obstacles cannot be combined in one run.");
+      check_pair_combination(parameters.contact, scheme);
+      if constexpr (dim < 3)
+        return make_pair_contact(parameters.contact, body, setup.pairs);
+      else
+        throw InputError("Contact between bodies is there in 1D and 2D only.");
+    }
+
+    /// What @p setup adds to the external loads, but for the weight.
+    template <int dim>
+    SemiDiscreteSystem::Load
+    make_load(const Body<dim> &body, const ImpactSetup<dim> &setup)
+    {
+      if (setup.tractions.empty())
+        return setup.load;
+      struct Term
+      {
+        Vector                                              shape;
+        unsigned int                                        component;
+        std::function<dealii::Tensor<1, dim>(const double)> traction;
+      };
+      std::vector<Term> terms;
+      for (const auto &[id, traction] : setup.tractions)
+        for (unsigned int c = 0; c < dim; ++c)
+          terms.push_back({boundary_load(body, id, c), c, traction});
+      return [terms, load = setup.load](const double time, Vector &result) {
+        if (load)
+          load(time, result);
+        for (const Term &term : terms)
+          result.add(term.traction(time)[term.component], term.shape);
+      };
     }
   } // namespace
 
@@ -92,31 +237,25 @@ namespace Ricochet
                       const Triangulation<dim> &triangulation,
                       const ImpactSetup<dim>   &setup,
                       const MPI_Comm            communicator)
-    : body(with_boundaries(with_boundaries(triangulation,
-                                           boundary_ids<dim>(setup.obstacles),
-                                           communicator),
-                           setup.clamped,
-                           communicator),
+    : body(with_boundaries(triangulation, named_ids(setup), communicator),
            setup.degree,
            setup.clamped,
-           boundary_ids<dim>(setup.obstacles),
-           multiplier_space(parameters.contact),
-           communicator)
-    , bulk(make_bulk(body, setup.material))
-    , consistent_mass(assemble_mass_matrix(body, setup.density))
+           contact_ids(setup),
+           setup.pairs.empty() ? multiplier_space(parameters.contact)
+                               : pair_multiplier_space(parameters.contact),
+           communicator,
+           held_components(setup))
+    , bulk(make_bulk(body, materials_of(setup)))
+    , consistent_mass(assemble_mass_matrix(body, densities_of(setup)))
     , redistributed_mass(
         parameters.redistributed_mass()
           ? std::make_unique<Matrix>(redistribute_mass(body, consistent_mass))
           : nullptr)
     , obstacles(setup.obstacles)
-    , contact(make_contact(parameters.contact,
-                           scheme_traits(parameters.scheme.name),
-                           body,
-                           setup.material.linear
-                             ? LinearStress<dim>(*setup.material.linear)
-                             : LinearStress<dim>(),
-                           obstacles))
+    , pairs(setup.pairs)
+    , contact(make_any_contact(parameters, body, setup))
     , weight(weight_of(body, consistent_mass, setup.gravity))
+    , prescriptions(make_prescriptions(body, setup))
     , system(redistributed_mass ? *redistributed_mass : consistent_mass,
              consistent_mass,
              *bulk,
@@ -129,10 +268,18 @@ namespace Ricochet
               dim,
               &body.sparsity_pattern(),
               [this]() { return body.canonical_positions(); },
-              [this]() { return body.coarse_space(); }},
+              [this]() { return body.coarse_space(); },
+              is_moved(setup) ? [this](const double time,
+                                       Vector &vector) { impose(time, vector); }
+                              : std::function<void(const double, Vector &)>(),
+              [this, step = 1e-3 * parameters.time.time_step](
+                const double time, Vector &vector) {
+                impose_rate(time, step, vector);
+              }},
              setup.gravity == Tensor<1, dim>()
-               ? setup.load
-               : [this, load = setup.load](const double time, Vector &result) {
+               ? make_load(body, setup)
+               : [this, load = make_load(body, setup)](const double time,
+                                                       Vector &result) {
                    if (load)
                      load(time, result);
                    result += weight;
@@ -142,6 +289,46 @@ namespace Ricochet
     , scheme(make_time_scheme(parameters.scheme))
   {
     check_motions(scheme_traits(parameters.scheme.name), obstacles);
+    if (is_moved(setup) &&
+        !scheme_traits(parameters.scheme.name).contact_over_step)
+      throw InputError(
+        "An imposed displacement cannot be combined with the time "
+        "scheme '" +
+        parameters.scheme.name +
+        "'.\nAllowed with it: midpoint, which knows the work of "
+        "its reaction.");
+  }
+
+
+
+  template <int dim>
+  void
+  Impact<dim>::impose(const double time, Vector &vector) const
+  {
+    for (const Prescription &prescription : prescriptions)
+      vector(prescription.unknown) = prescription.value
+        ? prescription.value(time)[prescription.component]
+        : 0.;
+    vector.compress(VectorOperation::insert);
+  }
+
+
+
+  template <int dim>
+  void
+  Impact<dim>::impose_rate(const double time,
+                           const double step,
+                           Vector      &vector) const
+  {
+    // A motion need not be known before it begins.
+    for (const Prescription &prescription : prescriptions)
+      vector(prescription.unknown) = prescription.value
+        ? ((-1.5 * prescription.value(time) +
+            2. * prescription.value(time + step) -
+            .5 * prescription.value(time + 2. * step)) /
+           step)[prescription.component]
+        : 0.;
+    vector.compress(VectorOperation::insert);
   }
 
 
@@ -169,6 +356,8 @@ namespace Ricochet
   Impact<dim>::state_in_motion(const Function<dim> &velocity)
   {
     check_clearance(body, obstacles);
+    if constexpr (dim < 3)
+      check_clearance(body, pairs);
     Vector start;
     body.interpolate(velocity, start);
     return system.initial_state(uniform(Tensor<1, dim>()),

@@ -11,10 +11,32 @@
 
 namespace Ricochet
 {
+  /// One of several bodies in one mesh: the cells whose material id is its number.
+  template <int dim>
+  struct Part
+  {
+    std::string   name;
+    Material<dim> material;
+    /// kg/m^dim
+    double density = 1.;
+  };
+
+  /// A displacement that is prescribed on a part of the boundary.
+  template <int dim>
+  struct ImposedDisplacement
+  {
+    /// Which components.
+    std::array<bool, dim> components{};
+    /// Displacement (m) at a time (s), whose other components do not matter; zero if
+    /// empty.
+    std::function<dealii::Tensor<1, dim>(const double time)> value;
+  };
+
   /// What is to hit what.
   template <int dim>
   struct ImpactSetup
   {
+    /// Of all bodies that are not named in #parts.
     Material<dim> material;
     /// kg/m^dim
     double density = 1.;
@@ -28,6 +50,17 @@ namespace Ricochet
     dealii::Tensor<1, dim> gravity = {};
     /// Other loads; empty for none.
     SemiDiscreteSystem::Load load = {};
+
+    /// Several bodies, with as many material ids; empty for one.
+    std::vector<Part<dim>> parts = {};
+    /// Surfaces that may touch, instead of obstacles.
+    std::vector<ContactPair> pairs = {};
+    /// Prescribed displacements, by boundary id.
+    std::map<dealii::types::boundary_id, ImposedDisplacement<dim>> imposed = {};
+    /// Tractions on the undeformed boundary (Pa) at a time (s), by boundary id.
+    std::map<dealii::types::boundary_id,
+             std::function<dealii::Tensor<1, dim>(const double time)>>
+      tractions = {};
   };
 
   /**
@@ -37,9 +70,10 @@ namespace Ricochet
   template <int dim>
   struct Impact
   {
-    /// @throws InputError when the mesh has no boundary for an obstacle, when a
-    /// moving one does not go with the time scheme, and what redistribute_mass()
-    /// and make_contact() throw.
+    /// @throws InputError when the mesh has no boundary for an obstacle, a contact
+    /// or a condition, when a moving obstacle or an imposed displacement does not go
+    /// with the time scheme, when some parts are linear elastic and others are not,
+    /// and what redistribute_mass() and make_contact() throw.
     Impact(const ImpactParameters           &parameters,
            const dealii::Triangulation<dim> &triangulation,
            const ImpactSetup<dim>           &setup,
@@ -51,11 +85,30 @@ namespace Ricochet
     /// Null with the consistent mass.
     const std::unique_ptr<const Matrix>    redistributed_mass;
     const Obstacles                        obstacles;
+    const std::vector<ContactPair>         pairs;
     const std::unique_ptr<ContactOperator> contact;
     /// The weight of the body (N).
-    const Vector                      weight;
+    const Vector weight;
+    /// What the prescribed unknowns are prescribed by: component and value, none
+    /// for zero.
+    struct Prescription
+    {
+      dealii::types::global_dof_index                     unknown;
+      unsigned int                                        component;
+      std::function<dealii::Tensor<1, dim>(const double)> value;
+    };
+    const std::vector<Prescription>   prescriptions;
     SemiDiscreteSystem                system;
     const std::unique_ptr<TimeScheme> scheme;
+
+    /// Set the prescribed displacements in @p vector to those at @p time (s).
+    void
+    impose(const double time, Vector &vector) const;
+
+    /// Set the prescribed velocities to those at @p time, by differences over @p
+    /// step (s).
+    void
+    impose_rate(const double time, const double step, Vector &vector) const;
 
     /// A field that is @p value everywhere, zero in multipliers.
     Vector
@@ -63,8 +116,8 @@ namespace Ricochet
 
     /// The undeformed body in flight at time 0.
     ///
-    /// @throws InputError when it overlaps with an obstacle, or an obstacle is not
-    /// what it says it is where the body begins.
+    /// @throws InputError when it overlaps with an obstacle, or parts of it with
+    /// others, or an obstacle is not what it says it is where the body begins.
     State
     state_in_flight(const dealii::Tensor<1, dim> &velocity);
 

@@ -92,14 +92,17 @@ namespace Ricochet
     ledger.add_column("numerical_dissipation", "J");
     if (system.contact.has_moving_obstacles())
       ledger.add_column("obstacle_work", "J");
+    if (system.has_imposed_displacements())
+      ledger.add_column("imposed_work", "J");
     ledger.add_column("balance_residual", "1");
     ledger.add_column("newton_iterations", "1");
     ledger.add_column("linear_solves", "1");
     ledger.add_column("step_halvings", "1");
     for (const auto &[id, name] : contact_names)
       {
-        ledger.add_column("mean_gap_" + name, "m");
-        ledger.add_column("smallest_gap_" + name, "m");
+        const bool may_be_empty = system.contact.gaps_may_be_unknown();
+        ledger.add_column("mean_gap_" + name, "m", may_be_empty);
+        ledger.add_column("smallest_gap_" + name, "m", may_be_empty);
         ledger.add_column("penetration_" + name, "m");
         ledger.add_column("contact_force_" + name, "N");
         ledger.add_column("contact_pressure_" + name, "Pa");
@@ -179,7 +182,8 @@ namespace Ricochet
             initial_energy,
             largest_energy,
             static_cast<double>(n_halvings),
-            obstacle_work};
+            obstacle_work,
+            imposed_work};
   }
 
 
@@ -195,7 +199,8 @@ namespace Ricochet
             list.at(5),
             list.at(6),
             static_cast<unsigned int>(list.at(7)),
-            list.at(8)};
+            list.at(8),
+            list.at(9)};
   }
 
 
@@ -231,6 +236,8 @@ namespace Ricochet
                                sums.numerical_dissipation};
     if (system.contact.has_moving_obstacles())
       row.push_back(sums.obstacle_work);
+    if (system.has_imposed_displacements())
+      row.push_back(sums.imposed_work);
     row.insert(row.end(),
                {balance_residual,
                 static_cast<double>(report.newton_iterations),
@@ -432,12 +439,13 @@ namespace Ricochet
     sums.viscous_dissipation += report.viscous_dissipation;
     sums.numerical_dissipation += report.numerical_dissipation;
     sums.obstacle_work += report.obstacle_work;
+    sums.imposed_work += report.imposed_work;
     const double   old_energy = energy;
     const Energies energies   = energies_of(new_state);
     energy                    = energies.total();
-    const double residual     = energy - old_energy - report.external_work +
-      report.contact_work + report.friction_work + report.viscous_dissipation +
-      report.numerical_dissipation;
+    const double residual     = energy - old_energy - report.external_work -
+      report.imposed_work + report.contact_work + report.friction_work +
+      report.viscous_dissipation + report.numerical_dissipation;
     // Relative to the initial energy; a body that starts at rest is measured by
     // the largest energy so far.
     if (sums.initial_energy == 0.)

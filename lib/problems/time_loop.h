@@ -163,6 +163,7 @@ namespace Ricochet
       double       largest_energy        = 0.;
       unsigned int n_halvings            = 0;
       double       obstacle_work         = 0.;
+      double       imposed_work          = 0.;
 
       std::vector<double>
       to_list() const;

@@ -11,6 +11,11 @@ namespace Ricochet
                           const bool     keep_pivots,
                           Factored      &entry)
   {
+    if (entry.pattern != tangent.pattern)
+      {
+        entry.factorisation.reset();
+        entry.pattern = tangent.pattern;
+      }
     assemble(tangent, entry.matrix);
     if (!entry.factorisation)
       entry.factorisation = factorisations.make(false);

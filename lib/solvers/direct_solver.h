@@ -38,6 +38,7 @@ namespace Ricochet
     {
       std::optional<BodyKey>         body;
       std::uint64_t                  contact = 0;
+      std::uint64_t                  pattern = 0;
       Matrix                         matrix;
       std::unique_ptr<Factorisation> factorisation;
     };

@@ -31,6 +31,19 @@ namespace Ricochet
         "The factorisation CHOLMOD works on one MPI rank only, "
         "not on " +
         std::to_string(n_ranks) + "; choose automatic, KLU or MUMPS.");
+    if (contact.couplings_change)
+      {
+        if (type == "corrected" || type == "multigrid")
+          throw InputError(
+            "Contact between bodies couples unknowns that change from step to "
+            "step: choose Linear solver/Type = direct or automatic instead of " +
+            type + ".");
+        if (parameters.factorisation == "CHOLMOD")
+          throw InputError(
+            "CHOLMOD factors symmetric matrices only: with contact between "
+            "bodies choose KLU, MUMPS or automatic.");
+        type = "direct";
+      }
     if (type == "automatic")
       {
         // A nonlinear body gains by the symmetry only, and where a factorisation

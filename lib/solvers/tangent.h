@@ -35,6 +35,8 @@ namespace Ricochet
     bool is_symmetric = false;
     /// It brings unknowns of its own.
     bool has_multipliers = false;
+    /// It couples unknowns that the body does not couple, and not always the same.
+    bool couplings_change = false;
   };
 
   /// What names the body's part of a tangent: the weights of its terms.
@@ -60,6 +62,9 @@ namespace Ricochet
     std::optional<BodyKey> body;
     /// State of contact; none if the tangent changes with every state.
     std::optional<std::uint64_t> contact;
+
+    /// Another number for another sparsity pattern.
+    std::uint64_t pattern = 0;
 
     /// Overwrite a matrix with the body's part.
     std::function<void(Matrix &)> assemble_body;

@@ -65,6 +65,8 @@ namespace Ricochet
                                       new_state.solution,
                                       dt);
     report.external_work = stage.load * work;
+    if (system.has_imposed_displacements())
+      report.imposed_work = system.imposed_work(work);
 
     system.reconstruct_massless(old_state, dt, new_state);
     return report;

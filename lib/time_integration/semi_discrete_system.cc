@@ -76,6 +76,8 @@ namespace Ricochet
     , work(contact.row_scaling())
     , constant_part(contact.row_scaling())
     , force(contact.row_scaling())
+    , reaction(contact.row_scaling())
+    , safe_guess(contact.row_scaling())
   {}
 
   void
@@ -134,6 +136,11 @@ namespace Ricochet
     state.velocity = velocity;
     set_clamped_to_zero(clamped_list, state.solution);
     set_clamped_to_zero(clamped_list, state.velocity);
+    if (unknowns.impose)
+      {
+        unknowns.impose(time, state.solution);
+        unknowns.impose_rate(time, state.velocity);
+      }
     state.contact_force.reinit(displacement);
     state.acceleration.reinit(displacement);
     state.scheme_force.reinit(displacement);
@@ -155,23 +162,34 @@ namespace Ricochet
                                   Vector      &solution,
                                   Vector      &contact_force)
   {
-    StageProblem                problem({mass,
-                                         bulk,
-                                         contact,
-                                         linear_solver,
-                                         clamped_list,
-                                         static_cast<unsigned int>(
+    StageProblem problem({mass,
+                          bulk,
+                          contact,
+                          linear_solver,
+                          clamped_list,
+                          static_cast<unsigned int>(
                             unknowns.multipliers.n_elements()),
-                                         *unknowns.pattern,
-                                         residual_seconds,
-                                         tangent_seconds,
-                                         work,
-                                         force,
-                                         constant_part},
+                          *unknowns.pattern,
+                          residual_seconds,
+                          tangent_seconds,
+                          united_pattern,
+                          work,
+                          force,
+                          constant_part,
+                          reaction,
+                          body_matrix},
                          stage,
                          old_state.solution,
                          old_state.contact_force,
-                         solution);
+                         solution,
+                         safe_guess);
+    // Iterates keep the prescribed displacements of the guess.
+    safe_guess = old_state.solution;
+    if (unknowns.impose)
+      {
+        unknowns.impose(stage.end_time, solution);
+        unknowns.impose(stage.end_time, safe_guess);
+      }
     const NewtonSolver::Problem newton_problem = problem.for_newton();
     const ContactStart          start{old_state.solution,
                              old_state.contact_force,
@@ -199,7 +217,7 @@ namespace Ricochet
         if (bulk.is_linear())
           throw;
         const std::string first_reason = bulk.failure();
-        solution                       = old_state.solution;
+        solution                       = safe_guess;
         try
           {
             solve_all_passes();
@@ -216,6 +234,15 @@ namespace Ricochet
       }
     contact_force = contact.contact_force();
     return problem.n_iterations();
+  }
+
+  double
+  SemiDiscreteSystem::imposed_work(const Vector &way) const
+  {
+    double sum = 0.;
+    for (const auto i : clamped_list)
+      sum += reaction(i) * way(i);
+    return Utilities::MPI::sum(sum, mass.get_mpi_communicator());
   }
 
   SemiDiscreteSystem::Shares

@@ -58,7 +58,7 @@ namespace Ricochet
     {
       /// Without inertia.
       dealii::IndexSet massless;
-      /// Of zero displacement.
+      /// Of prescribed displacement: zero, unless #impose says otherwise.
       dealii::IndexSet clamped;
       /// Multipliers.
       dealii::IndexSet multipliers;
@@ -71,6 +71,11 @@ namespace Ricochet
         canonical_positions;
       /// Body::coarse_space(), for multigrid.
       std::function<CoarseSpace()> coarse_space;
+      /// Sets the prescribed displacements in a vector of displacements (m), or
+      /// their rates in one of velocities (m/s), to those at a time; empty if all
+      /// are zero.
+      std::function<void(const double time, Vector &displacement)> impose  = {};
+      std::function<void(const double time, Vector &velocity)> impose_rate = {};
     };
 
     /**
@@ -115,6 +120,19 @@ namespace Ricochet
                 const Vector &contact_force,
                 const double  time,
                 Vector       &force) const;
+
+    /// Whether displacements are imposed that are not zero.
+    bool
+    has_imposed_displacements() const
+    {
+      return static_cast<bool>(unknowns.impose);
+    }
+
+    /// Work (J) on the body of the forces by which displacements are imposed, over
+    /// a step with the displacement @p way, from what the equations of motion of the
+    /// last solve_stage() leave over.
+    double
+    imposed_work(const Vector &way) const;
 
     /// The external load at @p time.
     void
@@ -188,6 +206,11 @@ namespace Ricochet
     double       residual_seconds = 0., tangent_seconds = 0.;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, constant_part, force;
+    // What the equations leave over in prescribed displacements (N), and where
+    // Newton's method may begin.
+    Vector        reaction, safe_guess;
+    UnitedPattern united_pattern;
+    Matrix        body_matrix;
   };
 } // namespace Ricochet
 

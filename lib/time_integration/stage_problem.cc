@@ -14,11 +14,13 @@ namespace Ricochet
                              const Stage  &stage,
                              const Vector &old_solution,
                              const Vector &old_contact_force,
-                             const Vector &solution)
+                             const Vector &solution,
+                             const Vector &safe_guess)
     : parts(parts)
     , stage(stage)
     , old_solution(old_solution)
     , solution(solution)
+    , safe_guess(safe_guess)
   {
     // What does not change during the iteration: old forces and load.
     Vector &constant_part = parts.constant_part;
@@ -64,7 +66,7 @@ namespace Ricochet
               return bulk_round_off +
                 stage.contact_weight_new * parts.contact.round_off();
             },
-            &old_solution};
+            &safe_guess};
   }
 
   void
@@ -102,6 +104,9 @@ namespace Ricochet
     parts.contact.complete_residual(point, result);
     force_scale +=
       stage.contact_weight_new * parts.contact.contact_force().l2_norm();
+    for (const auto i : parts.clamped)
+      parts.reaction(i) = result(i);
+    parts.reaction.compress(VectorOperation::insert);
     set_clamped_to_zero(parts.clamped, result);
   }
 
@@ -122,8 +127,7 @@ namespace Ricochet
         AssertThrow(!tangent.body_terms.empty(), ExcInternalError());
         tangent.body_terms.push_back({stage.inertia, &parts.mass});
       }
-    tangent.assemble_body = [this, bulk_weight](Matrix &matrix) {
-      const Stopwatch stopwatch(parts.tangent_seconds);
+    const auto assemble_body = [this, bulk_weight](Matrix &matrix) {
       if (matrix.n_nonzero_elements() == parts.pattern.n_nonzero_elements())
         matrix = 0.;
       else
@@ -137,6 +141,20 @@ namespace Ricochet
       else
         parts.bulk.add_tangent(bulk_weight, solution, matrix);
     };
+    const Couplings *couplings = parts.contact.couplings();
+    if (couplings)
+      {
+        parts.united_pattern.update(parts.pattern, *couplings);
+        tangent.pattern = couplings->version;
+      }
+    tangent.assemble_body =
+      [this, assemble_body, is_united = couplings != nullptr](Matrix &matrix) {
+        const Stopwatch stopwatch(parts.tangent_seconds);
+        if (!is_united)
+          return assemble_body(matrix);
+        assemble_body(parts.body_matrix);
+        parts.united_pattern.embed(parts.body_matrix, matrix);
+      };
     const auto complete = [this](void (TangentContact::*add)(Matrix &) const) {
       return [this, add](Matrix &matrix) {
         const Stopwatch stopwatch(parts.tangent_seconds);

@@ -36,17 +36,25 @@ namespace Ricochet
       const dealii::TrilinosWrappers::SparsityPattern &pattern;
       /// s, summed up.
       double &residual_seconds, &tangent_seconds;
+      /// Where contact couples what the body does not.
+      UnitedPattern &united_pattern;
       // Work space, so that nothing is allocated in a time step.
       Vector &work, &force, &constant_part;
+      /// Gets what the equations leave over in clamped unknowns (N).
+      Vector &reaction;
+      Matrix &body_matrix;
     };
 
     /// @param solution the iterate: residuals are looked at elsewhere, too, but
     /// tangents are those of this vector.
+    /// @param safe_guess where to begin if the residual at @p solution is not
+    /// finite.
     StageProblem(const Parts  &parts,
                  const Stage  &stage,
                  const Vector &old_solution,
                  const Vector &old_contact_force,
-                 const Vector &solution);
+                 const Vector &solution,
+                 const Vector &safe_guess);
 
     /// What NewtonSolver::solve() takes.
     NewtonSolver::Problem
@@ -88,7 +96,7 @@ namespace Ricochet
 
     const Parts   parts;
     const Stage  &stage;
-    const Vector &old_solution, &solution;
+    const Vector &old_solution, &solution, &safe_guess;
     double        constant_scale = 0., force_scale = 0.;
     double        bulk_round_off = 0.;
     unsigned int  iterations     = 0;

@@ -14,7 +14,7 @@ namespace Ricochet
   /**
    * What a step did, and the terms of its energy balance,
    *
-   *     E_new - E_old = external_work - contact_work - friction_work
+   *     E_new - E_old = external_work + imposed_work - contact_work - friction_work
    *                     - viscous_dissipation - numerical_dissipation .
    *
    * The dissipation comes from the scheme's own closed formula, in which M a
@@ -25,6 +25,8 @@ namespace Ricochet
   {
     /// J
     double external_work = 0.;
+    /// Work of the forces by which displacements are imposed (J).
+    double imposed_work = 0.;
     /// Work that the body does against the normal contact force (J).
     double contact_work = 0.;
     /// Work against friction (J); never negative.

@@ -83,6 +83,7 @@ namespace Ricochet
   StepReport::operator+=(const StepReport &other)
   {
     external_work += other.external_work;
+    imposed_work += other.imposed_work;
     contact_work += other.contact_work;
     friction_work += other.friction_work;
     viscous_dissipation += other.viscous_dissipation;

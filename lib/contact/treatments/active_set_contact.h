@@ -3,6 +3,7 @@
 #define ricochet_contact_treatments_active_set_contact_h
 
 #include <contact/contact_operator.h>
+#include <contact/treatments/closing_condition.h>
 
 #include <memory>
 
@@ -28,20 +29,7 @@ namespace Ricochet
   class ActiveSetContact : public ContactOperator
   {
   public:
-    /// What is imposed on active nodes.
-    enum class Condition
-    {
-      /// Signorini's condition at the end of the step: gap = 0.
-      signorini,
-      /// Persistent contact (B (3.7)): where the predictor of the mean gap,
-      /// gap_old + dt/2 (rate of the step before), is not positive, the gap does
-      /// not change. The work of the reaction is exactly zero.
-      persistent,
-      /// Ayyad and Barboteu's two steps: first Signorini's condition on the mean
-      /// gap of the step; then, in the nodes that this found in contact, the gap
-      /// does not change, and the others are free.
-      two_step
-    };
+    using Condition = ClosingCondition;
 
     /**
      * @param nodes from make_nodal_contact_points().

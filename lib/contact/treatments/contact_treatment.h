@@ -4,6 +4,7 @@
 
 #include <base/parameter_file.h>
 #include <contact/contact_operator.h>
+#include <contact/surfaces/contact_pair.h>
 #include <time_integration/scheme_traits.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -61,9 +62,29 @@ namespace Ricochet
                     const bool               linear_material,
                     const bool               viscous);
 
+  /// The same for contact between bodies, beside check_combination(): it is
+  /// formulated over the steps of the midpoint scheme, for treatments that need
+  /// neither stress nor the multipliers of rigid obstacles.
+  /// @throws InputError that names what is allowed.
+  void
+  check_pair_combination(const ContactParameters &parameters,
+                         const SchemeTraits      &scheme);
+
   /// The multiplier space that the treatment of @p parameters needs.
   MultiplierSpace
   multiplier_space(const ContactParameters &parameters);
+
+  /// The same for contact between bodies.
+  MultiplierSpace
+  pair_multiplier_space(const ContactParameters &parameters);
+
+  /// The treatment that @p parameters name between the surfaces of the @p pairs.
+  /// @throws InputError see PairContact
+  template <int dim>
+  std::unique_ptr<ContactOperator>
+  make_pair_contact(const ContactParameters        &parameters,
+                    const Body<dim>                &body,
+                    const std::vector<ContactPair> &pairs);
 
   /// The treatment that @p parameters name, for the time scheme @p scheme, on
   /// @p body against @p obstacles. @p stress is that of the body on the contact

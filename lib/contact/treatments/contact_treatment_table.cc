@@ -10,6 +10,7 @@
 #include <contact/laws/penalty.h>
 #include <contact/laws/signorini_multiplier.h>
 #include <contact/treatments/nitsche_bound.h>
+#include <contact/treatments/pair_contact.h>
 #include <contact/treatments/pointwise_contact.h>
 
 #include <deal.II/base/utilities.h>
@@ -34,8 +35,7 @@ namespace Ricochet
       std::function<std::unique_ptr<ContactLaw>(const ContactParameters &)>
         make_midpoint_law = {};
       /// What an active set imposes.
-      ActiveSetContact::Condition condition =
-        ActiveSetContact::Condition::signorini;
+      ClosingCondition condition = ClosingCondition::signorini;
     };
 
     template <typename Law>
@@ -128,12 +128,12 @@ namespace Ricochet
          active_set_traits(true),
          {},
          {},
-         ActiveSetContact::Condition::persistent},
+         ClosingCondition::persistent},
         {"Ayyad-Barboteu two-step",
          active_set_traits(true),
          {},
          {},
-         ActiveSetContact::Condition::two_step}};
+         ClosingCondition::two_step}};
       return treatments;
     }
 
@@ -308,6 +308,60 @@ namespace Ricochet
 
 
 
+  void
+  check_pair_combination(const ContactParameters &parameters,
+                         const SchemeTraits      &scheme)
+  {
+    const auto good = [](const ContactLawTraits &traits) {
+      return !traits.uses_stress && !traits.needs_multiplier;
+    };
+    if (!good(find(parameters).traits))
+      throw InputError("The contact treatment '" + parameters.treatment +
+                       "' is one for rigid obstacles, not for contact between "
+                       "bodies.\nAllowed there: " +
+                       names_of(good) + ".");
+    if (!scheme.contact_over_step)
+      throw InputError(
+        "Contact between bodies cannot be combined with the time "
+        "scheme '" +
+        scheme.name +
+        "'.\nAllowed with it: midpoint, over whose steps the work "
+        "of a contact force is exactly pressure times the change "
+        "of the gap.");
+  }
+
+
+
+  MultiplierSpace
+  pair_multiplier_space(const ContactParameters &parameters)
+  {
+    if (find(parameters).make_law)
+      return MultiplierSpace::none;
+    return parameters.friction_coefficient > 0. ? MultiplierSpace::linear_vector
+                                                : MultiplierSpace::linear;
+  }
+
+
+
+  template <int dim>
+  std::unique_ptr<ContactOperator>
+  make_pair_contact(const ContactParameters        &parameters,
+                    const Body<dim>                &body,
+                    const std::vector<ContactPair> &pairs)
+  {
+    const Treatment &treatment = find(parameters);
+    return std::make_unique<PairContact<dim>>(
+      body,
+      pairs,
+      PairMethod{treatment.make_law ? treatment.make_law(parameters) : nullptr,
+                 treatment.condition,
+                 parameters.augmentation,
+                 {parameters.friction_coefficient,
+                  parameters.tangential_compliance}});
+  }
+
+
+
   std::vector<UnusedParameter>
   ContactParameters::unused_parameters() const
   {
@@ -478,6 +532,14 @@ namespace Ricochet
   }
 
 
+  template std::unique_ptr<ContactOperator>
+  make_pair_contact(const ContactParameters &,
+                    const Body<1> &,
+                    const std::vector<ContactPair> &);
+  template std::unique_ptr<ContactOperator>
+  make_pair_contact(const ContactParameters &,
+                    const Body<2> &,
+                    const std::vector<ContactPair> &);
   template std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &,
                const SchemeTraits &,

@@ -136,7 +136,18 @@ namespace Ricochet
     force.compress(VectorOperation::add);
     if (friction.exists())
       {
-        friction.evaluate(point_force, *kinematics);
+        friction.begin_evaluation(state.size());
+        for (unsigned int p = 0; p < state.size(); ++p)
+          {
+            const double pressure = positive_part(-point_force[p].gap);
+            // Where nothing presses, geometry may be that of another state.
+            friction.evaluate(p,
+                              pressure,
+                              kinematics->has_constant_rows() || pressure > 0.
+                                ? kinematics->geometry(p).slip()
+                                : dealii::Tensor<1, 3>(),
+                              evaluator.contact_points()[p].cell_diameter);
+          }
         friction_part = 0.;
         for (unsigned int p = 0; p < state.size(); ++p)
           if (friction_acts(p))
@@ -147,6 +158,26 @@ namespace Ricochet
     residual.add(weight, force);
 
     clear_multipliers(force);
+  }
+
+
+
+  PointwiseFriction::Derivatives
+  PointwiseContact::friction_derivatives(const unsigned int p) const
+  {
+    const PointGeometry &geometry = kinematics->geometry(p);
+    const auto           plane    = tangent_plane(geometry.normal);
+    if (kinematics->has_constant_rows())
+      return friction.derivatives(p, plane);
+    // Slip follows the way, and the turning of the plane in which it is.
+    PointwiseFriction::Derivatives derivatives =
+      friction.derivatives(p,
+                           dealii::Tensor<2, 3>(
+                             dealii::unit_symmetric_tensor<3>()));
+    derivatives.with_slip = derivatives.with_slip *
+      (plane * geometry.relative_way_derivative +
+       geometry.projection_derivative(geometry.relative_way));
+    return derivatives;
   }
 
 
@@ -166,11 +197,11 @@ namespace Ricochet
 
         if (friction_acts(p))
           {
-            const auto derivatives = friction.derivatives(p, *kinematics);
-            const dealii::Tensor<1, 3> &slope = derivatives.with_pressure;
+            const auto                  derivatives = friction_derivatives(p);
+            const dealii::Tensor<1, 3> &slope       = derivatives.with_pressure;
             evaluator.add(p,
                           weight,
-                          derivatives.with_slip_rate,
+                          derivatives.with_slip,
                           {{-law_tangent[0][0] * slope,
                             -law_tangent[0][1] * slope,
                             -law_tangent[0][2] * slope}},
@@ -249,15 +280,14 @@ namespace Ricochet
 
         if (!friction_acts(p))
           continue;
-        const auto derivatives = friction.derivatives(p, *kinematics);
+        const auto derivatives = friction_derivatives(p);
         for (unsigned int t = 0; t < own.tangential.size(); ++t)
           {
             auto &row = change[own.first_tangential + t];
             for (unsigned int s = 0; s < own.tangential.size(); ++s)
               row.emplace_back(own.first_tangential + s,
                                factor *
-                                 (own.tangential[t] *
-                                  derivatives.with_slip_rate *
+                                 (own.tangential[t] * derivatives.with_slip *
                                   own.tangential[s]));
             if (const double with_gap = -law_tangent[0][0] *
                   (own.tangential[t] * derivatives.with_pressure);
@@ -290,7 +320,7 @@ namespace Ricochet
         if (friction_acts(p) && friction.sticks(p))
           {
             const double friction_force =
-              point.weight * friction.round_off(p, *kinematics);
+              point.weight * friction.round_off(kinematics->way_round_off(p));
             square += friction_force * friction_force;
           }
       }

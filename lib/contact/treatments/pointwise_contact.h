@@ -188,6 +188,11 @@ namespace Ricochet
     void
     add_turning(const unsigned int p, Matrix &tangent) const;
 
+    /// Derivatives of friction with respect to the way of the point over the step
+    /// (Pa/m) and to the pressure.
+    PointwiseFriction::Derivatives
+    friction_derivatives(const unsigned int p) const;
+
     /// Whether there is friction in a point: whether it is pressed.
     bool
     friction_acts(const unsigned int p) const

@@ -8,58 +8,51 @@ namespace Ricochet
   using dealii::Tensor;
 
   void
-  PointwiseFriction::evaluate(const std::vector<ContactPointForce<>> &forces,
-                              const ContactKinematics &kinematics)
+  PointwiseFriction::begin_evaluation(const unsigned int n_points)
   {
-    const unsigned int n_points = forces.size();
-    pressures.resize(n_points);
+    pressures.assign(n_points, 0.);
     slip_rate.assign(n_points, Tensor<1, 3>());
-    branch.resize(n_points);
-    for (unsigned int p = 0; p < n_points; ++p)
+    branch.assign(n_points, {});
+  }
+
+
+
+  void
+  PointwiseFriction::evaluate(const unsigned int  p,
+                              const double        pressure,
+                              const Tensor<1, 3> &slip,
+                              const double        cell_diameter)
+  {
+    pressures[p]             = pressure;
+    slip_rate[p]             = slip / time_step;
+    const Tensor<1, 3> rate  = slip_rate[p];
+    Tensor<1, 3>       trial = law.tangential_compliance * rate;
+    if (n_iterates > 0 && accepted_branch.size() == pressures.size())
       {
-        pressures[p] = positive_part(-forces[p].gap);
-        // Where nothing presses, geometry may be that of another state.
-        if (kinematics.has_constant_rows() || pressures[p] > 0.)
-          slip_rate[p] = kinematics.geometry(p).slip() / time_step;
-        const Tensor<1, 3> rate  = slip_rate[p];
-        Tensor<1, 3>       trial = law.tangential_compliance * rate;
-        if (n_iterates > 0 && accepted_branch.size() == n_points)
-          {
-            // The traction that the last iterate predicts.
-            const Tensor<1, 3> predicted =
-              law.traction_on(accepted_branch[p], pressures[p], rate);
-            const double r = std::min(law.tangential_compliance,
-                                      augmentation * time_step /
-                                        kinematics.points()[p].cell_diameter);
-            trial =
-              predicted + r * (rate - predicted / law.tangential_compliance);
-          }
-        branch[p] = law.choose_branch(pressures[p], rate, trial);
+        // The traction that the last iterate predicts.
+        const Tensor<1, 3> predicted =
+          law.traction_on(accepted_branch[p], pressure, rate);
+        const double r = std::min(law.tangential_compliance,
+                                  augmentation * time_step / cell_diameter);
+        trial = predicted + r * (rate - predicted / law.tangential_compliance);
       }
+    branch[p] = law.choose_branch(pressure, rate, trial);
   }
 
 
 
   PointwiseFriction::Derivatives
-  PointwiseFriction::derivatives(const unsigned int       p,
-                                 const ContactKinematics &kinematics) const
+  PointwiseFriction::derivatives(const unsigned int  p,
+                                 const Tensor<2, 3> &plane) const
   {
-    Derivatives          derivatives;
-    const PointGeometry &geometry = kinematics.geometry(p);
-    const bool           constant = kinematics.has_constant_rows();
+    Derivatives derivatives;
     law.derivatives(branch[p],
                     pressures[p],
                     slip_rate[p],
-                    constant ? tangent_plane(geometry.normal)
-                             : Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()),
-                    derivatives.with_slip_rate,
+                    plane,
+                    derivatives.with_slip,
                     derivatives.with_pressure);
-    // Slip follows the way, and the turning of the plane in which it is.
-    if (!constant)
-      derivatives.with_slip_rate = derivatives.with_slip_rate *
-        (tangent_plane(geometry.normal) * geometry.relative_way_derivative +
-         geometry.projection_derivative(geometry.relative_way));
-    derivatives.with_slip_rate /= time_step;
+    derivatives.with_slip /= time_step;
     return derivatives;
   }
 } // namespace Ricochet

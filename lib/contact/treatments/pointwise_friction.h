@@ -2,7 +2,6 @@
 #ifndef ricochet_contact_treatments_pointwise_friction_h
 #define ricochet_contact_treatments_pointwise_friction_h
 
-#include <contact/kinematics/contact_kinematics.h>
 #include <contact/laws/coulomb_friction.h>
 
 #include <vector>
@@ -46,10 +45,18 @@ namespace Ricochet
       accepted_branch = branch;
     }
 
-    /// Choose stick or slip in all points, in which the law has the @p forces.
+    /// Begin to look at a state with @p n_points, none of which is pressed.
     void
-    evaluate(const std::vector<ContactPointForce<>> &forces,
-             const ContactKinematics                &kinematics);
+    begin_evaluation(const unsigned int n_points);
+
+    /// Choose stick or slip in point @p p, which has the @p pressure (Pa), has
+    /// slipped by @p slip (m) over the step, and belongs to a cell of diameter @p
+    /// cell_diameter (m).
+    void
+    evaluate(const unsigned int          p,
+             const double                pressure,
+             const dealii::Tensor<1, 3> &slip,
+             const double                cell_diameter);
 
     /// The pressure that point @p p had in evaluate() (Pa).
     double
@@ -78,17 +85,17 @@ namespace Ricochet
       return traction(p) - law.traction(pressures[p], slip_rate[p]);
     }
 
-    /// Derivatives of traction() with respect to the way of the point over the
-    /// step, per time (Pa s/m), and to the pressure.
+    /// Derivatives of traction() with respect to the slip over the step (Pa/m) and
+    /// to the pressure.
     struct Derivatives
     {
-      dealii::Tensor<2, 3> with_slip_rate;
+      dealii::Tensor<2, 3> with_slip;
       dealii::Tensor<1, 3> with_pressure;
     };
 
+    /// @param plane projection on the space in which slips are.
     Derivatives
-    derivatives(const unsigned int       p,
-                const ContactKinematics &kinematics) const;
+    derivatives(const unsigned int p, const dealii::Tensor<2, 3> &plane) const;
 
     /// Energy taken in point @p p per area over the step (J/m^2).
     double
@@ -97,12 +104,12 @@ namespace Ricochet
       return time_step * (traction(p) * slip_rate[p]);
     }
 
-    /// Traction (Pa) that round-off in the way of a sticking point can cause.
+    /// Traction (Pa) that round-off @p way_round_off (m) in the way of a sticking
+    /// point can cause.
     double
-    round_off(const unsigned int p, const ContactKinematics &kinematics) const
+    round_off(const double way_round_off) const
     {
-      return law.tangential_compliance / time_step *
-        kinematics.way_round_off(p);
+      return law.tangential_compliance / time_step * way_round_off;
     }
 
   private:

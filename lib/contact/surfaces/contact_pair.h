@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_surfaces_contact_pair_h
+#define ricochet_contact_surfaces_contact_pair_h
+
+#include <deal.II/base/types.h>
+
+#include <set>
+#include <string>
+
+namespace Ricochet
+{
+  /// Two surfaces that may touch, of different bodies or of one.
+  struct ContactPair
+  {
+    /// For the columns of the ledger.
+    std::string name;
+    /// Boundary ids of the surface in whose points contact is formulated (slave),
+    /// and of the one before whose facets they are (master). The slave should be
+    /// the softer body.
+    std::set<dealii::types::boundary_id> slave, master;
+  };
+} // namespace Ricochet
+
+#endif

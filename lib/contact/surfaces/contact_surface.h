@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_surfaces_contact_surface_h
+#define ricochet_contact_surfaces_contact_surface_h
+
+#include <discretization/body.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * A part of the boundary that can touch another one: facets, how they hang
+   * together, and the unknowns of their nodes. Every rank knows all of it, in the
+   * same order for any number of ranks: surfaces are small against bodies, and the
+   * partner of a point may be on any rank.
+   *
+   * In the plane facets are segments from node 0 to node 1 with the outside on
+   * their left, in 1D single nodes.
+   */
+  template <int dim>
+  class ContactSurface
+  {
+  public:
+    struct Node
+    {
+      /// m
+      dealii::Point<dim> reference_position;
+      /// System indices of the displacement.
+      std::array<dealii::types::global_dof_index, dim> unknowns;
+      /// System indices of the multipliers, the normal one first; invalid ones
+      /// without.
+      std::array<dealii::types::global_dof_index, dim> multipliers;
+      /// All of the node's displacement is prescribed.
+      bool is_held = false;
+    };
+
+    struct Facet
+    {
+      /// Numbers of nodes.
+      std::array<unsigned int, dim> nodes;
+      /// Outward unit normal before any displacement.
+      dealii::Tensor<1, dim>     normal;
+      dealii::types::boundary_id boundary_id = 0;
+      /// Part of which body: the material id of its cell.
+      dealii::types::material_id part = 0;
+      /// Length (m); 1 in 1D.
+      double measure = 1.;
+      /// Of the cell behind it (m).
+      double cell_diameter = 0.;
+      /// Facets before and behind it, at node 0 and node 1; none at an open end.
+      std::optional<unsigned int> previous, next;
+    };
+
+    /// @throws InputError when the boundaries have no facet, for a degree other
+    /// than 1, and where more than two facets meet. Collective.
+    ContactSurface(const Body<dim>                            &body,
+                   const std::set<dealii::types::boundary_id> &boundaries);
+
+    std::vector<Node>  nodes;
+    std::vector<Facet> facets;
+  };
+} // namespace Ricochet
+
+#endif

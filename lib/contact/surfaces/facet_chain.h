@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_surfaces_facet_chain_h
+#define ricochet_contact_surfaces_facet_chain_h
+
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * Contact of a point with a chain of straight facets in the plane, all of which
+   * move: the gap, and the directions along which forces on the point and on the
+   * nodes of the chain have to act over a step.
+   *
+   * The point y is before the facet (a, b), whose outside is on its left, at the
+   * distance g = A / |e| from its line, with e = b - a, r = y - a, A = e x r. With
+   * P = e . r and B = e . e, all three are quadratic functions of the positions,
+   * so that their gradients in the middle of a step are their quotients of
+   * differences. By the rules for products and quotients so are
+   *
+   *     D = mean(1/L) grad A - (A_0 + A_1) / (2 L_0 L_1 (L_0 + L_1)) grad B,
+   *     T = L_m [ mean(1/B) grad P - (P_0 + P_1) / (2 B_0 B_1) grad B ]
+   *
+   * for the gap and for L_m times the coordinate P/B along the facet (L = |e|;
+   * gradients and L_m in the middle of the step): D . change = g_1 - g_0, exactly.
+   * Since A, P, B do not notice a motion of all of the points together, nor do D
+   * and T: the sum of the forces is zero, and so is that of their moments.
+   *
+   * Neighbouring facets meet where the bisector of their angle is. There the
+   * distances from both lines are the same: with the unit vectors e_1, e_2 along
+   * them, and the bisector's coordinate t = (e_1 + e_2) . (y - b) / (1 + e_1 . e_2),
+   * the difference is -(e_1 x e_2) t. For a point that passes the vertex b during
+   * the step, D becomes the mean of both facets' by the part of the way on each,
+   * and a small couple for the change of the angle, so that D . change is still
+   * exactly g_1 - g_0.
+   *
+   * @tparam Number of what is new: double, or a type that knows derivatives.
+   */
+  template <typename Number>
+  class FacetChain
+  {
+  public:
+    template <typename T>
+    using Vector2 = std::array<T, 2>;
+
+    /// Rows on the coordinates of the point and of the nodes of the chain, in this
+    /// order.
+    struct Rows
+    {
+      /// Gap at the end of the step (m).
+      Number new_gap{};
+      /// D . change, which is new gap - old gap (m).
+      Number gap_increment{};
+      /// T . change: how far the point slides along the facet where it began (m).
+      Number slip{};
+      /// D and T, 1.
+      std::vector<Number> normal, tangential;
+    };
+
+    /**
+     * Positions at the beginning of a step and at its end: first that of the
+     * point, then those of the nodes of the chain (m). References are kept.
+     *
+     * @param freeze_convex leave out the derivatives of the part of the way behind
+     * a convex vertex: there a pressed point has a negative stiffness, with which
+     * Newton's method may go to and fro.
+     */
+    FacetChain(const std::vector<Vector2<double>> &old_positions,
+               const std::vector<Vector2<Number>> &new_positions,
+               const bool                          freeze_convex = false)
+      : old_x(old_positions)
+      , new_x(new_positions)
+      , freeze_convex(freeze_convex)
+    {}
+
+    /**
+     * Rows for a point that begins before the facet @p old_facet of the chain and
+     * ends before @p new_facet. @p rows keeps its memory.
+     */
+    void
+    evaluate(const unsigned int old_facet,
+             const unsigned int new_facet,
+             Rows              &rows) const
+    {
+      rows.normal.assign(2 * new_x.size(), Number(0.));
+      rows.tangential.assign(2 * new_x.size(), Number(0.));
+      add_normal_row(old_facet, Number(1.), rows.normal);
+      add_tangential_row(old_facet, rows.tangential);
+      const bool         forward = new_facet > old_facet;
+      const unsigned int first   = forward ? old_facet : new_facet;
+      const unsigned int last    = forward ? new_facet : old_facet;
+      for (unsigned int facet = first; facet < last; ++facet)
+        add_passing(facet, forward ? 1. : -1., rows.normal);
+
+      rows.new_gap       = gap(new_x, new_facet);
+      rows.gap_increment = times_change(rows.normal);
+      rows.slip          = times_change(rows.tangential);
+    }
+
+    /// The distance from the line of @p facet (m).
+    template <typename T>
+    static T
+    gap(const std::vector<Vector2<T>> &x, const unsigned int facet)
+    {
+      using std::sqrt;
+      const auto e = edge(x, facet);
+      return cross(e, minus(x[0], x[facet + 1])) / sqrt(dot(e, e));
+    }
+
+    /// The coordinate (m) from the bisector between @p facet and the next one,
+    /// negative before the first.
+    template <typename T>
+    static T
+    past_vertex(const std::vector<Vector2<T>> &x, const unsigned int facet)
+    {
+      using std::sqrt;
+      const auto e1 = edge(x, facet), e2 = edge(x, facet + 1);
+      const T    l1 = sqrt(dot(e1, e1)), l2 = sqrt(dot(e2, e2));
+      const auto r = minus(x[0], x[facet + 2]);
+      return (dot(e1, r) / l1 + dot(e2, r) / l2) /
+        (1. + dot(e1, e2) / (l1 * l2));
+    }
+
+    /// The facet before which the point is at positions @p x, found by walking
+    /// over vertices from @p facet.
+    template <typename T>
+    static unsigned int
+    facet_before(const std::vector<Vector2<T>> &x, unsigned int facet)
+    {
+      const unsigned int n_facets = x.size() - 2, begin = facet;
+      while (facet + 1 < n_facets && past_vertex(x, facet) >= 0.)
+        ++facet;
+      if (facet == begin)
+        while (facet > 0 && past_vertex(x, facet - 1) < 0.)
+          --facet;
+      return facet;
+    }
+
+  private:
+    template <typename T>
+    static Vector2<T>
+    minus(const Vector2<T> &a, const Vector2<T> &b)
+    {
+      return {{T(a[0] - b[0]), T(a[1] - b[1])}};
+    }
+
+    template <typename T>
+    static T
+    dot(const Vector2<T> &a, const Vector2<T> &b)
+    {
+      return a[0] * b[0] + a[1] * b[1];
+    }
+
+    template <typename T>
+    static T
+    cross(const Vector2<T> &a, const Vector2<T> &b)
+    {
+      return a[0] * b[1] - a[1] * b[0];
+    }
+
+    template <typename T>
+    static Vector2<T>
+    edge(const std::vector<Vector2<T>> &x, const unsigned int facet)
+    {
+      return minus(x[facet + 2], x[facet + 1]);
+    }
+
+    Vector2<Number>
+    middle(const unsigned int i) const
+    {
+      return {{Number(.5 * (old_x[i][0] + new_x[i][0])),
+               Number(.5 * (old_x[i][1] + new_x[i][1]))}};
+    }
+
+    /// Add @p factor * @p gradient to the place of point @p i in @p row.
+    static void
+    add(const unsigned int     i,
+        const Number          &factor,
+        const Vector2<Number> &gradient,
+        std::vector<Number>   &row)
+    {
+      row[2 * i] += factor * gradient[0];
+      row[2 * i + 1] += factor * gradient[1];
+    }
+
+    Number
+    times_change(const std::vector<Number> &row) const
+    {
+      Number sum(0.);
+      for (unsigned int i = 0; i < new_x.size(); ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+          sum += row[2 * i + c] * (new_x[i][c] - old_x[i][c]);
+      return sum;
+    }
+
+    /// Add @p factor * grad (e . e) of the vector e from point @p i to point @p j.
+    void
+    add_square(const unsigned int   i,
+               const unsigned int   j,
+               const Number        &factor,
+               std::vector<Number> &row) const
+    {
+      const Vector2<Number> e = minus(middle(j), middle(i));
+      add(j, Number(2. * factor), e, row);
+      add(i, Number(-2. * factor), e, row);
+    }
+
+    void
+    add_normal_row(const unsigned int   facet,
+                   const Number        &factor,
+                   std::vector<Number> &row) const
+    {
+      using std::sqrt;
+      const unsigned int a = facet + 1, b = facet + 2;
+      const auto         old_e = edge(old_x, facet);
+      const auto         new_e = edge(new_x, facet);
+      const double       old_l = std::sqrt(dot(old_e, old_e));
+      const Number       new_l = sqrt(dot(new_e, new_e));
+      const Number       areas = cross(old_e, minus(old_x[0], old_x[a])) +
+        cross(new_e, minus(new_x[0], new_x[a]));
+
+      const Vector2<Number> e    = minus(middle(b), middle(a));
+      const Vector2<Number> r    = minus(middle(0), middle(a));
+      const Number          mean = .5 * factor * (1. / old_l + 1. / new_l);
+      add(0, mean, {{Number(-e[1]), e[0]}}, row);
+      add(a, mean, {{Number(e[1] - r[1]), Number(r[0] - e[0])}}, row);
+      add(b, mean, {{r[1], Number(-r[0])}}, row);
+      add_square(a,
+                 b,
+                 Number(-factor * areas /
+                        (2. * old_l * new_l * (old_l + new_l))),
+                 row);
+    }
+
+    void
+    add_tangential_row(const unsigned int facet, std::vector<Number> &row) const
+    {
+      using std::sqrt;
+      const unsigned int    a = facet + 1, b = facet + 2;
+      const auto            old_e = edge(old_x, facet);
+      const auto            new_e = edge(new_x, facet);
+      const double          old_b = dot(old_e, old_e);
+      const Number          new_b = dot(new_e, new_e);
+      const Vector2<Number> e     = minus(middle(b), middle(a));
+      const Vector2<Number> r     = minus(middle(0), middle(a));
+      const Number          l     = sqrt(dot(e, e));
+
+      const Number mean = .5 * l * (1. / old_b + 1. / new_b);
+      add(0, mean, e, row);
+      add(a, mean, {{Number(-e[0] - r[0]), Number(-e[1] - r[1])}}, row);
+      add(b, mean, r, row);
+      const Number products = dot(old_e, minus(old_x[0], old_x[a])) +
+        dot(new_e, minus(new_x[0], new_x[a]));
+      add_square(a, b, Number(-l * products / (2. * old_b * new_b)), row);
+    }
+
+    /// What passing the vertex between @p facet and the next one adds, @p direction
+    /// being 1 towards the next one and -1 from there.
+    void
+    add_passing(const unsigned int   facet,
+                const double         direction,
+                std::vector<Number> &row) const
+    {
+      const double old_t = past_vertex(old_x, facet);
+      const Number new_t = past_vertex(new_x, facet);
+      // The part of the way behind the vertex.
+      Number part = new_t / (new_t - old_t);
+      if constexpr (!std::is_same<Number, double>::value)
+        if (freeze_convex &&
+            cross(edge(old_x, facet), edge(old_x, facet + 1)) < 0.)
+          part = Number(part.val());
+      add_normal_row(facet + 1, Number(direction * part), row);
+      add_normal_row(facet, Number(-direction * part), row);
+      add_turning_row(facet, Number(direction * old_t * part), row);
+    }
+
+    /// Add @p factor times the quotient of differences of e_1 x e_2, the sine of the
+    /// angle between @p facet and the next one.
+    void
+    add_turning_row(const unsigned int   facet,
+                    const Number        &factor,
+                    std::vector<Number> &row) const
+    {
+      using std::sqrt;
+      const unsigned int a = facet + 1, b = facet + 2, c = facet + 3;
+      const auto   old_e1 = edge(old_x, facet), old_e2 = edge(old_x, facet + 1);
+      const auto   new_e1 = edge(new_x, facet), new_e2 = edge(new_x, facet + 1);
+      const double old_l1 = std::sqrt(dot(old_e1, old_e1));
+      const double old_l2 = std::sqrt(dot(old_e2, old_e2));
+      const Number new_l1 = sqrt(dot(new_e1, new_e1));
+      const Number new_l2 = sqrt(dot(new_e2, new_e2));
+
+      const Vector2<Number> e1 = minus(middle(b), middle(a));
+      const Vector2<Number> e2 = minus(middle(c), middle(b));
+      const Number          mean =
+        .5 * factor * (1. / (old_l1 * old_l2) + 1. / (new_l1 * new_l2));
+      add(a, mean, {{Number(-e2[1]), e2[0]}}, row);
+      add(b, mean, {{Number(e1[1] + e2[1]), Number(-e1[0] - e2[0])}}, row);
+      add(c, mean, {{Number(-e1[1]), e1[0]}}, row);
+
+      const Number areas =
+        .5 * factor * (cross(old_e1, old_e2) + cross(new_e1, new_e2));
+      add_square(a,
+                 b,
+                 Number(-areas * .5 * (1. / old_l2 + 1. / new_l2) /
+                        (old_l1 * new_l1 * (old_l1 + new_l1))),
+                 row);
+      add_square(b,
+                 c,
+                 Number(-areas * .5 * (1. / old_l1 + 1. / new_l1) /
+                        (old_l2 * new_l2 * (old_l2 + new_l2))),
+                 row);
+    }
+
+    const std::vector<Vector2<double>> &old_x;
+    const std::vector<Vector2<Number>> &new_x;
+    const bool                          freeze_convex;
+  };
+} // namespace Ricochet
+
+#endif

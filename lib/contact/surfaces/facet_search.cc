@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/surfaces/facet_search.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  template <int dim>
+  struct FacetSearch<dim>::Tree
+  {
+    using Entry = std::pair<BoundingBox<dim>, unsigned int>;
+    RTree<Entry> boxes;
+  };
+
+
+
+  template <int dim>
+  std::array<double, dim>
+  facet_normal(const ContactSurface<dim>                  &surface,
+               const std::vector<std::array<double, dim>> &positions,
+               const unsigned int                          f)
+  {
+    const auto &facet = surface.facets[f];
+    if constexpr (dim == 1)
+      return {{facet.normal[0]}};
+    else
+      {
+        const auto &a = positions[facet.nodes[0]];
+        const auto &b = positions[facet.nodes[1]];
+        return {{a[1] - b[1], b[0] - a[0]}};
+      }
+  }
+
+
+
+  template <int dim>
+  FacetSearch<dim>::FacetSearch(
+    const ContactSurface<dim>                  &surface,
+    const std::vector<std::array<double, dim>> &positions)
+    : surface(surface)
+    , positions(positions)
+    , tree(std::make_unique<Tree>())
+  {
+    std::vector<typename Tree::Entry> entries;
+    for (unsigned int f = 0; f < surface.facets.size(); ++f)
+      {
+        std::vector<Point<dim>> corners;
+        for (const unsigned int node : surface.facets[f].nodes)
+          {
+            Point<dim> corner;
+            for (unsigned int c = 0; c < dim; ++c)
+              corner[c] = positions[node][c];
+            corners.push_back(corner);
+          }
+        entries.emplace_back(BoundingBox<dim>(corners), f);
+      }
+    tree->boxes = pack_rtree(entries);
+  }
+
+
+
+  template <int dim>
+  FacetSearch<dim>::~FacetSearch() = default;
+
+
+
+  namespace
+  {
+    template <int dim>
+    double
+    dot(const std::array<double, dim> &a, const std::array<double, dim> &b)
+    {
+      double sum = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        sum += a[c] * b[c];
+      return sum;
+    }
+
+    template <int dim>
+    double
+    squared_distance(const ContactSurface<dim>                  &surface,
+                     const std::vector<std::array<double, dim>> &positions,
+                     const unsigned int                          f,
+                     const std::array<double, dim>              &y)
+    {
+      std::array<double, dim> r = y;
+      const auto             &a = positions[surface.facets[f].nodes[0]];
+      for (unsigned int c = 0; c < dim; ++c)
+        r[c] -= a[c];
+      if constexpr (dim == 2)
+        {
+          std::array<double, dim> e = positions[surface.facets[f].nodes[1]];
+          for (unsigned int c = 0; c < dim; ++c)
+            e[c] -= a[c];
+          const double along =
+            std::clamp(dot<dim>(e, r) / dot<dim>(e, e), 0., 1.);
+          for (unsigned int c = 0; c < dim; ++c)
+            r[c] -= along * e[c];
+        }
+      return dot<dim>(r, r);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::optional<unsigned int>
+  FacetSearch<dim>::closest_facing(const std::array<double, dim> &y,
+                                   const std::array<double, dim> &normal) const
+  {
+    namespace bgi = boost::geometry::index;
+    Point<dim> point;
+    for (unsigned int c = 0; c < dim; ++c)
+      point[c] = y[c];
+    std::optional<unsigned int> best;
+    double                      smallest = std::numeric_limits<double>::max();
+    // Boxes come in the order of their distance, which is not larger than that of
+    // the facet within.
+    const auto &boxes = tree->boxes;
+    for (auto entry = boxes.qbegin(bgi::nearest(point, boxes.size()));
+         entry != boxes.qend();
+         ++entry)
+      {
+        double box_distance = 0.;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const double outside = std::max({entry->first.lower_bound(c) - y[c],
+                                             y[c] - entry->first.upper_bound(c),
+                                             0.});
+            box_distance += outside * outside;
+          }
+        if (box_distance > smallest * (1. + 1e-12))
+          break;
+        const unsigned int f = entry->second;
+        if (!(dot<dim>(facet_normal<dim>(surface, positions, f), normal) < 0.))
+          continue;
+        const double distance = squared_distance<dim>(surface, positions, f, y);
+        if (distance < smallest || (distance == smallest && f < *best))
+          {
+            smallest = distance;
+            best     = f;
+          }
+      }
+    return best;
+  }
+
+
+  template class FacetSearch<1>;
+  template class FacetSearch<2>;
+  template std::array<double, 1>
+  facet_normal<1>(const ContactSurface<1> &,
+                  const std::vector<std::array<double, 1>> &,
+                  const unsigned int);
+  template std::array<double, 2>
+  facet_normal<2>(const ContactSurface<2> &,
+                  const std::vector<std::array<double, 2>> &,
+                  const unsigned int);
+} // namespace Ricochet

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_surfaces_facet_search_h
+#define ricochet_contact_surfaces_facet_search_h
+
+#include <contact/surfaces/contact_surface.h>
+
+#include <memory>
+
+namespace Ricochet
+{
+  /// Where the facets of a surface are at an instant: closest points.
+  template <int dim>
+  class FacetSearch
+  {
+  public:
+    /// Both are kept by reference. @param positions of the nodes of @p surface (m).
+    FacetSearch(const ContactSurface<dim>                  &surface,
+                const std::vector<std::array<double, dim>> &positions);
+
+    ~FacetSearch();
+
+    /// The facet that is closest to @p y among those whose outward normal points
+    /// against @p normal (of any length), the outward one at y; none if there is no
+    /// such facet. Of several the first.
+    std::optional<unsigned int>
+    closest_facing(const std::array<double, dim> &y,
+                   const std::array<double, dim> &normal) const;
+
+  private:
+    struct Tree;
+    const ContactSurface<dim>                  &surface;
+    const std::vector<std::array<double, dim>> &positions;
+    std::unique_ptr<Tree>                       tree;
+  };
+
+  /// Outward normal of facet @p f, as long as the facet.
+  template <int dim>
+  std::array<double, dim>
+  facet_normal(const ContactSurface<dim>                  &surface,
+               const std::vector<std::array<double, dim>> &positions,
+               const unsigned int                          f);
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,897 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <contact/treatments/active_set_signature.h>
+#include <contact/treatments/pair_contact.h>
+#include <contact/treatments/power_law_linearisation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr auto no_index = numbers::invalid_dof_index;
+
+    /// A slip in the one direction that there is.
+    Tensor<1, 3>
+    along_surface(const double slip)
+    {
+      return Tensor<1, 3>({slip, 0., 0.});
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  PairContact<dim>::PairContact(const Body<dim>                &body,
+                                const std::vector<ContactPair> &pair_list,
+                                PairMethod                      pair_method)
+    : communicator(body.communicator)
+    , owned(body.owned_indices())
+    , method(std::move(pair_method))
+    , has_friction(dim > 1 && method.friction.coefficient > 0.)
+    , friction(method.friction, method.augmentation)
+    , force(body.make_vector())
+    , friction_part(body.make_vector())
+    , scaling(body.make_vector())
+    , n_displacements_owned(body.owned_indices().n_elements() -
+                            body.multiplier_indices().n_elements())
+  {
+    AssertThrow(method.law || body.has_multipliers(),
+                ExcMessage("Constraints between bodies need multipliers."));
+    std::set<types::boundary_id> slaves;
+    for (const ContactPair &pair : pair_list)
+      for (const auto id : pair.slave)
+        if (!slaves.insert(id).second)
+          throw InputError("The boundary " + std::to_string(id) +
+                           " is the slave of more than one contact.");
+    for (const ContactPair &pair : pair_list)
+      {
+        pairs.push_back(
+          std::make_unique<Pair>(body,
+                                 pair,
+                                 !method.law || method.law->traits().nodal
+                                   ? Pair::PointsIn::nodes
+                                   : Pair::PointsIn::quadrature_points));
+        for (unsigned int p = 0; p < pairs.back()->points().size(); ++p)
+          {
+            PointState state;
+            state.pair  = pairs.size() - 1;
+            state.point = p;
+            states.push_back(state);
+          }
+      }
+
+    // The equations of a multiplier become forces when its pressures are taken
+    // for what they are in the equations of motion.
+    scaling = 1.;
+    std::set<types::global_dof_index> multipliers;
+    for (const PointState &state : states)
+      for (const auto index : point_of(state).multipliers)
+        if (index != no_index)
+          {
+            if (!multipliers.insert(index).second)
+              throw InputError(
+                "A node is the slave of more than one contact. "
+                "Leave a part of the boundary free between "
+                "them.");
+            scaling(index) = stiffness(state);
+          }
+    scaling.compress(VectorOperation::insert);
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::begin_stage(const ContactStart &start, const double weight_)
+  {
+    weight     = weight_;
+    time_step  = start.time_step;
+    n_iterates = 0;
+    pass       = 0;
+    sets_recur = false;
+    seen_sets.clear();
+    seen_facets.clear();
+    n_frozen = 0;
+    friction.begin_stage(time_step);
+    for (const auto &pair : pairs)
+      pair->begin_step(start);
+    bool changed = false;
+    for (PointState &state : states)
+      {
+        const Pair        &pair = pair_of(state);
+        const unsigned int p    = state.point;
+        state.candidate         = pair.is_before_facet(p);
+        state.is_forced         = false;
+        state.accepted_status   = Status::open;
+        state.old_state         = {};
+        const bool was_pressed  = !method.law && pair.multipliers(p)[0] > 0.;
+        if (state.candidate)
+          {
+            state.old_state.gap = pair.old_gap(p);
+            // The predictor leads away from the surface where it is not flat, and
+            // points that are pressed would be let go.
+            if (!method.law && method.condition == ClosingCondition::persistent)
+              state.candidate = pair.predicted_gap(p) <= 0. || was_pressed;
+            if (state.candidate && was_pressed)
+              state.accepted_status = Status::slip;
+          }
+        // Couplings of what may be pressed in this step; should it be more, they
+        // are added when it is.
+        const bool is_near = state.candidate &&
+          std::min(pair.old_gap(p), pair.predicted_gap(p)) <
+            std::abs(pair.old_gap(p) - pair.predicted_gap(p)) +
+              .1 * point_of(state).cell_diameter;
+        std::vector<types::global_dof_index> coupled;
+        if (is_near)
+          coupled = pair.unknowns_nearby(p);
+        changed = changed || coupled != state.coupled;
+        state.coupled.swap(coupled);
+      }
+    if (Utilities::MPI::max(changed ? 1 : 0, communicator) == 1)
+      ++all_couplings.version;
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::accept_iterate()
+  {
+    ++n_iterates;
+    friction.accept_iterate();
+    for (PointState &state : states)
+      {
+        state.accepted_status        = state.status;
+        state.accepted_linearisation = state.linearisation;
+      }
+    if (!method.law && !seen_sets.insert(active_set_signature()).second &&
+        n_iterates > 5)
+      sets_recur = true;
+    if (n_frozen > 0)
+      --n_frozen;
+    else if (n_iterates > 1 && !seen_facets.insert(facets_signature()).second &&
+             n_iterates > 3)
+      {
+        n_frozen = 4;
+        seen_facets.clear();
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  PairContact<dim>::next_pass()
+  {
+    if (method.law || method.condition != ClosingCondition::two_step ||
+        pass == 1)
+      return false;
+    pass       = 1;
+    n_iterates = 0;
+    sets_recur = false;
+    seen_sets.clear();
+    seen_facets.clear();
+    n_frozen = 0;
+    for (PointState &state : states)
+      {
+        state.candidate = state.is_forced = state.status != Status::open;
+        state.accepted_status             = state.status;
+      }
+    return true;
+  }
+
+
+
+  template <int dim>
+  double
+  PairContact<dim>::closing(const PointState &state) const
+  {
+    if (method.condition == ClosingCondition::signorini)
+      return state.state.gap;
+    if (method.condition == ClosingCondition::two_step && pass == 0)
+      return .5 * (state.old_state.gap + state.state.gap);
+    return pair_of(state).rows(state.point).gap_increment;
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::evaluate_law(PointState &state) const
+  {
+    const ContactLaw &law = *method.law;
+    const double      h   = point_of(state).cell_diameter;
+    // Power laws are linearised where they meet the body's line; should that not
+    // help, at the gap again.
+    state.linearisation = state.state;
+    if (!law.traits().piecewise_linear && n_iterates > 0 && n_iterates <= 8)
+      state.linearisation.gap = linearisation_gap(law,
+                                                  state.accepted_linearisation,
+                                                  state.state,
+                                                  state.old_state,
+                                                  h,
+                                                  method.augmentation / h);
+    state.pressure = -law.force(state.linearisation, state.old_state, h).gap;
+    state.with_gap = law.tangent(state.linearisation, state.old_state, h)[0][0];
+    const double distance = state.state.gap - state.linearisation.gap;
+    if (distance != 0.)
+      state.pressure -= state.with_gap * distance;
+    state.error =
+      state.pressure + law.force(state.state, state.old_state, h).gap;
+    state.status = law.branch(state.state, state.old_state, h) != 0
+      ? Status::slip
+      : Status::open;
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::choose_status(PointState &state) const
+  {
+    const Pair        &pair     = pair_of(state);
+    const unsigned int p        = state.point;
+    const double       r        = stiffness(state);
+    const double       pressure = pair.multipliers(p)[0];
+    const double       trial    = pressure - r * closing(state);
+    // Round-off neither opens nor closes a point.
+    const double round_off = r * pair.round_off(p);
+    const bool   closed    = state.is_forced ||
+      (state.accepted_status == Status::open ? trial > round_off
+                                             : trial > -round_off);
+    if (!closed)
+      return;
+    state.status = Status::slip;
+    if (!has_exact_friction())
+      return;
+    const double slip           = pair.rows(p).slip;
+    const double friction_trial = pair.multipliers(p)[1] + r * slip;
+    const double limit = method.friction.coefficient * positive_part(pressure);
+    state.direction    = friction_trial < 0. ? -1. : 1.;
+    // What only just closes has no pressure yet. It sticks if the way there was
+    // within the cone of friction.
+    const bool sticks = pressure > 0. ? std::abs(friction_trial) < limit
+                                      : std::abs(slip) <=
+        method.friction.coefficient * std::abs(pair.rows(p).gap_increment);
+    if (sticks)
+      state.status = Status::stick;
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::set_constraint(PointState &state) const
+  {
+    // The forces are the multipliers, whatever the sets.
+    const Pair &pair = pair_of(state);
+    state.pressure   = pair.multipliers(state.point)[0];
+    if (has_exact_friction())
+      state.traction = pair.multipliers(state.point)[1];
+    choose_status(state);
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::change_worst_only()
+  {
+    // The worst of all ranks.
+    double largest = 0.;
+    for (PointState &state : states)
+      if (state.status != state.accepted_status)
+        {
+          const double r     = stiffness(state);
+          const double error = std::abs(state.pressure - r * closing(state)) *
+            point_of(state).weight;
+          state.error = std::max(error, std::numeric_limits<double>::min());
+          largest     = std::max(largest, state.error);
+        }
+    largest = Utilities::MPI::max(largest, communicator);
+    for (PointState &state : states)
+      if (state.status != state.accepted_status)
+        {
+          if (state.error == largest)
+            state.error = 0.;
+          else
+            {
+              state.status = state.accepted_status;
+              state.error /= point_of(state).weight;
+            }
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::complete_residual(const Vector &solution, Vector &residual)
+  {
+    for (const auto &pair : pairs)
+      pair->evaluate(solution);
+    friction.begin_evaluation(states.size());
+    for (unsigned int s = 0; s < states.size(); ++s)
+      {
+        PointState        &state = states[s];
+        const Pair        &pair  = pair_of(state);
+        const unsigned int p     = state.point;
+        state.status             = Status::open;
+        state.pressure = state.with_gap = state.traction = state.error = 0.;
+        if (!state.candidate)
+          continue;
+        state.state.gap = pair.new_gap(p);
+        if (!method.law)
+          {
+            set_constraint(state);
+            continue;
+          }
+        evaluate_law(state);
+        if (has_friction && state.pressure > 0.)
+          {
+            friction.evaluate(s,
+                              state.pressure,
+                              along_surface(pair.rows(p).slip),
+                              point_of(state).cell_diameter);
+            state.traction = friction.traction(s)[0];
+            if (friction.sticks(s))
+              state.status = Status::stick;
+          }
+      }
+    if (sets_recur)
+      change_worst_only();
+
+    force         = 0.;
+    friction_part = 0.;
+    for (const PointState &state : states)
+      add_force(state);
+    force.compress(VectorOperation::add);
+    if (has_friction)
+      {
+        friction_part.compress(VectorOperation::add);
+        force += friction_part;
+      }
+    residual.add(weight, force);
+    clear_multipliers(force);
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::add_force(const PointState &state)
+  {
+    const Point       &point = point_of(state);
+    const Pair        &pair  = pair_of(state);
+    const unsigned int p     = state.point;
+    if (state.pressure != 0. || state.traction != 0.)
+      {
+        const auto &rows     = pair.rows(p);
+        const auto &unknowns = pair.unknowns(p);
+        const auto  add      = [&](const double               factor,
+                             const std::vector<double> &row,
+                             Vector                    &vector) {
+          values.clear();
+          for (unsigned int k = 0; k < unknowns.index.size(); ++k)
+            values.push_back(factor * unknowns.factor[k] *
+                             row[unknowns.coordinate[k]]);
+          vector.add(values.size(), unknowns.index.data(), values.data());
+        };
+        add(-point.weight * state.pressure, rows.normal, force);
+        if (state.traction != 0.)
+          add(point.weight * state.traction, rows.tangential, friction_part);
+      }
+    if (method.law)
+      return;
+
+    // The equations of the multipliers.
+    const double r = stiffness(state);
+    for (unsigned int c = 0; c < dim; ++c)
+      if (point.multipliers[c] != no_index)
+        {
+          const double multiplier = pair.multipliers(p)[c];
+          double       equation   = -multiplier / r;
+          if (c == 0 && state.status != Status::open)
+            equation = -closing(state);
+          if (c == 1 && state.status == Status::stick)
+            equation = -pair.rows(p).slip;
+          if (c == 1 && state.status == Status::slip)
+            equation =
+              (method.friction.coefficient * state.pressure * state.direction -
+               multiplier) /
+              r;
+          force(point.multipliers[c]) += point.weight * equation;
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::clear_multipliers(Vector &vector) const
+  {
+    double *entries = vector.trilinos_vector()[0];
+    for (unsigned int i = n_displacements_owned;
+         i < vector.locally_owned_size();
+         ++i)
+      entries[i] = 0.;
+  }
+
+
+
+  template <int dim>
+  double
+  PairContact<dim>::friction_dissipation() const
+  {
+    double sum = 0.;
+    for (const PointState &state : states)
+      if (state.traction != 0.)
+        sum += point_of(state).weight * state.traction *
+          pair_of(state).rows(state.point).slip;
+    return Utilities::MPI::sum(sum, communicator);
+  }
+
+
+
+  template <int dim>
+  double
+  PairContact<dim>::linearisation_error() const
+  {
+    double square = 0.;
+    for (unsigned int s = 0; s < states.size(); ++s)
+      {
+        double error = states[s].error;
+        square += error * error * point_of(states[s]).weight *
+          point_of(states[s]).weight;
+        if (method.law && has_friction && states[s].pressure > 0.)
+          square += friction.error(s).norm_square() *
+            point_of(states[s]).weight * point_of(states[s]).weight;
+      }
+    return std::sqrt(Utilities::MPI::sum(square, communicator));
+  }
+
+
+
+  template <int dim>
+  double
+  PairContact<dim>::round_off() const
+  {
+    double square = 0.;
+    for (const PointState &state : states)
+      if (state.status != Status::open)
+        {
+          double factor =
+            method.law ? std::abs(state.with_gap) : stiffness(state);
+          if (method.law && state.status == Status::stick)
+            factor += friction.round_off(1.);
+          const double force = point_of(state).weight * factor *
+            pair_of(state).round_off(state.point);
+          square += force * force;
+        }
+    return std::sqrt(Utilities::MPI::sum(square, communicator));
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::complete_tangent(Matrix &tangent) const
+  {
+    for (const PointState &state : states)
+      add_tangent(state, tangent);
+    tangent.compress(VectorOperation::add);
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::complete_open_tangent(Matrix & /*tangent*/) const
+  {
+    AssertThrow(false, ExcMessage("The couplings of bodies come and go."));
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::add_tangent(const PointState &state, Matrix &tangent) const
+  {
+    const Point       &point      = point_of(state);
+    const Pair        &pair       = pair_of(state);
+    const unsigned int p          = state.point;
+    const double       r          = stiffness(state);
+    const bool         in_contact = state.candidate &&
+      (!method.law || state.pressure != 0. || state.with_gap != 0.);
+
+    // Rows of the multipliers, on multipliers.
+    if (!method.law)
+      for (unsigned int c = 0; c < dim; ++c)
+        if (point.multipliers[c] != no_index)
+          {
+            const bool is_prescribed = c == 0 ? state.status == Status::open
+                                              : state.status != Status::stick;
+            if (is_prescribed)
+              tangent.add(point.multipliers[c],
+                          point.multipliers[c],
+                          -weight * point.weight / r);
+            if (c == 1 && state.status == Status::slip)
+              tangent.add(point.multipliers[1],
+                          point.multipliers[0],
+                          weight * point.weight * method.friction.coefficient *
+                            state.direction / r);
+          }
+    if (!in_contact)
+      return;
+
+    const auto        &rows     = pair.differentiated_rows(p, n_frozen > 0);
+    const auto        &unknowns = pair.unknowns(p);
+    const unsigned int n        = rows.normal.size();
+    const unsigned int m        = unknowns.index.size();
+    const double       factor   = weight * point.weight;
+
+    // On the coordinates of the point and its facets: pressure and traction along
+    // directions that turn.
+    double with_slip = 0., with_pressure = 0.;
+    if (method.law && has_friction && state.pressure > 0.)
+      {
+        Tensor<2, 3> plane;
+        plane[0][0] = 1.;
+        const auto derivatives =
+          friction.derivatives(&state - states.data(), plane);
+        with_slip     = derivatives.with_slip[0][0];
+        with_pressure = derivatives.with_pressure[0];
+      }
+    block.resize(n * n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        {
+          const double gap_gradient = rows.new_gap.dx(j);
+          double       entry        = -state.pressure * rows.normal[i].dx(j);
+          if (method.law)
+            {
+              entry += state.with_gap * rows.normal[i].val() * gap_gradient;
+              entry += rows.tangential[i].val() *
+                (with_slip * rows.slip.dx(j) -
+                 with_pressure * state.with_gap * gap_gradient);
+            }
+          if (state.traction != 0.)
+            entry += state.traction * rows.tangential[i].dx(j);
+          block[i * n + j] = factor * entry;
+        }
+    values.resize(m);
+    for (unsigned int a = 0; a < m; ++a)
+      {
+        for (unsigned int b = 0; b < m; ++b)
+          values[b] = unknowns.factor[a] * unknowns.factor[b] *
+            block[unknowns.coordinate[a] * n + unknowns.coordinate[b]];
+        tangent.add(unknowns.index[a],
+                    m,
+                    unknowns.index.data(),
+                    values.data(),
+                    /* elide zeros */ true);
+      }
+    if (method.law)
+      return;
+
+    // Columns and rows of the multipliers.
+    const bool   closes = state.status != Status::open;
+    const double half =
+      method.condition == ClosingCondition::two_step && pass == 0 ? .5 : 1.;
+    for (unsigned int a = 0; a < m; ++a)
+      {
+        const unsigned int i = unknowns.coordinate[a];
+        const double       f = factor * unknowns.factor[a];
+        tangent.add(unknowns.index[a],
+                    point.multipliers[0],
+                    -f * rows.normal[i].val());
+        if (closes)
+          tangent.add(point.multipliers[0],
+                      unknowns.index[a],
+                      -f * half * rows.new_gap.dx(i));
+        if (has_exact_friction())
+          {
+            tangent.add(unknowns.index[a],
+                        point.multipliers[1],
+                        f * rows.tangential[i].val());
+            if (state.status == Status::stick)
+              tangent.add(point.multipliers[1],
+                          unknowns.index[a],
+                          -f * rows.slip.dx(i));
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  ContactStructure
+  PairContact<dim>::tangent_structure() const
+  {
+    ContactStructure structure;
+    structure.has_multipliers  = !method.law;
+    structure.couplings_change = true;
+    return structure;
+  }
+
+
+
+  template <int dim>
+  const Couplings *
+  PairContact<dim>::couplings()
+  {
+    bool more = false;
+    for (PointState &state : states)
+      {
+        const bool in_contact = state.candidate &&
+          (!method.law || state.pressure != 0. || state.with_gap != 0.);
+        if (!in_contact)
+          continue;
+        for (const auto index : pair_of(state).unknowns(state.point).index)
+          if (!std::binary_search(state.coupled.begin(),
+                                  state.coupled.end(),
+                                  index))
+            {
+              more = true;
+              std::vector<types::global_dof_index> now =
+                pair_of(state).unknowns_nearby(state.point);
+              now.insert(now.end(), state.coupled.begin(), state.coupled.end());
+              std::sort(now.begin(), now.end());
+              now.erase(std::unique(now.begin(), now.end()), now.end());
+              state.coupled.swap(now);
+              break;
+            }
+      }
+    if (Utilities::MPI::max(more ? 1 : 0, communicator) == 1)
+      ++all_couplings.version;
+    if (all_couplings.version == 0)
+      all_couplings.version = 1;
+    all_couplings.lists.clear();
+    for (const PointState &state : states)
+      if (!state.coupled.empty())
+        all_couplings.lists.push_back(state.coupled);
+    return &all_couplings;
+  }
+
+
+
+  template <int dim>
+  std::vector<int>
+  PairContact<dim>::statuses() const
+  {
+    std::vector<int> values_of_points;
+    for (const PointState &state : states)
+      values_of_points.push_back(static_cast<int>(state.status));
+    return values_of_points;
+  }
+
+
+
+  template <int dim>
+  std::uint64_t
+  PairContact<dim>::facets_signature() const
+  {
+    std::vector<int> facets;
+    for (const PointState &state : states)
+      facets.push_back(state.status != Status::open &&
+                           pair_of(state).has_passed_vertex(state.point)
+                         ? 1 + pair_of(state).facet(state.point)
+                         : 0);
+    return global_hash(facets, communicator);
+  }
+
+
+
+  template <int dim>
+  std::optional<std::uint64_t>
+  PairContact<dim>::tangent_signature() const
+  {
+    // Directions turn; nothing stays the same but a tangent without contact.
+    bool none = true;
+    for (const PointState &state : states)
+      none = none &&
+        !(state.candidate &&
+          (!method.law || state.pressure != 0. || state.with_gap != 0.));
+    if (Utilities::MPI::min(none ? 1 : 0, communicator) == 0)
+      return {};
+    return global_hash({}, communicator);
+  }
+
+
+
+  template <int dim>
+  std::uint64_t
+  PairContact<dim>::active_set_signature() const
+  {
+    return global_hash(statuses(), communicator);
+  }
+
+
+
+  template <int dim>
+  std::string
+  PairContact<dim>::active_set_description() const
+  {
+    const std::vector<int> all  = statuses();
+    std::string            text = count_active(all, communicator);
+    if (has_friction)
+      text += ", " +
+        std::to_string(Utilities::MPI::sum(static_cast<unsigned int>(std::count(
+                                             all.begin(),
+                                             all.end(),
+                                             static_cast<int>(Status::stick))),
+                                           communicator)) +
+        " stick";
+    return text;
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::begin_instant(const Vector &solution, const double time)
+  {
+    // Neither force nor velocity is looked at in an instant.
+    const ContactStart start{solution, solution, solution, 0., time};
+    for (const auto &pair : pairs)
+      pair->begin_step(start);
+    for (PointState &state : states)
+      {
+        state.candidate = pair_of(state).is_before_facet(state.point);
+        state.state     = {};
+        if (state.candidate)
+          state.state.gap = pair_of(state).old_gap(state.point);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::force_at(const Vector &solution,
+                             const double  time,
+                             Vector       &result)
+  {
+    result = 0.;
+    // A constraint has no reaction outside of a stage.
+    if (!method.law)
+      return;
+    begin_instant(solution, time);
+    force = 0.;
+    for (PointState &state : states)
+      {
+        state.traction = 0.;
+        state.pressure = state.candidate
+          ? -method.law
+               ->force(state.state, state.state, point_of(state).cell_diameter)
+               .gap
+          : 0.;
+        add_force(state);
+      }
+    force.compress(VectorOperation::add);
+    result = force;
+  }
+
+
+
+  template <int dim>
+  double
+  PairContact<dim>::potential(const Vector &solution, const double time)
+  {
+    if (!method.law)
+      return 0.;
+    begin_instant(solution, time);
+    double sum = 0.;
+    for (const PointState &state : states)
+      if (state.candidate)
+        sum += point_of(state).weight *
+          method.law->potential(state.state, point_of(state).cell_diameter);
+    return Utilities::MPI::sum(sum, communicator);
+  }
+
+
+
+  template <int dim>
+  double
+  PairContact<dim>::normal_force(const PointState &state,
+                                 const Vector     &contact_force) const
+  {
+    if (!state.candidate)
+      return 0.;
+    const Point &point = point_of(state);
+    if (method.law && !method.law->traits().nodal)
+      return point.weight *
+        method.law->pressure(state.state, point.cell_diameter);
+    const auto &rows     = pair_of(state).rows(state.point);
+    const auto &unknowns = pair_of(state).unknowns(state.point);
+    double      sum      = 0.;
+    for (unsigned int c = 0; c < dim; ++c)
+      sum -= rows.normal[c] * contact_force(unknowns.index[c]);
+    return sum;
+  }
+
+
+
+  template <int dim>
+  Vector
+  PairContact<dim>::pressure_field(const Vector &solution,
+                                   const Vector &contact_force,
+                                   const double  time)
+  {
+    begin_instant(solution, time);
+    Vector sums(contact_force), weights(contact_force);
+    sums = weights = 0.;
+    for (const PointState &state : states)
+      {
+        const double normal = normal_force(state, contact_force);
+        const Point &point  = point_of(state);
+        if (!state.candidate)
+          continue;
+        const auto &unknowns = pair_of(state).unknowns(state.point);
+        for (unsigned int k = 0; k < point.nodes.size(); ++k)
+          {
+            const double part = point.nodes[k].second * point.nodes[k].second;
+            sums(unknowns.index[k * dim]) += part * normal;
+            weights(unknowns.index[k * dim]) += part * point.weight;
+          }
+      }
+    sums.compress(VectorOperation::add);
+    weights.compress(VectorOperation::add);
+    for (const auto i : owned)
+      {
+        const double area = weights(i), total = sums(i);
+        sums(i) = area > 0. ? total / area : 0.;
+      }
+    sums.compress(VectorOperation::insert);
+    return sums;
+  }
+
+
+
+  template <int dim>
+  ContactSummaries
+  PairContact<dim>::summary(const Vector &solution,
+                            const Vector &contact_force,
+                            const double  time)
+  {
+    begin_instant(solution, time);
+    ContactSummaries my_sums;
+    // Area of the points that are before a facet: only they have a gap.
+    std::map<types::boundary_id, double> my_area;
+    for (const PointState &state : states)
+      {
+        const Point    &point = point_of(state);
+        ContactSummary &sums  = my_sums[point.boundary_id];
+        if (state.candidate)
+          {
+            const double normal = normal_force(state, contact_force);
+            ContactPoint numbers;
+            numbers.weight = point.weight;
+            sums.add(numbers, state.state.gap, normal, normal > 0.);
+            my_area[point.boundary_id] += point.weight;
+          }
+        else
+          sums.area += point.weight;
+      }
+    ContactSummaries summaries = reduce_summaries(my_sums, communicator);
+    for (auto &[id, total] : summaries)
+      {
+        const double area = Utilities::MPI::sum(my_area[id], communicator);
+        total.mean_gap *= total.area / area;
+        if (area == 0.)
+          total.mean_gap = total.smallest_gap =
+            std::numeric_limits<double>::quiet_NaN();
+      }
+    return summaries;
+  }
+
+
+  template class PairContact<1>;
+  template class PairContact<2>;
+} // namespace Ricochet

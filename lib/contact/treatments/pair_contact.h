@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_treatments_pair_contact_h
+#define ricochet_contact_treatments_pair_contact_h
+
+#include <contact/contact_operator.h>
+#include <contact/kinematics/surface_pair.h>
+#include <contact/treatments/closing_condition.h>
+#include <contact/treatments/pointwise_friction.h>
+
+#include <memory>
+#include <set>
+
+namespace Ricochet
+{
+  /// How the points of a pair of surfaces are kept apart.
+  struct PairMethod
+  {
+    /// A law for the pressure; null for a constraint.
+    std::unique_ptr<ContactLaw> law;
+    /// The constraint.
+    ClosingCondition condition = ClosingCondition::signorini;
+    /// r_0 (Pa): r = r_0 / h_T steers Newton's method and leaves the solution alone.
+    double augmentation = 1.;
+    /// Exact with a constraint, regularised with a law; none if the coefficient is
+    /// 0.
+    CoulombFriction friction;
+  };
+
+  /**
+   * Contact of deformable bodies: pairs of surfaces, over the steps of the midpoint
+   * scheme.
+   *
+   * The force of a point is pressure times D, and its friction traction times T,
+   * rows on the unknowns of both surfaces (see FacetChain): for any pressure the
+   * work over a step is pressure times the change of the gap, and the sum of the
+   * forces and of their moments is zero.
+   *
+   * Laws give the pressure as a function of the gaps at both ends of the step. A
+   * constraint has the pressure as a multiplier in the node, and with friction the
+   * traction as another one, with one equation for each: active nodes (multiplier -
+   * r closing > 0) keep zero what the condition closes, the others have no
+   * multiplier; active nodes with |traction + r slip| < mu pressure do not slip, the
+   * others have the traction mu pressure along the slip (papers A and B, section 5;
+   * Hueeber, Stadler and Wohlmuth 2008).
+   */
+  template <int dim>
+  class PairContact : public ContactOperator
+  {
+  public:
+    /// @param body with multipliers for a constraint: one in each node, dim with
+    /// friction.
+    /// @throws InputError see SurfacePair; and when a node is a slave twice.
+    PairContact(const Body<dim>                &body,
+                const std::vector<ContactPair> &pairs,
+                PairMethod                      method);
+
+    void
+    begin_stage(const ContactStart &start, const double weight) override;
+
+    void
+    complete_residual(const Vector &solution, Vector &residual) override;
+
+    void
+    accept_iterate() override;
+
+    bool
+    next_pass() override;
+
+    const Vector &
+    contact_force() const override
+    {
+      return force;
+    }
+
+    const Vector *
+    friction_force() const override
+    {
+      return has_friction ? &friction_part : nullptr;
+    }
+
+    double
+    friction_dissipation() const override;
+
+    double
+    linearisation_error() const override;
+
+    double
+    round_off() const override;
+
+    const Vector &
+    row_scaling() const override
+    {
+      return scaling;
+    }
+
+    std::string
+    active_set_description() const override;
+
+    void
+    complete_tangent(Matrix &tangent) const override;
+
+    /// There is none without contact: couplings come and go.
+    void
+    complete_open_tangent(Matrix &tangent) const override;
+
+    ContactStructure
+    tangent_structure() const override;
+
+    const Couplings *
+    couplings() override;
+
+    std::optional<std::uint64_t>
+    tangent_signature() const override;
+
+    std::uint64_t
+    active_set_signature() const override;
+
+    void
+    force_at(const Vector &solution, const double time, Vector &force) override;
+
+    double
+    potential(const Vector &solution, const double time) override;
+
+    bool
+    has_moving_obstacles() const override
+    {
+      return false;
+    }
+
+    bool
+    knows_stress_pressure() const override
+    {
+      return false;
+    }
+
+    bool
+    gaps_may_be_unknown() const override
+    {
+      return true;
+    }
+
+    Vector
+    pressure_field(const Vector &solution,
+                   const Vector &contact_force,
+                   const double  time) override;
+
+    ContactSummaries
+    summary(const Vector &solution,
+            const Vector &contact_force,
+            const double  time) override;
+
+  private:
+    enum class Status
+    {
+      open,
+      /// Pressed, without friction or slipping.
+      slip,
+      stick
+    };
+
+    /// What is known of a point in the current iteration.
+    struct PointState
+    {
+      unsigned int pair = 0, point = 0;
+      /// The point may be pressed at all in this pass.
+      bool candidate = false;
+      /// It stays pressed, whatever the multiplier: second pass.
+      bool   is_forced = false;
+      Status status    = Status::open;
+      // At the last accepted iterate, or the beginning of the stage.
+      Status accepted_status = Status::open;
+      /// Pressure (Pa) in the residual, and its derivative (Pa/m) for laws.
+      double pressure = 0., with_gap = 0.;
+      /// Traction (Pa) along T.
+      double traction = 0.;
+      /// Sign of the slip.
+      double direction = 0.;
+      /// By how much the equations in use are not those of the state (Pa).
+      double              error = 0.;
+      ContactPointState<> old_state, state;
+      // Where the law is linearised: now, and at the last accepted iterate.
+      ContactPointState<> linearisation, accepted_linearisation;
+      /// Unknowns that the sparsity pattern couples, sorted.
+      std::vector<dealii::types::global_dof_index> coupled;
+    };
+
+    using Pair  = SurfacePair<dim>;
+    using Point = typename Pair::Point;
+
+    const Pair &
+    pair_of(const PointState &state) const
+    {
+      return *pairs[state.pair];
+    }
+
+    const Point &
+    point_of(const PointState &state) const
+    {
+      return pair_of(state).points()[state.point];
+    }
+
+    /// r = r_0 / h_T (Pa/m)
+    double
+    stiffness(const PointState &state) const
+    {
+      return method.augmentation / point_of(state).cell_diameter;
+    }
+
+    bool
+    has_exact_friction() const
+    {
+      return has_friction && !method.law;
+    }
+
+    /// What the condition keeps at zero in the current pass (m).
+    double
+    closing(const PointState &state) const;
+
+    void
+    evaluate_law(PointState &state) const;
+
+    void
+    choose_status(PointState &state) const;
+
+    void
+    set_constraint(PointState &state) const;
+
+    /// Keep the sets of the last iterate but for the point with the largest error.
+    void
+    change_worst_only();
+
+    /// Add the force of a point, and its equations.
+    void
+    add_force(const PointState &state);
+
+    void
+    add_tangent(const PointState &state, Matrix &tangent) const;
+
+    void
+    clear_multipliers(Vector &vector) const;
+
+    /// Begin an instant at @p solution.
+    void
+    begin_instant(const Vector &solution, const double time);
+
+    /// Normal force of a point (N), from the @p contact_force where points are
+    /// nodes, and otherwise from the law at the current instant.
+    double
+    normal_force(const PointState &state, const Vector &contact_force) const;
+
+    std::vector<int>
+    statuses() const;
+
+    /// Facets at the end of the step of points that passed a vertex.
+    std::uint64_t
+    facets_signature() const;
+
+    const MPI_Comm                     communicator;
+    const dealii::IndexSet             owned;
+    const PairMethod                   method;
+    const bool                         has_friction;
+    PointwiseFriction                  friction;
+    std::vector<std::unique_ptr<Pair>> pairs;
+    std::vector<PointState>            states;
+    Vector                             force, friction_part, scaling;
+    const unsigned int                 n_displacements_owned;
+    double                             weight     = 1.;
+    double                             time_step  = 0.;
+    unsigned int                       n_iterates = 0;
+    unsigned int                       pass       = 0;
+    // Sets that were seen in this pass, and whether one came again.
+    std::set<std::uint64_t> seen_sets;
+    bool                    sets_recur = false;
+    // The same for facets before which points are, and for how many iterations
+    // tangents leave out what makes them go to and fro.
+    std::set<std::uint64_t> seen_facets;
+    unsigned int            n_frozen = 0;
+    Couplings               all_couplings;
+    // Work space.
+    mutable std::vector<double>                          values, block;
+    mutable std::vector<dealii::types::global_dof_index> columns;
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <output/part_columns.h>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  template <int dim>
+  PartColumns<dim>::PartColumns(const Body<dim>                &body,
+                                const BulkOperator             &bulk,
+                                const Matrix                   &mass,
+                                const bool                      small_strains,
+                                const std::vector<std::string> &names)
+    : bulk(bulk)
+    , mass(mass)
+    , communicator(body.communicator)
+    , names(names)
+    , part_of_unknown(body.parts_of_unknowns(names.size()))
+    , momenta_of_all(body, mass, small_strains)
+    , momentum(body.make_vector())
+  {
+    for (unsigned int p = 0; p < names.size(); ++p)
+      momenta_of_parts.emplace_back(body, mass, small_strains, names.size(), p);
+  }
+
+
+
+  template <int dim>
+  double
+  PartColumns<dim>::kinetic_energy(const unsigned int p,
+                                   const Vector      &velocity) const
+  {
+    // Masses do not couple parts.
+    mass.vmult(momentum, velocity);
+    double sum = 0.;
+    for (unsigned int i = 0; i < part_of_unknown.size(); ++i)
+      if (part_of_unknown[i] == p)
+        sum += .5 * momentum.trilinos_vector()[0][i] *
+          velocity.trilinos_vector()[0][i];
+    return Utilities::MPI::sum(sum, communicator);
+  }
+
+
+
+  template <int dim>
+  void
+  PartColumns<dim>::add_to(TimeLoop &loop) const
+  {
+    const auto add_momenta = [&](const std::string  &suffix,
+                                 const Momenta<dim> &momenta_of) {
+      for (unsigned int c = 0; c < dim; ++c)
+        loop.add_column(std::string("momentum_") + "xyz"[c] + suffix,
+                        "kg m/s",
+                        [&momenta_of, c](const State &state) {
+                          return momenta_of.linear(state.velocity)[c];
+                        });
+      if (dim == 2)
+        loop.add_column("angular_momentum" + suffix,
+                        "kg m^2/s",
+                        [&momenta_of](const State &state) {
+                          return momenta_of.angular(state.solution,
+                                                    state.velocity)[2];
+                        });
+    };
+    for (unsigned int p = 0; p < names.size(); ++p)
+      {
+        loop.add_column("kinetic_energy_" + names[p],
+                        "J",
+                        [this, p](const State &state) {
+                          return kinetic_energy(p, state.velocity);
+                        });
+        loop.add_column("elastic_energy_" + names[p],
+                        "J",
+                        [this, p](const State &state) {
+                          return bulk.energies_of_parts(state.solution)[p];
+                        });
+        add_momenta("_" + names[p], momenta_of_parts[p]);
+      }
+    add_momenta("", momenta_of_all);
+  }
+
+
+  template class PartColumns<2>;
+} // namespace Ricochet

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_output_part_columns_h
+#define ricochet_output_part_columns_h
+
+#include <discretization/bulk_operator.h>
+#include <output/momenta.h>
+#include <problems/time_loop.h>
+
+#include <string>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * What each of several bodies has of the energies and momenta in the ledger:
+   * columns kinetic_energy_NAME, elastic_energy_NAME, momentum_x_NAME, ...,
+   * angular_momentum_NAME, and momentum_x, ..., angular_momentum for all together.
+   */
+  template <int dim>
+  class PartColumns
+  {
+  public:
+    /// @param mass of the equation of motion (kg). All must outlive the object.
+    PartColumns(const Body<dim>                &body,
+                const BulkOperator             &bulk,
+                const Matrix                   &mass,
+                const bool                      small_strains,
+                const std::vector<std::string> &names);
+
+    /// This object must outlive @p loop.
+    void
+    add_to(TimeLoop &loop) const;
+
+    /// Energy of motion of part @p p (J).
+    double
+    kinetic_energy(const unsigned int p, const Vector &velocity) const;
+
+    /// Of part @p p.
+    const Momenta<dim> &
+    momenta(const unsigned int p) const
+    {
+      return momenta_of_parts[p];
+    }
+
+    /// Of all together.
+    const Momenta<dim> &
+    momenta() const
+    {
+      return momenta_of_all;
+    }
+
+  private:
+    const BulkOperator             &bulk;
+    const Matrix                   &mass;
+    const MPI_Comm                  communicator;
+    const std::vector<std::string>  names;
+    const std::vector<unsigned int> part_of_unknown;
+    std::vector<Momenta<dim>>       momenta_of_parts;
+    Momenta<dim>                    momenta_of_all;
+    mutable Vector                  momentum;
+  };
+} // namespace Ricochet
+
+#endif
