@@ -86,6 +86,14 @@ namespace Ricochet
     virtual double
     stiffness_scale() const = 0;
 
+    /// Force (N) that rounding can cause where strains are differences from a body
+    /// at rest: l2 norm over all unknowns.
+    virtual double
+    strain_round_off() const
+    {
+      return 0.;
+    }
+
     /// Whether the tangents are the same for all states, so that
     /// factorisations can be kept.
     virtual bool

@@ -89,6 +89,7 @@ namespace Ricochet
 
     const auto &map = ghosted_new.trilinos_vector().Map();
     std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
+    std::vector<double>                  cell_diameters;
     for (const auto &cell : body.dof_handler().active_cell_iterators())
       {
         if (cell->is_artificial())
@@ -108,6 +109,7 @@ namespace Ricochet
         cell_is_owned.push_back(cell->is_locally_owned());
         cell_part.push_back(body.part(cell, materials.size()));
         cell_centers.push_back(cell->center());
+        cell_diameters.push_back(cell->diameter());
         for (unsigned int a = 0; a < n_nodes; ++a)
           for (unsigned int c = 0; c < dim; ++c)
             {
@@ -146,6 +148,29 @@ namespace Ricochet
     const Vector rest = body.make_vector();
     add_tangent(1., rest, matrix);
     scale = matrix.linfty_norm();
+
+    // A strain is known to a rounding error of 1, so the ends of a cell to one of its
+    // diameter.
+    double              square = 0.;
+    std::vector<double> diameter(body.owned_indices().n_elements(), 0.);
+    for (unsigned int k = 0; k < owned_index.size(); ++k)
+      if (owned_index[k] >= 0)
+        diameter[owned_index[k]] =
+          std::max(diameter[owned_index[k]], cell_diameters[k / n]);
+    const auto &epetra = matrix.trilinos_matrix();
+    for (int row = 0; row < epetra.NumMyRows(); ++row)
+      {
+        int     n_entries = 0;
+        double *values    = nullptr;
+        int    *columns   = nullptr;
+        epetra.ExtractMyRowView(row, n_entries, values, columns);
+        double sum = 0.;
+        for (int j = 0; j < n_entries; ++j)
+          sum += std::abs(values[j]);
+        square += sum * sum * diameter[row] * diameter[row];
+      }
+    round_off = std::numeric_limits<double>::epsilon() *
+      std::sqrt(Utilities::MPI::sum(square, communicator));
   }
 
 

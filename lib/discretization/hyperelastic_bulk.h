@@ -70,6 +70,12 @@ namespace Ricochet
       return scale;
     }
 
+    double
+    strain_round_off() const override
+    {
+      return round_off;
+    }
+
     bool
     is_linear() const override
     {
@@ -140,7 +146,7 @@ namespace Ricochet
 
     const std::vector<Material<dim>>    materials;
     const MPI_Comm                      communicator;
-    double                              scale    = 0.;
+    double                              scale    = 0., round_off = 0.;
     unsigned int                        n_cells  = 0;
     unsigned int                        n_points = 0;
     unsigned int                        n_nodes  = 0;

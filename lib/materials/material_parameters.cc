@@ -67,7 +67,7 @@ namespace Ricochet
     for (const auto &entry : table())
       laws += "|" + entry.first;
 
-    parameters.enter_subsection("Material");
+    parameters.enter_subsection(section);
     parameters.add_parameter(
       "Law",
       law,
@@ -134,7 +134,7 @@ namespace Ricochet
     const auto need = [&](const std::string &owner, const auto &...names) {
       for (const std::string name : {names...})
         unused.push_back(
-          {"Material/" + name, owner + "; Material/Law is " + law});
+          {section + "/" + name, owner + "; " + section + "/Law is " + law});
     };
     if (law == "Ciarlet-Geymonat")
       need("the other laws", "Young modulus", "Poisson ratio");
@@ -150,9 +150,8 @@ namespace Ricochet
                                const std::string &scheme) const
   {
     if (dim == 3 && plane_state == "plane stress")
-      throw InputError(
-        "Plane stress has no meaning for a body in 3D: set "
-        "Material/Plane state to plane strain.");
+      throw InputError("Plane stress has no meaning for a body in 3D: set " +
+                       section + "/Plane state to plane strain.");
     if (!(poisson_ratio > -1. && poisson_ratio < .5))
       throw InputError(
         "The Poisson ratio must lie between -1 and 1/2, both "
@@ -165,8 +164,9 @@ namespace Ricochet
         "that is not negative; it is " +
         to_text(poisson_ratio) + ".");
     if (viscosity == "none" && viscosity_eta > 0.)
-      throw InputError("Material/Viscosity eta is " + to_text(viscosity_eta) +
-                       " and Material/Viscosity is none: name a viscosity "
+      throw InputError(section + "/Viscosity eta is " + to_text(viscosity_eta) +
+                       " and " + section +
+                       "/Viscosity is none: name a viscosity "
                        "(linear, Curnier, Pioletti) or set eta to 0.");
     if (viscosity == "none")
       return;

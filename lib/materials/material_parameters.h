@@ -14,6 +14,8 @@ namespace Ricochet
   /// Everything about the material that a user chooses.
   struct MaterialParameters
   {
+    /// Of the parameter file; several parts have sections of their own.
+    std::string section       = "Material";
     std::string law           = "linear elastic";
     std::string plane_state   = "plane stress";
     double      density       = 1000.;

@@ -253,6 +253,7 @@ namespace Ricochet
           : nullptr)
     , obstacles(setup.obstacles)
     , pairs(setup.pairs)
+    , parts(setup.parts)
     , contact(make_any_contact(parameters, body, setup))
     , weight(weight_of(body, consistent_mass, setup.gravity))
     , prescriptions(make_prescriptions(body, setup))
@@ -355,13 +356,42 @@ namespace Ricochet
   State
   Impact<dim>::state_in_motion(const Function<dim> &velocity)
   {
+    Vector start;
+    body.interpolate(velocity, start);
+    return state_with(start);
+  }
+
+
+
+  template <int dim>
+  State
+  Impact<dim>::state_of_parts()
+  {
+    // Nodes of parts that touch are in one place and move differently.
+    const std::vector<unsigned int> part_of =
+      body.parts_of_unknowns(parts.size());
+    Vector start = body.make_vector();
+    for (unsigned int p = 0; p < parts.size(); ++p)
+      {
+        const Vector velocity = uniform(parts[p].velocity);
+        for (unsigned int i = 0; i < part_of.size(); ++i)
+          if (part_of[i] == p)
+            start.trilinos_vector()[0][i] = velocity.trilinos_vector()[0][i];
+      }
+    return state_with(start);
+  }
+
+
+
+  template <int dim>
+  State
+  Impact<dim>::state_with(const Vector &velocity)
+  {
     check_clearance(body, obstacles);
     if constexpr (dim < 3)
       check_clearance(body, pairs);
-    Vector start;
-    body.interpolate(velocity, start);
     return system.initial_state(uniform(Tensor<1, dim>()),
-                                start,
+                                velocity,
                                 /* time */ 0.);
   }
 

@@ -19,6 +19,8 @@ namespace Ricochet
     Material<dim> material;
     /// kg/m^dim
     double density = 1.;
+    /// At the start (m/s).
+    dealii::Tensor<1, dim> velocity = {};
   };
 
   /// A displacement that is prescribed on a part of the boundary.
@@ -86,6 +88,7 @@ namespace Ricochet
     const std::unique_ptr<const Matrix>    redistributed_mass;
     const Obstacles                        obstacles;
     const std::vector<ContactPair>         pairs;
+    const std::vector<Part<dim>>           parts;
     const std::unique_ptr<ContactOperator> contact;
     /// The weight of the body (N).
     const Vector weight;
@@ -124,6 +127,14 @@ namespace Ricochet
     /// The same with a @p velocity (m/s) that is not that of a flight.
     State
     state_in_motion(const dealii::Function<dim> &velocity);
+
+    /// The same with each part in flight with its own velocity.
+    State
+    state_of_parts();
+
+  private:
+    State
+    state_with(const Vector &velocity);
   };
 
   /// The half space below x_dim = 0, as the obstacle of the boundary @p

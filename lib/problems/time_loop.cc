@@ -446,12 +446,12 @@ namespace Ricochet
     const double residual     = energy - old_energy - report.external_work -
       report.imposed_work + report.contact_work + report.friction_work +
       report.viscous_dissipation + report.numerical_dissipation;
-    // Relative to the initial energy; a body that starts at rest is measured by
-    // the largest energy so far.
-    if (sums.initial_energy == 0.)
+    // Relative to the initial energy; a body that starts at rest, or is driven, is
+    // measured by the largest energy so far.
+    if (measured_by_largest_energy())
       sums.largest_energy = std::max(sums.largest_energy, energy);
-    const double scale =
-      sums.initial_energy > 0. ? sums.initial_energy : sums.largest_energy;
+    const double scale = measured_by_largest_energy() ? sums.largest_energy
+                                                      : sums.initial_energy;
     add_row(new_state,
             energies,
             report,
@@ -463,10 +463,19 @@ namespace Ricochet
   void
   TimeLoop::conclude(TimerOutput &timer, std::ostringstream &timing_table) const
   {
-    const unsigned int column = ledger.column_number("balance_residual");
-    double             worst  = 0.;
+    const unsigned int column        = ledger.column_number("balance_residual");
+    const unsigned int energy_column = ledger.column_number("energy");
+    double             worst = 0., largest_so_far = 0.;
     for (const auto &row : ledger.rows())
-      worst = std::max(worst, std::abs(row[column]));
+      {
+        // What begins at rest is measured by the largest energy of the run.
+        largest_so_far = std::max(largest_so_far, row[energy_column]);
+        const double scale =
+          measured_by_largest_energy() && sums.largest_energy > 0.
+          ? largest_so_far / sums.largest_energy
+          : 1.;
+        worst = std::max(worst, scale * std::abs(row[column]));
+      }
     folder.log(
       "largest balance residual: " + to_text(worst) +
       (worst < 1e-9 ? " (closed)" : " - THE ENERGY BALANCE DOES NOT CLOSE"));

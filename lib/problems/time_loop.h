@@ -137,6 +137,13 @@ namespace Ricochet
     void
     account(const State &new_state, const StepReport &report, double &energy);
 
+    /// Whether the balance is measured by the largest energy and not by the first.
+    bool
+    measured_by_largest_energy() const
+    {
+      return sums.initial_energy == 0. || system.has_imposed_displacements();
+    }
+
     /// What to say at the end: the balance, and where the time went.
     void
     conclude(dealii::TimerOutput &timer,

@@ -42,8 +42,10 @@ namespace Ricochet
     // round-off remains, whatever Newton's method does.
     parts.mass.vmult(parts.work, stage.inertia_origin);
     bulk_round_off = 4. * std::numeric_limits<double>::epsilon() *
-      (stage.inertia * parts.work.l2_norm() +
-       parts.bulk.stiffness_scale() * displacement_norm(stage.inertia_origin));
+        (stage.inertia * parts.work.l2_norm() +
+         parts.bulk.stiffness_scale() *
+           displacement_norm(stage.inertia_origin)) +
+      parts.bulk.strain_round_off();
   }
 
   NewtonSolver::Problem

@@ -4,6 +4,7 @@
 #include <contact/surfaces/facet_search.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace Ricochet
@@ -201,7 +202,8 @@ namespace Ricochet
 
   template <int dim>
   typename SurfacePair<dim>::Chain
-  SurfacePair<dim>::chain_around(const unsigned int f) const
+  SurfacePair<dim>::chain_around(const unsigned int f,
+                                 unsigned int      &place) const
   {
     unsigned int first = f;
     for (unsigned int k = 0; k < 2; ++k)
@@ -215,6 +217,8 @@ namespace Ricochet
     bool                        passed        = false;
     while (facet && n_behind_last < 3)
       {
+        if (!passed && *facet == f)
+          place = chain.facets.size();
         chain.facets.push_back(*facet);
         if constexpr (dim == 2)
           chain.nodes.push_back(master.facets[*facet].nodes[1]);
@@ -270,10 +274,33 @@ namespace Ricochet
 
 
   template <int dim>
+  unsigned int
+  SurfacePair<dim>::last_facet(const std::vector<Position> &x,
+                               const Step                  &step) const
+  {
+    return step.may_pass ? facet_before(x, step.old_facet) : step.old_facet;
+  }
+
+
+
+  template <int dim>
   bool
-  SurfacePair<dim>::is_beyond_end(const std::vector<Position> &x,
-                                  const Chain                 &chain,
-                                  const unsigned int           facet) const
+  SurfacePair<dim>::may_pass(const std::vector<Position> &x,
+                             const unsigned int           facet) const
+  {
+    if constexpr (dim == 1)
+      return false;
+    else
+      return FacetChain<double>::is_between_bisectors(x, facet);
+  }
+
+
+
+  template <int dim>
+  bool
+  SurfacePair<dim>::is_off(const std::vector<Position> &x,
+                           const Chain                 &chain,
+                           const unsigned int           facet) const
   {
     if constexpr (dim == 1)
       return false;
@@ -281,15 +308,20 @@ namespace Ricochet
       {
         const auto     &own = master.facets[chain.facets[facet]];
         const Position &a = x[facet + 1], &b = x[facet + 2];
-        const double    square =
-          (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]);
-        const double along = ((b[0] - a[0]) * (x[0][0] - a[0]) +
+        const double    length = std::hypot(b[0] - a[0], b[1] - a[1]);
+        const double    along  = ((b[0] - a[0]) * (x[0][0] - a[0]) +
                               (b[1] - a[1]) * (x[0][1] - a[1])) /
-          square;
+          length;
         // Edges of bodies of the same size may meet.
-        constexpr double tolerance = 1e-6;
-        return (!own.previous && along < -tolerance) ||
-          (!own.next && along > 1. + tolerance);
+        const double tolerance = 1e-6 * length;
+        if ((!own.previous && along < -tolerance) ||
+            (!own.next && along > length + tolerance))
+          return true;
+        // Past a vertex points may be as far as its bisector leads; what is farther
+        // off the ends of the facet than before it is beside it.
+        const double beside = std::max(-along, along - length);
+        return beside >
+          1.5 * std::abs(gap_before(x, chain, facet)) + .5 * length;
       }
   }
 
@@ -327,48 +359,9 @@ namespace Ricochet
         step.up_to_date      = false;
         if (!point.can_touch)
           continue;
-        if (const auto found =
-              search.closest_facing(position_of(point, old_positions.slave),
-                                    normal_of(point, old_positions.slave)))
-          {
-            step.chain               = chain_around(*found);
-            const auto        &x     = gather(point, step.chain, old_positions);
-            const unsigned int place = std::find(step.chain.facets.begin(),
-                                                 step.chain.facets.end(),
-                                                 *found) -
-              step.chain.facets.begin();
-            step.old_facet = facet_before(x, place);
-            step.old_gap   = gap_before(x, step.chain, step.old_facet);
-            // Contact does not reach through a body.
-            const double depth =
-              master.facets[step.chain.facets[step.old_facet]].measure;
-            step.is_before_facet = step.old_gap > -depth &&
-              !is_beyond_end(x, step.chain, step.old_facet);
-          }
-        // What is still apart may as well be looked at from where it will be: any
-        // facet will do that it is in front of.
+        find_facet_now(point, search, step);
         if (has_length && !(step.is_before_facet && step.old_gap <= 0.))
-          if (const auto found =
-                later->closest_facing(position_of(point, end.slave),
-                                      normal_of(point, end.slave)))
-            {
-              Chain      chain = chain_around(*found);
-              const auto place =
-                std::find(chain.facets.begin(), chain.facets.end(), *found) -
-                chain.facets.begin();
-              const unsigned int facet =
-                facet_before(gather(point, chain, end), place);
-              const bool   is_off = is_beyond_end(work, chain, facet);
-              const double old_gap =
-                gap_before(gather(point, chain, old_positions), chain, facet);
-              if (!is_off && old_gap > 0.)
-                {
-                  step.is_before_facet = true;
-                  step.chain           = std::move(chain);
-                  step.old_facet       = facet;
-                  step.old_gap         = old_gap;
-                }
-            }
+          find_facet_later(point, *later, end, step);
         if (!step.is_before_facet)
           continue;
         step.new_facet     = step.old_facet;
@@ -376,12 +369,71 @@ namespace Ricochet
         step.predicted_gap = step.old_gap;
         if (has_length)
           {
-            const auto &x = gather(point, step.chain, middle);
-            step.predicted_gap =
-              gap_before(x, step.chain, facet_before(x, step.old_facet));
+            const auto &x      = gather(point, step.chain, middle);
+            step.predicted_gap = gap_before(x, step.chain, last_facet(x, step));
           }
       }
     new_positions = old_positions;
+  }
+
+
+
+  template <int dim>
+  void
+  SurfacePair<dim>::find_facet_now(const Point            &point,
+                                   const FacetSearch<dim> &search,
+                                   Step                   &step) const
+  {
+    const auto found =
+      search.closest_facing(position_of(point, old_positions.slave),
+                            normal_of(point, old_positions.slave));
+    if (!found)
+      return;
+    unsigned int place = 0;
+    step.chain         = chain_around(*found, place);
+    const auto &x      = gather(point, step.chain, old_positions);
+    step.old_facet     = facet_before(x, place);
+    step.may_pass      = may_pass(x, step.old_facet);
+    step.old_gap       = gap_before(x, step.chain, step.old_facet);
+    // Contact does not reach through a body.
+    const double depth =
+      master.facets[step.chain.facets[step.old_facet]].measure;
+    step.is_before_facet =
+      step.old_gap > -depth && !is_off(x, step.chain, step.old_facet);
+  }
+
+
+
+  template <int dim>
+  void
+  SurfacePair<dim>::find_facet_later(const Point            &point,
+                                     const FacetSearch<dim> &search,
+                                     const Positions        &later,
+                                     Step                   &step) const
+  {
+    const auto found = search.closest_facing(position_of(point, later.slave),
+                                             normal_of(point, later.slave));
+    if (!found)
+      return;
+    unsigned int       place = 0;
+    Chain              chain = chain_around(*found, place);
+    const unsigned int facet = facet_before(gather(point, chain, later), place);
+    if (is_off(work, chain, facet))
+      return;
+    // The way there, from where the point is now; should it not be before this part
+    // of the surface yet, along this facet.
+    const auto        &x     = gather(point, chain, old_positions);
+    const unsigned int first = facet_before(x, facet);
+    const bool passes = may_pass(x, first) && gap_before(x, chain, first) > 0.;
+    const unsigned int old_facet = passes ? first : facet;
+    const double       old_gap   = gap_before(x, chain, old_facet);
+    if (!(old_gap > 0.))
+      return;
+    step.is_before_facet = true;
+    step.chain           = std::move(chain);
+    step.old_facet       = old_facet;
+    step.may_pass        = passes;
+    step.old_gap         = old_gap;
   }
 
 
@@ -398,7 +450,7 @@ namespace Ricochet
         if (!step.is_before_facet)
           continue;
         const auto &x   = gather(own_points[p], step.chain, new_positions);
-        step.new_facet  = facet_before(x, step.old_facet);
+        step.new_facet  = last_facet(x, step);
         step.new_gap    = gap_before(x, step.chain, step.new_facet);
         step.up_to_date = false;
       }
@@ -409,7 +461,9 @@ namespace Ricochet
   template <int dim>
   template <typename Number>
   void
-  SurfacePair<dim>::compute_rows(const unsigned int p, Rows<Number> &rows, const bool freeze_convex) const
+  SurfacePair<dim>::compute_rows(const unsigned int p,
+                                 Rows<Number>      &rows,
+                                 const bool         freeze_convex) const
   {
     const Step        &step  = steps[p];
     const unsigned int first = std::min(step.old_facet, step.new_facet);
@@ -504,7 +558,8 @@ namespace Ricochet
   template <int dim>
   const typename SurfacePair<dim>::template Rows<
     typename SurfacePair<dim>::Differentiable> &
-  SurfacePair<dim>::differentiated_rows(const unsigned int p, const bool freeze_convex) const
+  SurfacePair<dim>::differentiated_rows(const unsigned int p,
+                                        const bool         freeze_convex) const
   {
     compute_rows<Differentiable>(p, differentiable_rows, freeze_convex);
     return differentiable_rows;

@@ -11,6 +11,9 @@
 
 namespace Ricochet
 {
+  template <int dim>
+  class FacetSearch;
+
   /**
    * The geometry of contact of the points of one surface with the facets of
    * another one, both of which move: gap, its increment and slip over a step, and
@@ -181,6 +184,8 @@ namespace Ricochet
       Chain chain;
       /// Facets of the chain before which the point is at both ends of the step.
       unsigned int old_facet = 0, new_facet = 0;
+      /// It may pass vertices: it begins between the bisectors of the old facet.
+      bool         may_pass = false;
       double       old_gap = 0., new_gap = 0., predicted_gap = 0.;
       Position     multipliers{};
       bool         up_to_date = false;
@@ -206,9 +211,10 @@ namespace Ricochet
     Position
     position_of(const Point &point, const std::vector<Position> &slave_x) const;
 
-    /// The facet @p f of the master surface and two more on each side.
+    /// The facet @p f of the master surface and two more on each side; @p place is
+    /// its number among them.
     Chain
-    chain_around(const unsigned int f) const;
+    chain_around(const unsigned int f, unsigned int &place) const;
 
     /// Positions of the point and of the nodes of @p chain, in #work.
     const std::vector<Position> &
@@ -227,11 +233,34 @@ namespace Ricochet
     facet_before(const std::vector<Position> &x,
                  const unsigned int           facet) const;
 
-    /// Whether the point is beyond an open end of the surface.
+    /// The facet before which the point is at the end of @p step, with positions @p
+    /// x.
+    unsigned int
+    last_facet(const std::vector<Position> &x, const Step &step) const;
+
+    /// The facet before which a point is at the beginning of a step, if there is one.
+    void
+    find_facet_now(const Point            &point,
+                   const FacetSearch<dim> &search,
+                   Step                   &step) const;
+
+    /// For a point that is not pressed, a facet that it is in front of and before
+    /// which it will be @p later, if there is one.
+    void
+    find_facet_later(const Point            &point,
+                     const FacetSearch<dim> &search,
+                     const Positions        &later,
+                     Step                   &step) const;
+
+    /// Whether the point can be followed from @p facet past vertices.
     bool
-    is_beyond_end(const std::vector<Position> &x,
-                  const Chain                 &chain,
-                  const unsigned int           facet) const;
+    may_pass(const std::vector<Position> &x, const unsigned int facet) const;
+
+    /// Whether the point is beyond an open end of the surface, or beside it.
+    bool
+    is_off(const std::vector<Position> &x,
+           const Chain                 &chain,
+           const unsigned int           facet) const;
 
     /// Read the multipliers of all points, where the last vector of get_positions()
     /// was a solution.

@@ -123,6 +123,16 @@ namespace Ricochet
         (1. + dot(e1, e2) / (l1 * l2));
     }
 
+    /// Whether the point is between the bisectors at both ends of @p facet.
+    static bool
+    is_between_bisectors(const std::vector<Vector2<double>> &x,
+                         const unsigned int                  facet)
+    {
+      const unsigned int n_facets = x.size() - 2;
+      return (facet + 1 == n_facets || past_vertex(x, facet) < 0.) &&
+        (facet == 0 || past_vertex(x, facet - 1) >= 0.);
+    }
+
     /// The facet before which the point is at positions @p x, found by walking
     /// over vertices from @p facet.
     template <typename T>

@@ -94,10 +94,7 @@ namespace Ricochet
     time_step  = start.time_step;
     n_iterates = 0;
     pass       = 0;
-    sets_recur = false;
-    seen_sets.clear();
-    seen_facets.clear();
-    n_frozen = 0;
+    forget_patterns();
     friction.begin_stage(time_step);
     for (const auto &pair : pairs)
       pair->begin_step(start);
@@ -150,17 +147,24 @@ namespace Ricochet
         state.accepted_status        = state.status;
         state.accepted_linearisation = state.linearisation;
       }
-    if (!method.law && !seen_sets.insert(active_set_signature()).second &&
-        n_iterates > 5)
+    if (!method.law && sets.returns(active_set_signature()))
       sets_recur = true;
     if (n_frozen > 0)
       --n_frozen;
-    else if (n_iterates > 1 && !seen_facets.insert(facets_signature()).second &&
-             n_iterates > 3)
-      {
-        n_frozen = 4;
-        seen_facets.clear();
-      }
+    if (facets.returns(facets_signature()))
+      n_frozen = 4;
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::forget_patterns()
+  {
+    sets.seen.clear();
+    facets.seen.clear();
+    sets_recur = false;
+    n_frozen   = 0;
   }
 
 
@@ -174,10 +178,7 @@ namespace Ricochet
       return false;
     pass       = 1;
     n_iterates = 0;
-    sets_recur = false;
-    seen_sets.clear();
-    seen_facets.clear();
-    n_frozen = 0;
+    forget_patterns();
     for (PointState &state : states)
       {
         state.candidate = state.is_forced = state.status != Status::open;
@@ -677,13 +678,14 @@ namespace Ricochet
   std::uint64_t
   PairContact<dim>::facets_signature() const
   {
-    std::vector<int> facets;
+    std::vector<int> values_of_points;
     for (const PointState &state : states)
-      facets.push_back(state.status != Status::open &&
-                           pair_of(state).has_passed_vertex(state.point)
-                         ? 1 + pair_of(state).facet(state.point)
-                         : 0);
-    return global_hash(facets, communicator);
+      values_of_points.push_back(
+        state.status != Status::open &&
+            pair_of(state).has_passed_vertex(state.point)
+          ? 1 + pair_of(state).facet(state.point)
+          : 0);
+    return global_hash(values_of_points, communicator);
   }
 
 

@@ -7,8 +7,8 @@
 #include <contact/treatments/closing_condition.h>
 #include <contact/treatments/pointwise_friction.h>
 
+#include <algorithm>
 #include <memory>
-#include <set>
 
 namespace Ricochet
 {
@@ -225,6 +225,10 @@ namespace Ricochet
     void
     set_constraint(PointState &state) const;
 
+    /// Begin an iteration anew.
+    void
+    forget_patterns();
+
     /// Keep the sets of the last iterate but for the point with the largest error.
     void
     change_worst_only();
@@ -268,14 +272,32 @@ namespace Ricochet
     double                             time_step  = 0.;
     unsigned int                       n_iterates = 0;
     unsigned int                       pass       = 0;
-    // Sets that were seen in this pass, and whether one came again.
-    std::set<std::uint64_t> seen_sets;
-    bool                    sets_recur = false;
+    /// Patterns that were seen in the course of an iteration.
+    struct Patterns
+    {
+      std::vector<std::uint64_t> seen;
+
+      /// Whether @p pattern has come back after another one.
+      bool
+      returns(const std::uint64_t pattern)
+      {
+        if (!seen.empty() && seen.back() == pattern)
+          return false;
+        const bool known =
+          std::find(seen.begin(), seen.end(), pattern) != seen.end();
+        seen.push_back(pattern);
+        return known;
+      }
+    };
+    // Active sets of this pass, and whether one came again: then they change by one
+    // point at a time.
+    Patterns sets;
+    bool     sets_recur = false;
     // The same for facets before which points are, and for how many iterations
     // tangents leave out what makes them go to and fro.
-    std::set<std::uint64_t> seen_facets;
-    unsigned int            n_frozen = 0;
-    Couplings               all_couplings;
+    Patterns     facets;
+    unsigned int n_frozen = 0;
+    Couplings    all_couplings;
     // Work space.
     mutable std::vector<double>                          values, block;
     mutable std::vector<dealii::types::global_dof_index> columns;

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// # A stent in an artery
+//
+// A longitudinal section, in plane stress, of a soft tube and of a stent that is
+// pressed against its wall: two deformable bodies, both of which move,
+//
+//     rho u_tt - div (F S) = 0                    in wall and stent,
+//     gap >= 0, p >= 0, p gap' = 0                between the inner wall and the
+//                                                 upper side of the stent,
+//     |t| <= mu p, t along the slip               (Coulomb),
+//     u = (1.0, 0.4) r(t) mm, r = 3 t^2 - 2 t^3   on the lower side of the stent,
+//     u = 0                                       on the outer side and the ends of
+//                                                 the artery,
+//
+// from rest. Both are Ciarlet-Geymonat materials, the stent 400 times stiffer. This
+// is the last example of paper B (section 7). The paper gives no drawing to scale;
+// what is here shows what its figures 13 to 16 show.
+//
+// Units are mm, N, MPa, s and tonnes, so energies are in mJ = N mm: any consistent
+// system does, and the labels of the library, which are those of SI units, mean the
+// ones of this system.
+//
+// The nodes of the wall are the slave points. Each is before a facet of the stent, in
+// front of or behind which it has the gap g. The force of a point is its pressure
+// along a row D of coefficients on its own unknowns and on those of the facet's
+// nodes, and that of friction along another one, T; over each step D . du is exactly
+// the change of the gap, and neither D nor T pushes or turns the bodies together
+// (lib/contact/surfaces/facet_chain.h). So persistent contact does no work, and the
+// balance of energy,
+//
+//     change of energy = work of the imposed displacement
+//                        - friction - viscosity
+//
+// closes to the tolerance of Newton's method in each step, also when nodes slide
+// over the vertices of the stent. That is the column balance_residual of energy.csv.
+//
+// Run it as
+//
+//     stent_artery parameter_files/stent_artery/default.prm
+//     stent_artery --set "Contact/Friction coefficient=0.2"
+//     stent_artery --print-parameters
+
+#include <base/exceptions.h>
+#include <base/program.h>
+#include <materials/material_parameters.h>
+#include <output/part_columns.h>
+#include <output/vtu_series.h>
+#include <problems/impact.h>
+#include <problems/part_meshes.h>
+
+#include <deal.II/distributed/shared_tria.h>
+
+#include <cstdio>
+
+using namespace dealii;
+using namespace Ricochet;
+
+class StentArtery
+{
+public:
+  StentArtery();
+
+  void
+  add_parameters(ParameterHandler &prm);
+
+  void
+  validate() const;
+
+  std::vector<UnusedParameter>
+  unused_parameters() const;
+
+  void
+  run(RunFolder &folder);
+
+private:
+  /// The displacement of the lower side of the stent (mm) at a time (s).
+  Tensor<1, 2>
+  deployment(const double time) const;
+
+  ImpactParameters    impact;
+  MaterialParameters  artery, stent;
+  StentArteryGeometry geometry;
+  double              radial = .4, axial = 1., duration = 1.;
+};
+
+
+
+// ### Data
+StentArtery::StentArtery()
+{
+  artery.section     = "Artery";
+  artery.law         = "Ciarlet-Geymonat";
+  artery.plane_state = "plane stress";
+  artery.density     = 1e-9;
+  artery.c1          = .5;
+  artery.c2          = .005;
+  artery.d           = .35;
+
+  stent         = artery;
+  stent.section = "Stent";
+  stent.c1      = 200.;
+  stent.c2      = 2.;
+  stent.d       = 140.;
+
+  impact.time.final_time   = 1.;
+  impact.time.time_step    = 1. / 50.;
+  impact.time.fields_every = 5;
+  impact.scheme.name       = "midpoint";
+
+  impact.contact.treatment              = "persistent contact";
+  impact.contact.compliance_coefficient = 1e5;
+  impact.contact.tangential_compliance  = 100.;
+  impact.contact.augmentation           = 5.;
+  impact.contact.penalty_epsilon_0      = 1e-5;
+}
+
+
+
+void
+StentArtery::add_parameters(ParameterHandler &prm)
+{
+  impact.add_parameters(prm);
+  artery.add_parameters(prm);
+  stent.add_parameters(prm);
+
+  prm.enter_subsection("Geometry");
+  const auto length =
+    [&](const std::string &name, double &value, const std::string &text) {
+      prm.add_parameter(name, value, text, Patterns::Double());
+    };
+  const auto number =
+    [&](const std::string &name, unsigned int &value, const std::string &text) {
+      prm.add_parameter(name, value, text, Patterns::Integer(1, 100000));
+    };
+  length("Artery length", geometry.artery_length, "Length of the wall (mm).");
+  length("Artery thickness",
+         geometry.artery_thickness,
+         "Thickness of the wall (mm).");
+  number("Artery nodes along",
+         geometry.artery_nodes_along,
+         "Nodes along the wall.");
+  number("Artery nodes across",
+         geometry.artery_nodes_across,
+         "Nodes through the wall.");
+  length("Stent begin",
+         geometry.stent_begin,
+         "Where the stent begins along the wall (mm).");
+  length("Stent length", geometry.stent_length, "Length of the stent (mm).");
+  length("Stent thickness",
+         geometry.stent_thickness,
+         "Thickness of the stent, vertically (mm).");
+  number("Stent nodes along",
+         geometry.stent_nodes_along,
+         "Nodes along the stent.");
+  number("Stent nodes across",
+         geometry.stent_nodes_across,
+         "Nodes through the stent.");
+  length("Gap",
+         geometry.gap,
+         "Distance of the crests of the stent from the wall (mm).");
+  length("Strut height",
+         geometry.strut_height,
+         "Amplitude of the wave of the stent (mm).");
+  number("Struts", geometry.n_struts, "Number of waves of the stent.");
+  prm.leave_subsection();
+
+  prm.enter_subsection("Deployment");
+  prm.add_parameter("Radial displacement",
+                    radial,
+                    "How far the lower side of the stent moves towards the "
+                    "wall (mm).");
+  prm.add_parameter("Axial displacement",
+                    axial,
+                    "How far it moves along the wall meanwhile (mm); without, "
+                    "everything sticks already with little friction.");
+  prm.add_parameter("Duration",
+                    duration,
+                    "How long it takes (s); it begins and ends at rest.",
+                    Patterns::Double(1e-30));
+  prm.leave_subsection();
+}
+
+
+
+void
+StentArtery::validate() const
+{
+  for (const MaterialParameters *material : {&artery, &stent})
+    {
+      material->validate(2, impact.scheme.name);
+      impact.validate(material->law == "linear elastic",
+                      material->viscosity != "none" &&
+                        material->viscosity_eta > 0.);
+    }
+  check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
+  impact.check_size(2. *
+                      (static_cast<double>(geometry.artery_nodes_along) *
+                         geometry.artery_nodes_across +
+                       static_cast<double>(geometry.stent_nodes_along) *
+                         geometry.stent_nodes_across),
+                    2);
+  Triangulation<2> triangulation;
+  make_stent_artery(geometry, triangulation);
+}
+
+
+
+std::vector<UnusedParameter>
+StentArtery::unused_parameters() const
+{
+  std::vector<UnusedParameter> unused = impact.unused_parameters();
+  for (const auto &own :
+       {artery.unused_parameters(), stent.unused_parameters()})
+    unused.insert(unused.end(), own.begin(), own.end());
+  return unused;
+}
+
+
+
+// ### The deployment
+Tensor<1, 2>
+StentArtery::deployment(const double time) const
+{
+  const double part = std::min(time / duration, 1.);
+  return part * part * (3. - 2. * part) * Tensor<1, 2>({axial, radial});
+}
+
+
+
+// ### The run
+void
+StentArtery::run(RunFolder &folder)
+{
+  parallel::shared::Triangulation<2> triangulation(folder.communicator);
+  make_stent_artery(geometry, triangulation);
+
+  // Two parts in one mesh; what holds them and what moves them; the surfaces that
+  // may touch. The wall is the softer one and the slave, though its mesh is the
+  // coarser one: stiff nodes, two or three to a facet, would hold it in too many
+  // places.
+  const Material<2> wall_material  = artery.make<2>();
+  const Material<2> stent_material = stent.make<2>();
+  ImpactSetup<2>    setup{wall_material};
+  setup.parts.push_back({"artery", wall_material, artery.density});
+  setup.parts.push_back({"stent", stent_material, stent.density});
+  setup.clamped = {StentArteryGeometry::artery_outer_side,
+                   StentArteryGeometry::artery_ends};
+  setup.imposed[StentArteryGeometry::stent_lower_side] =
+    {{{true, true}}, [this](const double time) { return deployment(time); }};
+  setup.pairs = {{"wall",
+                  {StentArteryGeometry::artery_inner_wall},
+                  {StentArteryGeometry::stent_upper_side}}};
+  Impact<2> assembly(impact, triangulation, setup, folder.communicator);
+  folder.log(std::to_string(triangulation.n_global_active_cells()) +
+             " cells, " + std::to_string(assembly.body.owned_indices().size()) +
+             " unknowns, " + impact.contact.treatment +
+             ", mu = " + to_text(impact.contact.friction_coefficient));
+
+  // Both begin at rest.
+  const State initial_state = assembly.state_of_parts();
+
+  TimeLoop             loop(impact.time,
+                folder,
+                assembly.system,
+                *assembly.scheme,
+                {{StentArteryGeometry::artery_inner_wall, "wall"}});
+  const PartColumns<2> parts(assembly.body,
+                             *assembly.bulk,
+                             assembly.system.mass_matrix(),
+                             wall_material.linear.has_value(),
+                             {"artery", "stent"});
+  parts.add_to(loop);
+
+  VtuSeries<2> fields(assembly.body,
+                      {wall_material, stent_material},
+                      *assembly.contact,
+                      assembly.obstacles,
+                      folder);
+  loop.write_fields = [&](const State &state, const unsigned int step) {
+    fields.write(state, step);
+  };
+
+  loop.run(initial_state);
+
+  // What other programs can be compared with.
+  const EnergyLedger &ledger = loop.energy_ledger();
+  for (const std::string name : {"imposed_work",
+                                 "viscous_dissipation",
+                                 "friction_work",
+                                 "energy",
+                                 "contact_force_wall"})
+    {
+      char line[80];
+      std::snprintf(line,
+                    sizeof(line),
+                    "%-20s %16.8e",
+                    name.c_str(),
+                    ledger.rows().back()[ledger.column_number(name)]);
+      folder.log(line);
+    }
+}
+
+
+
+int
+main(int argc, char **argv)
+{
+  StentArtery program;
+  return run_program(
+    argc,
+    argv,
+    {"stent_artery",
+     "A stent is pressed against the wall of an artery: paper B, section 7.",
+     [&](ParameterHandler &prm) { program.add_parameters(prm); },
+     [&]() { program.validate(); },
+     [&](RunFolder &folder) { program.run(folder); },
+     [&]() { return program.unused_parameters(); }});
+}
