@@ -7,7 +7,9 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 
 namespace Ricochet
 {
@@ -117,27 +119,41 @@ namespace Ricochet
 
   namespace
   {
-    /// How far @p x is within @p cell, whose faces are straight (m): negative
+    /// How far @p x is inside of the part whose boundary is @p facets (m): negative
     /// outside.
-    template <int dim>
     double
-    depth_inside(const typename DoFHandler<dim>::active_cell_iterator &cell,
-                 const Point<dim>                                     &x)
+    depth_inside(const Point<1>                                      &x,
+                 const ContactSurface<1>                             &surface,
+                 const std::vector<const ContactSurface<1>::Facet *> &facets)
     {
       double depth = std::numeric_limits<double>::max();
-      for (const auto &face : cell->face_iterators())
-        {
-          Tensor<1, dim> outward;
-          if constexpr (dim == 1)
-            outward[0] = 1.;
-          else
-            outward = cross_product_2d(face->vertex(1) - face->vertex(0));
-          if (outward * (face->center() - cell->center()) < 0.)
-            outward *= -1.;
-          depth =
-            std::min(depth, outward * (face->vertex(0) - x) / outward.norm());
-        }
+      for (const auto *facet : facets)
+        depth =
+          std::min(depth,
+                   facet->normal *
+                     (surface.nodes[facet->nodes[0]].reference_position - x));
       return depth;
+    }
+
+    double
+    depth_inside(const Point<2>                                      &x,
+                 const ContactSurface<2>                             &surface,
+                 const std::vector<const ContactSurface<2>::Facet *> &facets)
+    {
+      // The angle under which the boundary is seen is that of a whole turn inside.
+      double angle = 0., distance = std::numeric_limits<double>::max();
+      for (const auto *facet : facets)
+        {
+          const Tensor<1, 2> a =
+            surface.nodes[facet->nodes[0]].reference_position - x;
+          const Tensor<1, 2> b =
+            surface.nodes[facet->nodes[1]].reference_position - x;
+          angle += std::atan2(a[0] * b[1] - a[1] * b[0], a * b);
+          const Tensor<1, 2> e = b - a;
+          const double along   = std::clamp(-(a * e) / e.norm_square(), 0., 1.);
+          distance             = std::min(distance, (a + along * e).norm());
+        }
+      return std::abs(angle) > numbers::PI ? distance : -distance;
     }
   } // namespace
 
@@ -147,36 +163,42 @@ namespace Ricochet
   void
   check_clearance(const Body<dim> &body, const std::vector<ContactPair> &pairs)
   {
+    if (pairs.empty())
+      return;
+    std::set<types::boundary_id> all_boundaries;
+    for (const auto &list : Utilities::MPI::all_gather(
+           body.communicator,
+           body.dof_handler().get_triangulation().get_boundary_ids()))
+      all_boundaries.insert(list.begin(), list.end());
+    const ContactSurface<dim> surface(body, all_boundaries);
+    using Facet = typename ContactSurface<dim>::Facet;
+    std::map<types::material_id, std::vector<const Facet *>> boundary_of_part;
+    for (const Facet &facet : surface.facets)
+      boundary_of_part[facet.part].push_back(&facet);
+
     for (const ContactPair &pair : pairs)
-      {
-        std::set<types::boundary_id> boundaries = pair.slave;
-        boundaries.insert(pair.master.begin(), pair.master.end());
-        const ContactSurface<dim> surface(body, boundaries);
-        std::string               problem;
-        for (const auto &cell : body.dof_handler().active_cell_iterators())
-          if (cell->is_locally_owned())
-            for (const auto &node : surface.nodes)
+      for (const Facet &facet : surface.facets)
+        if (pair.slave.count(facet.boundary_id) > 0 ||
+            pair.master.count(facet.boundary_id) > 0)
+          for (const unsigned int node : facet.nodes)
+            for (const auto &[part, boundary] : boundary_of_part)
               {
-                const Point<dim> &x = node.reference_position;
-                if (!cell->bounding_box().point_inside(x))
+                if (part == facet.part)
                   continue;
-                // Nodes on faces touch; a little is that of a mesh.
-                const double depth = depth_inside<dim>(cell, x);
-                if (depth > 1e-6 * cell->diameter())
-                  {
-                    std::string text;
-                    for (unsigned int c = 0; c < dim; ++c)
-                      text += (c == 0 ? "" : ", ") + to_text(x[c]);
-                    problem = "At the start bodies overlap: the node at (" +
-                      text + ") m of the contact '" + pair.name + "' is " +
-                      to_text(depth) +
-                      " m or more inside another one. Move one of them away.";
-                  }
+                const Point<dim> &x = surface.nodes[node].reference_position;
+                // Nodes may touch; a little is round-off.
+                const double depth = depth_inside(x, surface, boundary);
+                if (!(depth > 1e-6 * facet.cell_diameter))
+                  continue;
+                std::string text;
+                for (unsigned int c = 0; c < dim; ++c)
+                  text += (c == 0 ? "" : ", ") + to_text(x[c]);
+                throw InputError("At the start bodies overlap: the node at (" +
+                                 text + ") m of the contact '" + pair.name +
+                                 "' is " + to_text(depth) +
+                                 " m inside another one. Move one of them "
+                                 "away.");
               }
-        problem = first_text(problem, body.communicator);
-        if (!problem.empty())
-          throw InputError(problem);
-      }
   }
 
 

@@ -59,7 +59,8 @@ namespace Ricochet
                 .get();
     else if (!may_reuse || !entry->factorisation)
       {
-        factorise(tangent, !stage_begins, *entry);
+        // Where contact comes and goes, pivots that were good are so no longer.
+        factorise(tangent, !stage_begins && tangent.pattern == 0, *entry);
         stage_begins = false;
       }
 

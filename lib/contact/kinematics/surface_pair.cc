@@ -278,7 +278,13 @@ namespace Ricochet
   SurfacePair<dim>::last_facet(const std::vector<Position> &x,
                                const Step                  &step) const
   {
-    return step.may_pass ? facet_before(x, step.old_facet) : step.old_facet;
+    // Where two facets meet, their gaps differ by so little that the energy does not
+    // notice.
+    constexpr double margin = 1e-8;
+    if constexpr (dim > 1)
+      if (step.may_pass)
+        return FacetChain<double>::facet_before(x, step.old_facet, margin);
+    return step.old_facet;
   }
 
 

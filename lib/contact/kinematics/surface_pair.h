@@ -138,6 +138,14 @@ namespace Ricochet
     const Rows<Differentiable> &
     differentiated_rows(const unsigned int p, const bool freeze_convex) const;
 
+    /// Let the point end before the facet where it began: until the next begin_step()
+    /// it passes no vertex.
+    void
+    stay_before_facet(const unsigned int p)
+    {
+      steps[p].may_pass = false;
+    }
+
     /// Number of the facet at the end of the step.
     unsigned int
     facet(const unsigned int p) const

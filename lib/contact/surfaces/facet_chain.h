@@ -133,17 +133,24 @@ namespace Ricochet
         (facet == 0 || past_vertex(x, facet - 1) >= 0.);
     }
 
-    /// The facet before which the point is at positions @p x, found by walking
-    /// over vertices from @p facet.
-    template <typename T>
+    /// The facet before which the point is at positions @p x, found by walking over
+    /// vertices from @p facet. A vertex is only passed by more than @p margin times
+    /// the length of the facet before it: a point that sits at a vertex would go to
+    /// and fro with round-off.
     static unsigned int
-    facet_before(const std::vector<Vector2<T>> &x, unsigned int facet)
+    facet_before(const std::vector<Vector2<double>> &x,
+                 unsigned int                        facet,
+                 const double                        margin = 0.)
     {
       const unsigned int n_facets = x.size() - 2, begin = facet;
-      while (facet + 1 < n_facets && past_vertex(x, facet) >= 0.)
+      const auto         small = [&](const unsigned int f) {
+        return margin == 0. ? 0.
+                                    : margin * std::sqrt(dot(edge(x, f), edge(x, f)));
+      };
+      while (facet + 1 < n_facets && past_vertex(x, facet) >= small(facet))
         ++facet;
       if (facet == begin)
-        while (facet > 0 && past_vertex(x, facet - 1) < 0.)
+        while (facet > 0 && past_vertex(x, facet - 1) < -small(facet - 1))
           --facet;
       return facet;
     }

@@ -152,7 +152,19 @@ namespace Ricochet
     if (n_frozen > 0)
       --n_frozen;
     if (facets.returns(facets_signature()))
-      n_frozen = 4;
+      {
+        // Should it go on, points that go to and fro between two facets stay before
+        // the one where they began: they are at a vertex that holds them.
+        n_frozen = 4;
+        if (++n_returns > 1)
+          for (PointState &state : states)
+            if (state.candidate &&
+                pair_of(state).facet(state.point) != state.accepted_facet)
+              pairs[state.pair]->stay_before_facet(state.point);
+      }
+    for (PointState &state : states)
+      if (state.candidate)
+        state.accepted_facet = pair_of(state).facet(state.point);
   }
 
 
@@ -165,6 +177,7 @@ namespace Ricochet
     facets.seen.clear();
     sets_recur = false;
     n_frozen   = 0;
+    n_returns  = 0;
   }
 
 
@@ -256,10 +269,11 @@ namespace Ricochet
     const double limit = method.friction.coefficient * positive_part(pressure);
     state.direction    = friction_trial < 0. ? -1. : 1.;
     // What only just closes has no pressure yet. It sticks if the way there was
-    // within the cone of friction.
+    // within the cone of friction, unless that has led back to an open point.
     const bool sticks = pressure > 0. ? std::abs(friction_trial) < limit
-                                      : std::abs(slip) <=
-        method.friction.coefficient * std::abs(pair.rows(p).gap_increment);
+                                      : !sets_recur &&
+        std::abs(slip) <=
+          method.friction.coefficient * std::abs(pair.rows(p).gap_increment);
     if (sticks)
       state.status = Status::stick;
   }

@@ -180,6 +180,8 @@ namespace Ricochet
       ContactPointState<> old_state, state;
       // Where the law is linearised: now, and at the last accepted iterate.
       ContactPointState<> linearisation, accepted_linearisation;
+      /// The facet before which the point was at the last accepted iterate.
+      unsigned int accepted_facet = 0;
       /// Unknowns that the sparsity pattern couples, sorted.
       std::vector<dealii::types::global_dof_index> coupled;
     };
@@ -296,7 +298,7 @@ namespace Ricochet
     // The same for facets before which points are, and for how many iterations
     // tangents leave out what makes them go to and fro.
     Patterns     facets;
-    unsigned int n_frozen = 0;
+    unsigned int n_frozen = 0, n_returns = 0;
     Couplings    all_couplings;
     // Work space.
     mutable std::vector<double>                          values, block;
