@@ -8,8 +8,10 @@
 #include <contact/obstacles/half_space.h>
 #include <problems/gmsh_mesh.h>
 #include <problems/impact.h>
+#include <problems/part_meshes.h>
 
 #include <deal.II/dofs/dof_tools.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <boost/test/unit_test.hpp>
 #include <gmsh.h>
@@ -40,7 +42,7 @@ namespace
   /// force.
   template <int dim>
   std::pair<Vector, Vector>
-  equilibrium(Impact<dim> &impact)
+  equilibrium(Impact<dim> &impact, const double end_time = 0.)
   {
     const Vector zero = impact.body.make_vector();
     State        rest;
@@ -50,6 +52,7 @@ namespace
     stage.inertia_origin = zero;
     stage.load           = zero;
     stage.time_step      = 1.;
+    stage.end_time       = end_time;
     std::pair<Vector, Vector> result(zero, zero);
     impact.system.solve_stage(stage, rest, result.first, result.second);
     return result;
@@ -217,6 +220,117 @@ namespace
             radius / contact_radius - 1.,
             peak / exact_peak - 1.};
   }
+
+  /// Errors relative to Hertz's solution for the force that came out.
+  struct CylinderErrors
+  {
+    double radius, peak;
+  };
+
+  /**
+   * Two cylinders of radius 1 in plane strain, held at their far sides, of which the
+   * upper one is moved down. Meshes are @p n_cells wide, graded towards the contact,
+   * that of the lower body, the slave, is coarser by a third.
+   */
+  CylinderErrors
+  hertz_of_cylinders(const unsigned int n_cells)
+  {
+    constexpr double                           approach = 2.5e-3;
+    const LinearElastic                        material{1., 1.};
+    dealii::parallel::shared::Triangulation<2> mesh(MPI_COMM_WORLD);
+    const unsigned int                         n_coarse = 2 * n_cells / 3;
+    using dealii::Point;
+    make_rectangles(
+      {{Point<2>(-1., 1.), Point<2>(1., 2.), {{n_cells, n_cells / 2}}, 0., {}},
+       {Point<2>(-1., -2.),
+        Point<2>(1., -1.),
+        {{n_coarse, n_coarse / 2}},
+        0.,
+        {}}},
+      CellShape::quadrilaterals,
+      mesh);
+    // Cells grow with the distance from the contact; the surfaces are circles near it.
+    dealii::GridTools::transform(
+      [](const Point<2> &x) {
+        const double side   = x[1] > 0. ? 1. : -1.;
+        const double height = std::pow(std::abs(x[1]) - 1., 2.2);
+        const double along = std::copysign(std::pow(std::abs(x[0]), 2.2), x[0]);
+        const double surface = 1. - std::sqrt(1. - .75 * along * along);
+        return Point<2>(along, side * (surface / .75 * (1. - height) + height));
+      },
+      mesh);
+
+    ImpactParameters parameters;
+    parameters.contact.treatment    = "Signorini active set";
+    parameters.contact.augmentation = 1.;
+    // At rest there is no large force to measure by.
+    parameters.newton.tolerance = 1e-11;
+    parameters.scheme.name      = "midpoint";
+    ImpactSetup<2> setup{Material<2>(material)};
+    setup.parts.push_back({"upper", Material<2>(material), 1.});
+    setup.parts.push_back({"lower", Material<2>(material), 1.});
+    const auto slave = rectangle_side(1, Rectangle::upper);
+    setup.pairs      = {
+           {"cylinders", {slave}, {rectangle_side(0, Rectangle::lower)}}};
+    setup.clamped = {rectangle_side(1, Rectangle::lower)};
+    setup.imposed[rectangle_side(0, Rectangle::upper)] =
+      {{{true, true}}, [](const double time) {
+         return dealii::Tensor<1, 2>({0., -approach * time});
+       }};
+    Impact<2> impact(parameters, mesh, setup, MPI_COMM_WORLD);
+    const auto [solution, force] = equilibrium(impact, /* end time */ 1.);
+
+    // The upper body is pushed up, the lower one down, by the same force.
+    const auto of_lower = [](const std::function<double(const double)> &value) {
+      return
+        [value](const Point<2> &x) { return x[1] < 0. ? value(x[0]) : 0.; };
+    };
+    const double total =
+      impact.contact->summary(solution, force, 0.).at(slave).force;
+    const double square =
+      vertical<2>(impact.body, of_lower([](const double x) { return x * x; })) *
+      force;
+    const double radius = 2. * std::sqrt(std::abs(square) / total);
+
+    // K. L. Johnson, Contact Mechanics, 1985, section 4.2 (c).
+    const double lambda = material.lambda, mu = material.mu;
+    const double modulus = 2. * mu * (lambda + mu) / (lambda + 2. * mu);
+    const double exact_radius =
+      std::sqrt(4. * total * .5 / (dealii::numbers::PI * modulus));
+    const double exact_peak = 2. * total / (dealii::numbers::PI * exact_radius);
+    // The pressure of single nodes goes up and down; the mean over the middle third,
+    // weighted with the length that each node stands for.
+    const Vector field = impact.contact->pressure_field(solution, force, 0.);
+    std::map<dealii::types::global_dof_index, Point<2>> positions;
+    dealii::DoFTools::map_dofs_to_support_points(impact.body.mapping(),
+                                                 impact.body.dof_handler(),
+                                                 positions);
+    std::map<double, double> pressure_at;
+    for (const auto &[i, x] : positions)
+      if (x[1] < 0. && std::abs(x[0]) < .5 * exact_radius &&
+          std::abs(x[1]) < .01 && field(impact.body.system_index(i)) > 0.)
+        pressure_at[x[0]] = field(impact.body.system_index(i));
+    double integral = 0., exact_integral = 0.;
+    for (auto next = std::next(pressure_at.begin()); next != pressure_at.end();
+         ++next)
+      {
+        const auto   last   = std::prev(next);
+        const double length = next->first - last->first;
+        const auto   exact  = [&](const double x) {
+          return std::sqrt(1. - x * x / (exact_radius * exact_radius));
+        };
+        integral += .5 * length * (last->second + next->second);
+        exact_integral +=
+          .5 * length * (exact(last->first) + exact(next->first));
+      }
+    const double peak = integral / exact_integral;
+    BOOST_TEST_MESSAGE("Hertz of two cylinders, "
+                       << n_cells << " cells wide: radius "
+                       << radius / exact_radius << " of " << exact_radius
+                       << ", peak " << peak / exact_peak);
+    return {std::abs(radius / exact_radius - 1.),
+            std::abs(peak / exact_peak - 1.)};
+  }
 } // namespace
 
 
@@ -250,6 +364,15 @@ BOOST_AUTO_TEST_SUITE_END()
 
 // Half a minute, in release builds only.
 BOOST_AUTO_TEST_SUITE(hertz_contact)
+
+BOOST_AUTO_TEST_CASE(two_cylinders)
+{
+  const CylinderErrors coarse = hertz_of_cylinders(48),
+                       fine   = hertz_of_cylinders(96);
+  BOOST_CHECK_LT(fine.radius, .03);
+  BOOST_CHECK_LT(fine.peak, .03);
+  BOOST_CHECK_LT(fine.radius + fine.peak, coarse.radius + coarse.peak);
+}
 
 BOOST_AUTO_TEST_CASE(hertz_is_approached)
 {

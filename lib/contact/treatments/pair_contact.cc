@@ -114,7 +114,8 @@ namespace Ricochet
             // The predictor leads away from the surface where it is not flat, and
             // points that are pressed would be let go.
             if (!method.law && method.condition == ClosingCondition::persistent)
-              state.candidate = pair.predicted_gap(p) <= 0. || was_pressed;
+              state.candidate =
+                pair.predicted_gap(p) <= pair.round_off(p) || was_pressed;
             if (state.candidate && was_pressed)
               state.accepted_status = Status::slip;
           }
