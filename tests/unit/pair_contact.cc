@@ -8,6 +8,7 @@
 #include "meshes.h"
 
 #include <base/exceptions.h>
+#include <discretization/boundary_load.h>
 #include <materials/laws/neo_hookean.h>
 #include <output/momenta.h>
 #include <problems/impact.h>
@@ -640,6 +641,80 @@ BOOST_AUTO_TEST_CASE(three_bars_and_a_cradle)
           BOOST_TEST(errors[cradle][1] < 8.);
           BOOST_TEST(errors[cradle][1] < errors[cradle][0]);
         }
+    }
+}
+
+
+
+// Each part is made of what it is made of, by hand: two plates of different stiffness
+// and density under the same uniform strain.
+BOOST_AUTO_TEST_CASE(parts_have_data_of_their_own)
+{
+  constexpr double strain = .01;
+  for (const bool linear : {true, false})
+    {
+      dealii::parallel::shared::Triangulation<2> triangulation(MPI_COMM_WORLD);
+      make_rectangles({{Point<2>(0., 0.), Point<2>(2., 1.), {{3, 2}}, 0., {}},
+                       {Point<2>(5., 0.), Point<2>(6., 1.), {{2, 3}}, 0., {}}},
+                      CellShape::triangles,
+                      triangulation);
+      const auto material = [&](const double stiffness) {
+        return linear ? Material<2>(LinearElastic{0., stiffness})
+                      : rubber(stiffness);
+      };
+      ImpactSetup<2> setup{material(1.)};
+      setup.parts.push_back(
+        {"soft", material(200.), 3., Tensor<1, 2>({1., 2.})});
+      setup.parts.push_back(
+        {"stiff", material(500.), 7., Tensor<1, 2>({-4., 0.})});
+      setup.pairs = {{"gap",
+                      {rectangle_side(0, Rectangle::right)},
+                      {rectangle_side(1, Rectangle::left)}}};
+      Impact<2>   impact(parameters_of("persistent contact", 0.),
+                       triangulation,
+                       setup,
+                       MPI_COMM_WORLD);
+      const State state = impact.state_of_parts();
+      for (const unsigned int part : {0U, 1U})
+        {
+          const Momenta<2> momenta(impact.body,
+                                   impact.system.mass_matrix(),
+                                   linear,
+                                   2,
+                                   part);
+          const auto       momentum = momenta.linear(state.velocity);
+          BOOST_CHECK_CLOSE(momentum[0], part == 0 ? 6. : -28., 1e-10);
+          BOOST_CHECK_CLOSE(momentum[1], part == 0 ? 12. : 0., 1e-10);
+        }
+      BOOST_CHECK_CLOSE(impact.system.kinetic_energy(state.velocity),
+                        .5 * (6. * 5. + 7. * 16.),
+                        1e-10);
+
+      Vector stretched;
+      impact.body.interpolate(dealii::FunctionFromFunctionObjects<2>(
+                                {[](const Point<2> &x) {
+                                   return strain * x[0];
+                                 },
+                                 [](const Point<2> &) { return 0.; }}),
+                              stretched);
+      const auto   energies = impact.bulk->energies_of_parts(stretched);
+      const double total    = impact.bulk->energy(stretched);
+      BOOST_CHECK_CLOSE(energies[0] + energies[1], total, 1e-10);
+      // mu strain^2 times the area; and any law of the same form in proportion.
+      if (linear)
+        {
+          BOOST_CHECK_CLOSE(energies[0], 200. * strain * strain * 2., 1e-9);
+          BOOST_CHECK_CLOSE(energies[1], 500. * strain * strain, 1e-9);
+        }
+      BOOST_CHECK_CLOSE(energies[1] / energies[0], 1.25, 1e-8);
+
+      // The load of 1 Pa on a side of 1 m, in one direction.
+      const Vector load =
+        boundary_load(impact.body, rectangle_side(0, Rectangle::upper), 1);
+      BOOST_CHECK_CLOSE(load * impact.uniform(Tensor<1, 2>({0., 1.})),
+                        2.,
+                        1e-10);
+      BOOST_CHECK_SMALL(load * impact.uniform(Tensor<1, 2>({1., 0.})), 1e-14);
     }
 }
 
