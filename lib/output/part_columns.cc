@@ -43,6 +43,25 @@ namespace Ricochet
 
 
   template <int dim>
+  double
+  PartColumns<dim>::work(const unsigned int p,
+                         const Vector      &force,
+                         const Vector      &begin,
+                         const Vector      &end) const
+  {
+    const double *f   = force.trilinos_vector()[0];
+    const double *a   = begin.trilinos_vector()[0];
+    const double *b   = end.trilinos_vector()[0];
+    double        sum = 0.;
+    for (unsigned int i = 0; i < part_of_unknown.size(); ++i)
+      if (part_of_unknown[i] == p)
+        sum += f[i] * (b[i] - a[i]);
+    return Utilities::MPI::sum(sum, communicator);
+  }
+
+
+
+  template <int dim>
   void
   PartColumns<dim>::add_to(TimeLoop &loop) const
   {
@@ -74,6 +93,15 @@ namespace Ricochet
                         [this, p](const State &state) {
                           return bulk.energies_of_parts(state.solution)[p];
                         });
+        // The force of a state is that over the step that leads to it.
+        loop.add_sum("contact_work_" + names[p],
+                     "J",
+                     [this, p](const State &begin, const State &end) {
+                       return work(p,
+                                   end.contact_force,
+                                   begin.solution,
+                                   end.solution);
+                     });
         add_momenta("_" + names[p], momenta_of_parts[p]);
       }
     add_momenta("", momenta_of_all);

@@ -13,8 +13,10 @@ namespace Ricochet
 {
   /**
    * What each of several bodies has of the energies and momenta in the ledger:
-   * columns kinetic_energy_NAME, elastic_energy_NAME, momentum_x_NAME, ...,
-   * angular_momentum_NAME, and momentum_x, ..., angular_momentum for all together.
+   * columns kinetic_energy_NAME, elastic_energy_NAME, contact_work_NAME (what the body
+   * has given to others through contact, friction included), momentum_x_NAME, ...,
+   * angular_momentum_NAME, and momentum_x, ..., angular_momentum for all together. The
+   * sum of the first three changes by the work from outside and by viscosity only.
    */
   template <int dim>
   class PartColumns
@@ -34,6 +36,13 @@ namespace Ricochet
     /// Energy of motion of part @p p (J).
     double
     kinetic_energy(const unsigned int p, const Vector &velocity) const;
+
+    /// The work of @p force (N) on the way from @p begin to @p end of part @p p (J).
+    double
+    work(const unsigned int p,
+         const Vector      &force,
+         const Vector      &begin,
+         const Vector      &end) const;
 
     /// Of part @p p.
     const Momenta<dim> &

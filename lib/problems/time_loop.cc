@@ -125,6 +125,20 @@ namespace Ricochet
 
 
 
+  void
+  TimeLoop::add_sum(
+    const std::string                                         &name,
+    const std::string                                         &unit,
+    const std::function<double(const State &, const State &)> &increment)
+  {
+    const unsigned int k = own_sums.size();
+    own_sums.push_back(increment);
+    sums.own.push_back(0.);
+    add_column(name, unit, [this, k](const State &) { return sums.own[k]; });
+  }
+
+
+
   StepReport
   TimeLoop::advance(const State       &old_state,
                     const double       time_step,
@@ -146,6 +160,8 @@ namespace Ricochet
                                                  old_state.time,
                                                  new_state.time);
           }
+        for (const auto &increment : own_sums)
+          report.own_sums.push_back(increment(old_state, new_state));
         return report;
       }
     catch (const NewtonFailure &failure)
@@ -174,16 +190,18 @@ namespace Ricochet
   std::vector<double>
   TimeLoop::Sums::to_list() const
   {
-    return {external_work,
-            contact_work,
-            friction_work,
-            viscous_dissipation,
-            numerical_dissipation,
-            initial_energy,
-            largest_energy,
-            static_cast<double>(n_halvings),
-            obstacle_work,
-            imposed_work};
+    std::vector<double> list = {external_work,
+                                contact_work,
+                                friction_work,
+                                viscous_dissipation,
+                                numerical_dissipation,
+                                initial_energy,
+                                largest_energy,
+                                static_cast<double>(n_halvings),
+                                obstacle_work,
+                                imposed_work};
+    list.insert(list.end(), own.begin(), own.end());
+    return list;
   }
 
 
@@ -200,7 +218,8 @@ namespace Ricochet
             list.at(6),
             static_cast<unsigned int>(list.at(7)),
             list.at(8),
-            list.at(9)};
+            list.at(9),
+            {list.begin() + 10, list.end()}};
   }
 
 
@@ -440,6 +459,8 @@ namespace Ricochet
     sums.numerical_dissipation += report.numerical_dissipation;
     sums.obstacle_work += report.obstacle_work;
     sums.imposed_work += report.imposed_work;
+    for (unsigned int k = 0; k < report.own_sums.size(); ++k)
+      sums.own[k] += report.own_sums[k];
     const double   old_energy = energy;
     const Energies energies   = energies_of(new_state);
     energy                    = energies.total();
@@ -450,8 +471,8 @@ namespace Ricochet
     // measured by the largest energy so far.
     if (measured_by_largest_energy())
       sums.largest_energy = std::max(sums.largest_energy, energy);
-    const double scale = measured_by_largest_energy() ? sums.largest_energy
-                                                      : sums.initial_energy;
+    const double scale =
+      measured_by_largest_energy() ? sums.largest_energy : sums.initial_energy;
     add_row(new_state,
             energies,
             report,

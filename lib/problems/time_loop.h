@@ -55,6 +55,14 @@ namespace Ricochet
                const std::string                          &unit,
                const std::function<double(const State &)> &value);
 
+    /// Add a column that sums up over the run what each step, or each part of a halved
+    /// one, adds to it, from its beginning to its end.
+    void
+    add_sum(const std::string &name,
+            const std::string &unit,
+            const std::function<double(const State &begin, const State &end)>
+              &increment);
+
     /// Called with the state and the number of the step when fields are due.
     std::function<void(const State &, const unsigned int)> write_fields;
 
@@ -156,7 +164,8 @@ namespace Ricochet
     const std::map<dealii::types::boundary_id, std::string> contact_names;
     // Values of the benchmark's own columns, in the order of the ledger.
     std::vector<std::function<double(const State &)>> own_columns;
-    EnergyLedger                                      ledger;
+    std::vector<std::function<double(const State &, const State &)>> own_sums;
+    EnergyLedger                                                     ledger;
 
     /// Sums over the run (J), part of a checkpoint.
     struct Sums
@@ -171,6 +180,8 @@ namespace Ricochet
       unsigned int n_halvings            = 0;
       double       obstacle_work         = 0.;
       double       imposed_work          = 0.;
+      /// Those of add_sum().
+      std::vector<double> own = {};
 
       std::vector<double>
       to_list() const;

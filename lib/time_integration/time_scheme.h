@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace Ricochet
 {
@@ -38,8 +39,10 @@ namespace Ricochet
     /// Work of moving obstacles on the body, from their resultants and motions
     /// (J): no term of the balance, but a part of minus the contact work. The
     /// time loop adds it.
-    double       obstacle_work     = 0.;
-    unsigned int newton_iterations = 0;
+    double obstacle_work = 0.;
+    /// Sums that a program asked the time loop for.
+    std::vector<double> own_sums          = {};
+    unsigned int        newton_iterations = 0;
     /// Solutions of linear systems, back-substitutions included.
     unsigned int linear_solves = 0;
 

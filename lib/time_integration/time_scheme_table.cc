@@ -8,6 +8,8 @@
 
 #include <functional>
 
+#include <algorithm>
+
 namespace Ricochet
 {
   using namespace dealii;
@@ -84,6 +86,9 @@ namespace Ricochet
   {
     external_work += other.external_work;
     imposed_work += other.imposed_work;
+    own_sums.resize(std::max(own_sums.size(), other.own_sums.size()), 0.);
+    for (unsigned int k = 0; k < other.own_sums.size(); ++k)
+      own_sums[k] += other.own_sums[k];
     contact_work += other.contact_work;
     friction_work += other.friction_work;
     viscous_dissipation += other.viscous_dissipation;
