@@ -39,6 +39,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402
 
+import bodies  # noqa: E402
 import obstacles  # noqa: E402
 import paper_ab_ball  # noqa: E402
 import paper_ab_ring  # noqa: E402
@@ -56,6 +57,7 @@ GROUPS = (
     paper_c_bars,
     paper_c_sphere,
     obstacles,
+    bodies,
 )
 
 FIGURES = {figure.name: figure for group in GROUPS for figure in group.FIGURES}
@@ -133,6 +135,9 @@ def make(names, build_dir, jobs, force):
         image.savefig(folder / figure.image, bbox_inches="tight")
         plt.close(image)
         print(f"  output/figures/{figure.image}", flush=True)
+        if figure.animation:
+            figure.animate(folder / figure.animation)
+            print(f"  output/figures/{figure.animation}", flush=True)
         for check in figure.checks():
             check.figure = figure.name
             checks.append(check)

@@ -144,11 +144,11 @@ def bare(axes, title, x, y):
     axes.set_title(title)
 
 
-def scale_bar(axes, x, y, length):
-    """A line of some length (m) that says how long it is."""
+def scale_bar(axes, x, y, length, unit="m"):
+    """A line of some length that says how long it is."""
     axes.plot([x, x + length], [y, y], color="black", linewidth=2, solid_capstyle="butt", zorder=6)
     axes.annotate(
-        f"{length:g} m",
+        f"{length:g} {unit}",
         (x + length / 2, y),
         xytext=(0, 3),
         textcoords="offset points",
@@ -163,7 +163,7 @@ def label(axes, place, text):
     axes.text(*place, text, ha="center", va="center", fontsize=8, zorder=6)
 
 
-def colour_bar(drawn, axes, orientation="horizontal"):
+def colour_bar(drawn, axes, orientation="horizontal", unit="kPa"):
     """The scale of the stress, in axes of its own."""
     limit = drawn.get_clim()[1]
     bar = axes.figure.colorbar(
@@ -174,7 +174,7 @@ def colour_bar(drawn, axes, orientation="horizontal"):
         ticks=np.linspace(0, limit, 5),
         format="%g",
     )
-    bar.set_label("von Mises stress (kPa)", fontsize=9)
+    bar.set_label(f"von Mises stress ({unit})", fontsize=9)
     bar.ax.tick_params(labelsize=8)
 
 

@@ -49,17 +49,22 @@ class Figure:
     the results of `runs`, which are there when they are called.
     """
 
-    name: str  # paper and number, such as C-6; O for the obstacle course
+    name: str  # paper and number, such as C-6; O, D, S for those of no paper
     title: str
     caption: str
     runs: list
     draw: Callable
     checks: Callable = list
     timed: bool = False  # shows seconds: made by its name or "timed" only, one run at a time
+    animate: Callable | None = None  # `animate(path)` writes a GIF
 
     @property
     def image(self):
         return f"{self.name}.png"
+
+    @property
+    def animation(self):
+        return f"{self.name}.gif" if self.animate else None
 
 
 COLUMNS = ("figure", "quantity", "paper", "exact", "ours", "ok?", "criterion")
@@ -124,6 +129,11 @@ def write_html(figures, checks, path):
         lines += [
             f'<h2 id="{figure.name}">{text(figure.name)}: {text(figure.title)}</h2>',
             f'<img src="{figure.image}" alt="{text(figure.title)}">',
+            *(
+                [f'<img src="{figure.animation}" alt="{text(figure.title)}, moving">']
+                if figure.animation
+                else []
+            ),
             f"<p>{text(figure.caption)}</p>",
         ]
         rows = [check for check in checks if check.figure == figure.name]

@@ -38,5 +38,14 @@ run hyperelastic_ring --set "Mesh/Nodes around=32" --set "Mesh/Nodes across=3" \
 run sphere --set "Mesh/Mesh size=10" --set "Time/Final time=8" --set "Time/Time step=1"
 run sphere --set "Mesh/File=meshes/sphere_h4.msh" --set "Mesh/Degree=1" \
   --set "Time/Final time=2" --set "Linear solver/Type=multigrid"
+run colliding_disks --set "Disks/Rings of the left disk=4" \
+  --set "Disks/Rings of the right disk=3" --set "Disks/Offset=1" \
+  --set "Time/Final time=0.1" --set "Contact/Treatment=improved normal compliance" \
+  --set "Contact/Friction coefficient=0.2"
+run stent_artery --set "Geometry/Artery nodes along=31" \
+  --set "Geometry/Artery nodes across=4" --set "Geometry/Stent nodes along=41" \
+  --set "Geometry/Stent nodes across=3" --set "Geometry/Gap=0.001" \
+  --set "Time/Final time=0.4" --set "Contact/Friction coefficient=0.2"
+run sliding_block --set "Time/Final time=0.02"
 "$programs/spectral_radius" --quiet --output-dir "$runs/spectral" --set "Spectrum/Points=5"
 echo "sanitize: no reports"

@@ -26,10 +26,19 @@ namespace Ricochet
       factorise(const Matrix &matrix, const bool keep_pivots) override
       {
         int error = 0;
-        if (!solver || factored != &matrix.trilinos_matrix())
+        // A matrix that was made anew may lie where the last one was, but its entries
+        // do not, to which packages keep pointers.
+        int    *row_start = nullptr, *columns = nullptr;
+        double *values = nullptr;
+        matrix.trilinos_matrix().ExtractCrsDataPointers(row_start,
+                                                        columns,
+                                                        values);
+        if (!solver || factored != &matrix.trilinos_matrix() ||
+            factored_values != values)
           {
-            factored = &matrix.trilinos_matrix();
-            problem  = std::make_unique<Epetra_LinearProblem>();
+            factored        = &matrix.trilinos_matrix();
+            factored_values = values;
+            problem         = std::make_unique<Epetra_LinearProblem>();
             problem->SetOperator(
               const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
             const std::string name = "Amesos_" + package;
@@ -68,7 +77,8 @@ namespace Ricochet
 
     private:
       const std::string                     package;
-      const Epetra_CrsMatrix               *factored = nullptr;
+      const Epetra_CrsMatrix               *factored        = nullptr;
+      const double                         *factored_values = nullptr;
       std::unique_ptr<Epetra_LinearProblem> problem;
       std::unique_ptr<Amesos_BaseSolver>    solver;
     };

@@ -159,10 +159,10 @@ CollidingDisks::add_parameters(ParameterHandler &prm)
 void
 CollidingDisks::validate() const
 {
+  check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
   material.validate(2, impact.scheme.name);
   impact.validate(material.law == "linear elastic",
                   material.viscosity != "none" && material.viscosity_eta > 0.);
-  check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
   if (!(offset < distance))
     throw InputError(
       "Disks/Offset = " + to_text(offset) +

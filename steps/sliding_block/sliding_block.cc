@@ -151,10 +151,10 @@ SlidingBlock::add_parameters(ParameterHandler &prm)
 void
 SlidingBlock::validate() const
 {
+  check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
   material.validate(2, impact.scheme.name);
   impact.validate(material.law == "linear elastic",
                   material.viscosity != "none" && material.viscosity_eta > 0.);
-  check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
   if (begin + block_length > strip_length)
     throw InputError(
       "The block would begin beyond the end of the strip: "

@@ -186,6 +186,7 @@ StentArtery::add_parameters(ParameterHandler &prm)
 void
 StentArtery::validate() const
 {
+  check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
   for (const MaterialParameters *material : {&artery, &stent})
     {
       material->validate(2, impact.scheme.name);
@@ -193,7 +194,6 @@ StentArtery::validate() const
                       material->viscosity != "none" &&
                         material->viscosity_eta > 0.);
     }
-  check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
   impact.check_size(2. *
                       (static_cast<double>(geometry.artery_nodes_along) *
                          geometry.artery_nodes_across +

@@ -3,7 +3,7 @@
 
 import re
 
-from programs import MESH, RUNS, TIME_STEP, parameters_of, small
+from programs import BODIES, MESH, RUNS, TIME_STEP, parameters_of, small
 
 # These would only make a run long, or its balance open on purpose.
 LEFT_ALONE = re.compile(
@@ -66,6 +66,19 @@ def material_for(rng, settings, program):
         settings["Material/Viscosity"] = "none"
 
 
+def pair_for(rng, settings, program):
+    """What goes with contact between bodies, more often than chance has it."""
+    if program not in BODIES or rng.random() < .2:
+        return
+    settings["Time/Scheme"] = "midpoint"
+    treatment = settings.get("Contact/Treatment", "")
+    if "Nitsche" in treatment or "multipliers" in treatment or "Lagr" in treatment:
+        del settings["Contact/Treatment"]
+    for name in list(settings):
+        if name.startswith("Linear solver/") or name.endswith(("/Law", "/Viscosity")):
+            del settings[name]
+
+
 def random_settings(case, program):
     rng = case.rng
     parameters = [p for p in parameters_of(case, program)
@@ -78,6 +91,7 @@ def random_settings(case, program):
     if "Time/Scheme" in choices:
         scheme_for(rng, settings, choices["Time/Scheme"].choices)
     material_for(rng, settings, program)
+    pair_for(rng, settings, program)
     chosen = [settings.get(name, p.default) for name, p in choices.items()]
     others = [p for p in parameters if p.name not in choices]
     for parameter in rng.sample(others, min(len(others), rng.randrange(5))):

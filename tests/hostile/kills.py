@@ -15,7 +15,8 @@ PATIENCE = 20.
 # Methods of different kinds, and longer runs than elsewhere: a kill should come
 # while something is computed.
 STEPS = {"bar_sd": 240, "bar_ss": 240, "elastic_ball": 60, "hyperelastic_ring": 40,
-         "obstacle_course": 40}
+         "obstacle_course": 40, "colliding_disks": 50, "stent_artery": 24,
+         "sliding_block": 80}
 VARIANTS = {
     "bar_sd": [{}, {"Contact/Treatment": "Signorini active set",
                     "Time/Scheme": "HHT"}],
@@ -26,6 +27,10 @@ VARIANTS = {
                                "Contact/Friction coefficient": "0.2"}],
     "obstacle_course": [{}, {"Obstacle/Translation": "0; 0.5*t",
                              "Contact/Friction coefficient": "0.2"}],
+    "colliding_disks": [{}, {"Contact/Treatment": "improved normal compliance",
+                             "Contact/Friction coefficient": "0.2"}],
+    "stent_artery": [{}, {"Contact/Friction coefficient": "0.2"}],
+    "sliding_block": [{}, {"Contact/Treatment": "Signorini active set"}],
 }
 
 

@@ -6,7 +6,8 @@ import re
 from dataclasses import dataclass, field
 
 BARS = ["bar_sd", "bar_ss"]
-THROWN = ["elastic_ball", "hyperelastic_ring", "obstacle_course"]
+BODIES = ["colliding_disks", "stent_artery", "sliding_block"]
+THROWN = ["elastic_ball", "hyperelastic_ring", "obstacle_course"] + BODIES
 RUNS = BARS + THROWN + ["sphere"]
 ALL = RUNS + ["spectral_radius"]
 
@@ -18,6 +19,13 @@ MESH = {
     "hyperelastic_ring": {"Mesh/Nodes around": "32", "Mesh/Nodes across": "3"},
     "sphere": {"Mesh/Mesh size": "10", "Mesh/Degree": "1"},
     "obstacle_course": {"Body/Boundary nodes": "32"},
+    "colliding_disks": {"Disks/Rings of the left disk": "4",
+                        "Disks/Rings of the right disk": "3"},
+    "stent_artery": {"Geometry/Artery nodes along": "31",
+                     "Geometry/Artery nodes across": "4",
+                     "Geometry/Stent nodes along": "41",
+                     "Geometry/Stent nodes across": "3"},
+    "sliding_block": {"Block/Cells": "4", "Strip/Cells": "11"},
     "spectral_radius": {"Spectrum/Points": "11"},
 }
 START = {
@@ -25,12 +33,16 @@ START = {
     "hyperelastic_ring": {"Start/Initial gap": "0.055"},
     "sphere": {"Start/Initial velocity": "0, 0, -4"},
     "obstacle_course": {"Start/Initial velocity": "0, -2"},
+    "colliding_disks": {"Disks/Distance": "2.001", "Disks/Offset": "1"},
+    "stent_artery": {"Geometry/Gap": "0.0001", "Deployment/Duration": "0.5"},
 }
 FINAL_TIME = {"bar_sd": "1.5", "bar_ss": "1", "elastic_ball": "0.015",
               "hyperelastic_ring": "0.15", "sphere": "1",
-              "obstacle_course": "0.03"}
+              "obstacle_course": "0.03", "colliding_disks": "0.032",
+              "stent_artery": "0.16", "sliding_block": "0.016"}
 TIME_STEP = {"bar_sd": .05, "bar_ss": .05, "elastic_ball": .001,
-             "hyperelastic_ring": .01, "sphere": .25, "obstacle_course": .002}
+             "hyperelastic_ring": .01, "sphere": .25, "obstacle_course": .002,
+             "colliding_disks": .004, "stent_artery": .02, "sliding_block": .002}
 
 
 def small(program):

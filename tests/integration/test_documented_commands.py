@@ -21,7 +21,10 @@ def commands_in(file, prefix):
 SHORTENED = {"elastic_ball": "Time/Final time=0.01",
              "hyperelastic_ring": "Time/Final time=0.05",
              "sphere": "Time/Final time=1",
-             "obstacle_course": "Time/Final time=0.05"}
+             "obstacle_course": "Time/Final time=0.05",
+             "colliding_disks": "Time/Final time=0.05",
+             "stent_artery": "Time/Final time=0.3",
+             "sliding_block": "Time/Final time=0.1"}
 
 
 class DocumentedCommands(ProgramTest):

@@ -515,11 +515,23 @@ namespace
       state  = impact->state_of_parts();
     }
 
+    /// As the time loop does it: in halves, if Newton's method fails.
     void
-    step(const double time_step)
+    step(const double time_step, const unsigned int n_halvings = 0)
     {
       State next;
-      impact->scheme->step(impact->system, state, time_step, next);
+      try
+        {
+          impact->scheme->step(impact->system, state, time_step, next);
+        }
+      catch (const NewtonFailure &)
+        {
+          if (n_halvings == 4)
+            throw;
+          step(.5 * time_step, n_halvings + 1);
+          step(.5 * time_step, n_halvings + 1);
+          return;
+        }
       next.time = state.time + time_step;
       state     = next;
     }

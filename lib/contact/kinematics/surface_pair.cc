@@ -465,6 +465,34 @@ namespace Ricochet
 
 
   template <int dim>
+  void
+  SurfacePair<dim>::stay_at_vertex(const unsigned int p, const double tolerance)
+  {
+    if constexpr (dim > 1)
+      {
+        Step        &step = steps[p];
+        const auto  &x    = gather(own_points[p], step.chain, new_positions);
+        const double small =
+          tolerance * master.facets[step.chain.facets[step.old_facet]].measure;
+        const auto is_at = [&](const unsigned int facet) {
+          return std::abs(FacetChain<double>::gap(x, facet) -
+                          FacetChain<double>::gap(x, facet + 1)) < small;
+        };
+        if ((step.old_facet > 0 && is_at(step.old_facet - 1)) ||
+            (step.old_facet + 1 < step.chain.facets.size() &&
+             is_at(step.old_facet)))
+          step.may_pass = false;
+      }
+    else
+      {
+        (void)p;
+        (void)tolerance;
+      }
+  }
+
+
+
+  template <int dim>
   template <typename Number>
   void
   SurfacePair<dim>::compute_rows(const unsigned int p,

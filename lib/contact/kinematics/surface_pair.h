@@ -139,12 +139,11 @@ namespace Ricochet
     differentiated_rows(const unsigned int p, const bool freeze_convex) const;
 
     /// Let the point end before the facet where it began: until the next begin_step()
-    /// it passes no vertex.
+    /// it passes no vertex. Only for a point so near to one that the gaps of both
+    /// facets differ by less than @p tolerance times the facet's length; others are
+    /// left alone.
     void
-    stay_before_facet(const unsigned int p)
-    {
-      steps[p].may_pass = false;
-    }
+    stay_at_vertex(const unsigned int p, const double tolerance);
 
     /// Number of the facet at the end of the step.
     unsigned int

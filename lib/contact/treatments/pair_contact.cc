@@ -154,14 +154,19 @@ namespace Ricochet
       --n_frozen;
     if (facets.returns(facets_signature()))
       {
-        // Should it go on, points that go to and fro between two facets stay before
-        // the one where they began: they are at a vertex that holds them.
-        n_frozen = 4;
+        // Should it go on, points that go to and fro between two facets because they
+        // are at a vertex that holds them stay before the one where they began.
+        // What this leaves between the gap at the end of the step and that at the
+        // beginning of the next one is no matter to a condition on the increment.
+        const bool on_increment =
+          !method.law && method.condition != ClosingCondition::signorini;
+        const double tolerance = on_increment ? 1e-4 : 1e-10;
+        n_frozen               = 4;
         if (++n_returns > 1)
           for (PointState &state : states)
             if (state.candidate &&
                 pair_of(state).facet(state.point) != state.accepted_facet)
-              pairs[state.pair]->stay_before_facet(state.point);
+              pairs[state.pair]->stay_at_vertex(state.point, tolerance);
       }
     for (PointState &state : states)
       if (state.candidate)
