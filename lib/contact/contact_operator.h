@@ -14,6 +14,15 @@
 
 namespace Ricochet
 {
+  /// What contact takes over a step (J).
+  struct ContactWork
+  {
+    /// Against the normal forces.
+    double normal = 0.;
+    /// Against friction; never negative.
+    double friction = 0.;
+  };
+
   /**
    * Contact as a stage of a time scheme sees it: it adds its forces to (or, for
    * active sets, takes rows out of) a residual that already holds everything else.
@@ -72,6 +81,23 @@ namespace Ricochet
     friction_dissipation() const
     {
       return 0.;
+    }
+
+    /// Whether contact_work() tells one contact from the others.
+    virtual bool
+    knows_work_of_contacts() const
+    {
+      return false;
+    }
+
+    /// What the contact of the points with @p boundary_id takes over the step that
+    /// ends at the last complete_residual(). Collective.
+    virtual ContactWork
+    contact_work(const dealii::types::boundary_id /*boundary_id*/) const
+    {
+      AssertThrow(false,
+                  dealii::ExcMessage("This contact is not told in parts."));
+      return {};
     }
 
     /// By how much the force in the residual differs from that of the law, at

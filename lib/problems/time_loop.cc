@@ -110,6 +110,24 @@ namespace Ricochet
           ledger.add_column("stress_pressure_" + name, "Pa");
         ledger.add_column("active_points_" + name, "1");
       }
+    if (system.contact.knows_work_of_contacts())
+      for (const auto &contact : contact_names)
+        {
+          const auto &[id, name] = contact;
+          const auto work_of     = [this, id = id]() {
+            return this->system.contact.contact_work(id);
+          };
+          add_sum("normal_work_" + name,
+                  "J",
+                  [work_of](const State &, const State &) {
+                    return work_of().normal;
+                  });
+          add_sum("friction_work_" + name,
+                  "J",
+                  [work_of](const State &, const State &) {
+                    return work_of().friction;
+                  });
+        }
   }
 
 

@@ -14,6 +14,7 @@ namespace Ricochet
     if (entry.pattern != tangent.pattern)
       {
         entry.factorisation.reset();
+        entry.matrix.clear();
         entry.pattern = tangent.pattern;
       }
     assemble(tangent, entry.matrix);

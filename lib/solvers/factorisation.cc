@@ -26,19 +26,12 @@ namespace Ricochet
       factorise(const Matrix &matrix, const bool keep_pivots) override
       {
         int error = 0;
-        // A matrix that was made anew may lie where the last one was, but its entries
-        // do not, to which packages keep pointers.
-        int    *row_start = nullptr, *columns = nullptr;
-        double *values = nullptr;
-        matrix.trilinos_matrix().ExtractCrsDataPointers(row_start,
-                                                        columns,
-                                                        values);
-        if (!solver || factored != &matrix.trilinos_matrix() ||
-            factored_values != values)
+        Assert(!solver || entries == entries_of(matrix),
+               ExcMessage("Another matrix needs a factorisation of its own."));
+        if (!solver)
           {
-            factored        = &matrix.trilinos_matrix();
-            factored_values = values;
-            problem         = std::make_unique<Epetra_LinearProblem>();
+            entries = entries_of(matrix);
+            problem = std::make_unique<Epetra_LinearProblem>();
             problem->SetOperator(
               const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
             const std::string name = "Amesos_" + package;
@@ -76,9 +69,20 @@ namespace Ricochet
       using Factorisation::solve;
 
     private:
+      /// Where the entries of a matrix lie, to which the packages keep pointers.
+      static const double *
+      entries_of(const Matrix &matrix)
+      {
+        int    *row_start = nullptr, *columns = nullptr;
+        double *values = nullptr;
+        matrix.trilinos_matrix().ExtractCrsDataPointers(row_start,
+                                                        columns,
+                                                        values);
+        return values;
+      }
+
       const std::string                     package;
-      const Epetra_CrsMatrix               *factored        = nullptr;
-      const double                         *factored_values = nullptr;
+      const double                         *entries = nullptr;
       std::unique_ptr<Epetra_LinearProblem> problem;
       std::unique_ptr<Amesos_BaseSolver>    solver;
     };

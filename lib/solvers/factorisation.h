@@ -22,7 +22,9 @@ namespace Ricochet
     virtual ~Factorisation() = default;
 
     /**
-     * Factor @p matrix, which must stay where it is.
+     * Factor @p matrix, the same one each time: a matrix that is made anew needs
+     * a new factorisation. (Whether it lies where the last one was, which could
+     * tell them apart, differs from rank to rank.)
      *
      * @param keep_pivots use the pivots of the last time, which is faster;
      * without it, the result does not depend on what came before.

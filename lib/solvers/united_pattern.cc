@@ -88,15 +88,12 @@ namespace Ricochet
   void
   UnitedPattern::embed(const Matrix &body, Matrix &matrix) const
   {
-    if (matrix.m() != body.m() || embedded != &matrix.trilinos_matrix() ||
-        embedded_version != version)
-      {
-        matrix.reinit(united);
-        embedded         = &matrix.trilinos_matrix();
-        embedded_version = version;
-      }
+    if (matrix.m() == 0)
+      matrix.reinit(united);
     else
       matrix = 0.;
+    Assert(matrix.n_nonzero_elements() == united.n_nonzero_elements(),
+           ExcMessage("The matrix is on another pattern."));
     int    *begin = nullptr, *columns = nullptr;
     double *from = nullptr, *to = nullptr;
     body.trilinos_matrix().ExtractCrsDataPointers(begin, columns, from);

@@ -33,9 +33,8 @@ namespace Ricochet
     update(const dealii::TrilinosWrappers::SparsityPattern &body,
            const Couplings                                 &couplings);
 
-    /// Make @p matrix one on the united pattern, with the values of @p body, a
-    /// matrix on the body's pattern. A matrix that has this pattern already keeps
-    /// its memory.
+    /// Fill @p matrix, which is empty or on the united pattern, with the values of
+    /// @p body, a matrix on the body's pattern. Collective if it is empty.
     void
     embed(const Matrix &body, Matrix &matrix) const;
 
@@ -48,9 +47,6 @@ namespace Ricochet
     dealii::TrilinosWrappers::SparsityPattern united;
     // Where each entry of the body's matrix lies in the united one, on this rank.
     std::vector<int> places;
-    // The version of the pattern of the matrix that was embedded last.
-    mutable const Epetra_CrsMatrix *embedded         = nullptr;
-    mutable std::uint64_t           embedded_version = 0;
   };
 } // namespace Ricochet
 

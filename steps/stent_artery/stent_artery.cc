@@ -238,7 +238,9 @@ StentArtery::run(RunFolder &folder)
   // Two parts in one mesh; what holds them and what moves them; the surfaces that
   // may touch. The wall is the softer one and the slave, though its mesh is the
   // coarser one: stiff nodes, two or three to a facet, would hold it in too many
-  // places.
+  // places. The ends of the stent belong to its surface: a node of the wall that
+  // slides off the upper side, which in the end is higher than the wall was, would
+  // else be found below it a little later.
   const Material<2> wall_material  = artery.make<2>();
   const Material<2> stent_material = stent.make<2>();
   ImpactSetup<2>    setup{wall_material};
@@ -248,9 +250,10 @@ StentArtery::run(RunFolder &folder)
                    StentArteryGeometry::artery_ends};
   setup.imposed[StentArteryGeometry::stent_lower_side] =
     {{{true, true}}, [this](const double time) { return deployment(time); }};
-  setup.pairs = {{"wall",
-                  {StentArteryGeometry::artery_inner_wall},
-                  {StentArteryGeometry::stent_upper_side}}};
+  setup.pairs = {
+    {"wall",
+     {StentArteryGeometry::artery_inner_wall},
+     {StentArteryGeometry::stent_upper_side, StentArteryGeometry::stent_ends}}};
   Impact<2> assembly(impact, triangulation, setup, folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
              " cells, " + std::to_string(assembly.body.owned_indices().size()) +

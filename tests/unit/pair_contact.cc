@@ -620,6 +620,42 @@ BOOST_AUTO_TEST_CASE(bars_exchange_their_velocities)
   BOOST_CHECK_SMALL(bars.velocity(1) - 100., 4.);
 }
 
+// Each contact of a cradle takes what its forces do on the faces of its two bars: a spring
+// stores something, first in one contact and then in the other.
+BOOST_AUTO_TEST_CASE(each_contact_has_its_work)
+{
+  Bars   bars("improved normal compliance", {100., 0., 0.}, 10);
+  double stored[2] = {0., 0.};
+  for (unsigned int n = 0; n < 60; ++n)
+    {
+      const State before = bars.state;
+      bars.step(2e-8);
+      for (unsigned int b = 0; b < 2; ++b)
+        {
+          double work = 0.;
+          for (const auto id : {rectangle_side(b, Rectangle::right),
+                                rectangle_side(b + 1, Rectangle::left)})
+            for (unsigned int c = 0; c < 2; ++c)
+              for (const auto i :
+                   bars.impact->body.boundary_displacements(id, c))
+                work += bars.state.contact_force(i) *
+                  (bars.state.solution(i) - before.solution(i));
+          work = dealii::Utilities::MPI::sum(work, MPI_COMM_WORLD);
+          const ContactWork told = bars.impact->contact->contact_work(
+            rectangle_side(b, Rectangle::right));
+          BOOST_CHECK_SMALL(told.normal - work, 1e-12);
+          BOOST_TEST(told.friction == 0.);
+          stored[b] = std::max(stored[b], work);
+        }
+      // The wave needs 1 us to the second contact.
+      if (n < 40)
+        BOOST_CHECK_LT(stored[1], .02 * stored[0]);
+    }
+  BOOST_TEST_MESSAGE("largest work in a step: " << stored[0] << ", "
+                                                << stored[1] << " J/m");
+  BOOST_CHECK_GT(stored[1], .1 * stored[0]);
+}
+
 // Three bars: the outer two meet the one between them at the same time and leave it at
 // rest after 3 us; and a cradle, in which the last one takes it all.
 BOOST_AUTO_TEST_CASE(three_bars_and_a_cradle)

@@ -104,7 +104,6 @@ namespace Ricochet
         const Pair        &pair = pair_of(state);
         const unsigned int p    = state.point;
         state.candidate         = pair.is_before_facet(p);
-        state.is_forced         = false;
         state.accepted_status   = Status::open;
         state.old_state         = {};
         const bool was_pressed  = !method.law && pair.multipliers(p)[0] > 0.;
@@ -200,8 +199,8 @@ namespace Ricochet
     forget_patterns();
     for (PointState &state : states)
       {
-        state.candidate = state.is_forced = state.status != Status::open;
-        state.accepted_status             = state.status;
+        state.candidate       = state.status != Status::open;
+        state.accepted_status = state.status;
       }
     return true;
   }
@@ -262,9 +261,9 @@ namespace Ricochet
     const double       trial    = pressure - r * closing(state);
     // Round-off neither opens nor closes a point.
     const double round_off = r * pair.round_off(p);
-    const bool   closed    = state.is_forced ||
-      (state.accepted_status == Status::open ? trial > round_off
-                                             : trial > -round_off);
+    const bool   closed    = state.accepted_status == Status::open
+           ? trial > round_off
+           : trial > -round_off;
     if (!closed)
       return;
     state.status = Status::slip;
@@ -447,15 +446,42 @@ namespace Ricochet
 
 
   template <int dim>
+  ContactWork
+  PairContact<dim>::my_contact_work(
+    const std::optional<types::boundary_id> boundary_id) const
+  {
+    ContactWork work;
+    for (const PointState &state : states)
+      {
+        const Point &point = point_of(state);
+        if ((state.pressure == 0. && state.traction == 0.) ||
+            (boundary_id && point.boundary_id != *boundary_id))
+          continue;
+        const auto &rows = pair_of(state).rows(state.point);
+        work.normal -= point.weight * state.pressure * rows.gap_increment;
+        work.friction += point.weight * state.traction * rows.slip;
+      }
+    return work;
+  }
+
+
+
+  template <int dim>
+  ContactWork
+  PairContact<dim>::contact_work(const types::boundary_id boundary_id) const
+  {
+    const ContactWork mine = my_contact_work(boundary_id);
+    return {Utilities::MPI::sum(mine.normal, communicator),
+            Utilities::MPI::sum(mine.friction, communicator)};
+  }
+
+
+
+  template <int dim>
   double
   PairContact<dim>::friction_dissipation() const
   {
-    double sum = 0.;
-    for (const PointState &state : states)
-      if (state.traction != 0.)
-        sum += point_of(state).weight * state.traction *
-          pair_of(state).rows(state.point).slip;
-    return Utilities::MPI::sum(sum, communicator);
+    return Utilities::MPI::sum(my_contact_work({}).friction, communicator);
   }
 
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace Ricochet
 {
@@ -80,6 +81,15 @@ namespace Ricochet
 
     double
     friction_dissipation() const override;
+
+    bool
+    knows_work_of_contacts() const override
+    {
+      return true;
+    }
+
+    ContactWork
+    contact_work(const dealii::types::boundary_id boundary_id) const override;
 
     double
     linearisation_error() const override;
@@ -163,9 +173,7 @@ namespace Ricochet
     {
       unsigned int pair = 0, point = 0;
       /// The point may be pressed at all in this pass.
-      bool candidate = false;
-      /// It stays pressed, whatever the multiplier: second pass.
-      bool   is_forced = false;
+      bool   candidate = false;
       Status status    = Status::open;
       // At the last accepted iterate, or the beginning of the stage.
       Status accepted_status = Status::open;
@@ -241,6 +249,11 @@ namespace Ricochet
 
     void
     add_tangent(const PointState &state, Matrix &tangent) const;
+
+    /// What this rank's points with @p boundary_id, or all of them, take.
+    ContactWork
+    my_contact_work(
+      const std::optional<dealii::types::boundary_id> boundary_id) const;
 
     void
     clear_multipliers(Vector &vector) const;
