@@ -115,6 +115,7 @@ void
 CollidingDisks::add_parameters(ParameterHandler &prm)
 {
   impact.add_parameters(prm);
+  impact.contact.add_pair_parameters(prm);
   material.add_parameters(prm);
   prm.enter_subsection("Disks");
   prm.add_parameter("Radius",

@@ -104,6 +104,7 @@ void
 SlidingBlock::add_parameters(ParameterHandler &prm)
 {
   impact.add_parameters(prm);
+  impact.contact.add_pair_parameters(prm);
   material.add_parameters(prm);
   prm.enter_subsection("Block");
   const auto length =

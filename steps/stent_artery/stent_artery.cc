@@ -121,6 +121,7 @@ void
 StentArtery::add_parameters(ParameterHandler &prm)
 {
   impact.add_parameters(prm);
+  impact.contact.add_pair_parameters(prm);
   artery.add_parameters(prm);
   stent.add_parameters(prm);
 

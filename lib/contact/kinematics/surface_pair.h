@@ -5,7 +5,6 @@
 #include <contact/kinematics/contact_kinematics.h>
 #include <contact/surfaces/contact_pair.h>
 #include <contact/surfaces/contact_surface.h>
-#include <contact/surfaces/facet_chain.h>
 
 #include <Sacado_Fad_SLFad.hpp>
 
@@ -15,25 +14,23 @@ namespace Ricochet
   class FacetSearch;
 
   /**
-   * The geometry of contact of the points of one surface with the facets of
-   * another one, both of which move: gap, its increment and slip over a step, and
-   * the directions of the forces, as rows on the unknowns of both.
+   * The geometry of contact of the points of one surface (slave) with the facets of
+   * another one (master), both of which move: in each point gap, its increment and
+   * slip over a step, and the directions of the forces, as rows on the unknowns of
+   * both. This class knows the surfaces, where they are, and which facet is before
+   * which point; how points are coupled to facets is for derived classes.
    *
-   * No history enters: the facet before which a point is follows from where both
-   * are (see FacetChain for vertices, which a point may pass during a step). So
-   * gaps at the end of a step are those at the beginning of the next one.
+   * For whatever they take as rows D and T: D . change is the increment of the gap
+   * and T . change the slip, so that the work of a pressure p and a traction t is p
+   * times the one and t times the other; the sum of forces and that of moments are
+   * zero.
    */
   template <int dim>
   class SurfacePair
   {
   public:
+    using Index    = dealii::types::global_dof_index;
     using Position = std::array<double, dim>;
-
-    enum class PointsIn
-    {
-      nodes,
-      quadrature_points
-    };
 
     /// A point of the slave surface that this rank takes care of.
     struct Point
@@ -49,41 +46,50 @@ namespace Ricochet
       double                     cell_diameter = 0.;
       dealii::types::boundary_id boundary_id   = 0;
       /// Multipliers of the node; invalid ones in quadrature points.
-      std::array<dealii::types::global_dof_index, dim> multipliers;
+      std::array<Index, dim> multipliers;
       /// Held nodes carry no contact.
       bool can_touch = true;
     };
 
-    /// The rows of a point over a step: of the unknown k the coordinate
-    /// coordinate[k] of the chain moves, by factor[k].
-    struct Unknowns
+    /// Rows of a point over a step, at the state of the last evaluate().
+    struct Rows
     {
-      std::vector<dealii::types::global_dof_index> index;
-      std::vector<unsigned int>                    coordinate;
-      std::vector<double>                          factor;
+      /// The unknowns on which they are: first those of the node that the point is,
+      /// or of the first of its nodes.
+      std::vector<Index> unknowns;
+      /// D and T, 1.
+      std::vector<double> normal, tangential;
+      /// D . change (m)
+      double gap_increment = 0.;
+      /// T . change (m)
+      double slip = 0.;
+      /// Outward unit normal of the master.
+      Position direction{};
     };
 
-    /// At most a point and six nodes: a point that passes four vertices in a step.
-    static constexpr unsigned int max_coordinates = 14;
-    using Differentiable = Sacado::Fad::SLFad<double, max_coordinates>;
-
-    template <typename Number>
-    using Rows = typename FacetChain<Number>::Rows;
+    /// Derivatives with respect to the unknowns of the rows at the end of the step.
+    struct Derivatives
+    {
+      /// Of gap and slip, 1.
+      std::vector<double> gap, slip;
+      /// Of traction T - pressure D (Pa/m), row by row.
+      std::vector<double> forces;
+    };
 
     /// @throws InputError see ContactSurface; and when the surfaces do not face
     /// each other anywhere.
-    SurfacePair(const Body<dim>   &body,
-                const ContactPair &pair,
-                const PointsIn     points_in);
+    SurfacePair(const Body<dim> &body, const ContactPair &pair);
 
-    /// Begin a step: find out before which facets points are. With a step of no
+    virtual ~SurfacePair() = default;
+
+    /// Begin a step: find out what is before which facets. With a step of no
     /// length it is an instant.
-    void
-    begin_step(const ContactStart &start);
+    virtual void
+    begin_step(const ContactStart &start) = 0;
 
     /// The end of the step.
-    void
-    evaluate(const Vector &solution);
+    virtual void
+    evaluate(const Vector &solution) = 0;
 
     const std::vector<Point> &
     points() const
@@ -96,21 +102,21 @@ namespace Ricochet
     bool
     is_before_facet(const unsigned int p) const
     {
-      return steps[p].is_before_facet;
+      return gaps[p].is_before_facet;
     }
 
     /// m
     double
     old_gap(const unsigned int p) const
     {
-      return steps[p].old_gap;
+      return gaps[p].old_gap;
     }
 
     /// m
     double
     new_gap(const unsigned int p) const
     {
-      return steps[p].new_gap;
+      return gaps[p].new_gap;
     }
 
     /// The gap in the middle of the step, if the mean velocity of the step before
@@ -118,61 +124,57 @@ namespace Ricochet
     double
     predicted_gap(const unsigned int p) const
     {
-      return steps[p].predicted_gap;
+      return gaps[p].predicted_gap;
     }
 
     /// The multipliers of a node at the last begin_step() or evaluate() (Pa).
     const Position &
     multipliers(const unsigned int p) const
     {
-      return steps[p].multipliers;
+      return gaps[p].multipliers;
     }
 
-    /// Rows at the state of the last evaluate().
-    const Rows<double> &
-    rows(const unsigned int p) const;
+    virtual const Rows &
+    rows(const unsigned int p) const = 0;
 
-    /// The same with derivatives with respect to the coordinates at the end of the
-    /// step, in work space that the next call overwrites. @param freeze_convex see
-    /// FacetChain
-    const Rows<Differentiable> &
-    differentiated_rows(const unsigned int p, const bool freeze_convex) const;
+    /**
+     * In work space that the next call overwrites.
+     *
+     * @param freeze_convex leave out what makes points go to and fro between facets,
+     * see FacetChain.
+     */
+    virtual const Derivatives &
+    derivatives(const unsigned int p,
+                const double       pressure,
+                const double       traction,
+                const bool         freeze_convex) const = 0;
+
+    /// The unknowns of the rows and those that may join them in the course of a
+    /// step, for sparsity patterns, sorted.
+    virtual std::vector<Index>
+    unknowns_nearby(const unsigned int p) const = 0;
+
+    /// What tells, for a point, whether it has passed vertices and to where: 0 if it
+    /// has not.
+    virtual int
+    passage(const unsigned int /*p*/) const
+    {
+      return 0;
+    }
 
     /// Let the point end before the facet where it began: until the next begin_step()
     /// it passes no vertex. Only for a point so near to one that the gaps of both
     /// facets differ by less than @p tolerance times the facet's length; others are
     /// left alone.
-    void
-    stay_at_vertex(const unsigned int p, const double tolerance);
-
-    /// Number of the facet at the end of the step.
-    unsigned int
-    facet(const unsigned int p) const
-    {
-      return steps[p].chain.facets[steps[p].new_facet];
-    }
-
-    /// Whether the point has passed a vertex in the step.
-    bool
-    has_passed_vertex(const unsigned int p) const
-    {
-      return steps[p].new_facet != steps[p].old_facet;
-    }
-
-    /// The unknowns on which the rows are.
-    const Unknowns &
-    unknowns(const unsigned int p) const;
-
-    /// The same with the nodes of one more facet on each side, for sparsity
-    /// patterns.
-    std::vector<dealii::types::global_dof_index>
-    unknowns_nearby(const unsigned int p) const;
+    virtual void
+    stay_at_vertex(const unsigned int /*p*/, const double /*tolerance*/)
+    {}
 
     /// Round-off in gaps and increments of point @p p (m).
-    double
-    round_off(const unsigned int p) const;
+    virtual double
+    round_off(const unsigned int p) const = 0;
 
-  private:
+  protected:
     /// Positions of all nodes of both surfaces (m).
     struct Positions
     {
@@ -185,23 +187,32 @@ namespace Ricochet
       std::vector<unsigned int> facets, nodes;
     };
 
-    struct Step
+    /// What is known of a point over a step.
+    struct Gaps
     {
-      bool  is_before_facet = false;
-      Chain chain;
-      /// Facets of the chain before which the point is at both ends of the step.
-      unsigned int old_facet = 0, new_facet = 0;
-      /// It may pass vertices: it begins between the bisectors of the old facet.
-      bool         may_pass = false;
-      double       old_gap = 0., new_gap = 0., predicted_gap = 0.;
-      Position     multipliers{};
-      bool         up_to_date = false;
-      Rows<double> rows;
-      Unknowns     unknowns;
+      bool     is_before_facet = false;
+      double   old_gap = 0., new_gap = 0., predicted_gap = 0.;
+      Position multipliers{};
     };
 
+    /// The facet before which a point is.
+    struct Facing
+    {
+      Chain chain;
+      /// Its place in the chain.
+      unsigned int facet = 0;
+    };
+
+    /// One point for each node of the slave that this rank owns.
     void
-    make_points(const Body<dim> &body, const PointsIn points_in);
+    make_nodal_points(const Body<dim> &body);
+
+    bool
+    is_mine(const Body<dim> &body, const unsigned int slave_node) const
+    {
+      return body.owned_indices().is_element(
+        slave.nodes[slave_node].unknowns[0]);
+    }
 
     /// The positions at @p solution, a vector of displacements, or, with @p
     /// start, what a velocity @p solution makes of them in @p time.
@@ -210,6 +221,11 @@ namespace Ricochet
                   Positions       &positions,
                   const Positions *start = nullptr,
                   const double     time  = 1.) const;
+
+    /// Read the multipliers of all points, where the last vector of get_positions()
+    /// was a solution.
+    void
+    get_multipliers();
 
     /// Outward, of any length.
     Position
@@ -223,11 +239,11 @@ namespace Ricochet
     Chain
     chain_around(const unsigned int f, unsigned int &place) const;
 
-    /// Positions of the point and of the nodes of @p chain, in #work.
+    /// The position @p y and those of the nodes of @p chain, in #work.
     const std::vector<Position> &
-    gather(const Point     &point,
-           const Chain     &chain,
-           const Positions &positions) const;
+    gather(const Position              &y,
+           const Chain                 &chain,
+           const std::vector<Position> &master_x) const;
 
     /// The gap at positions from gather().
     double
@@ -240,58 +256,36 @@ namespace Ricochet
     facet_before(const std::vector<Position> &x,
                  const unsigned int           facet) const;
 
-    /// The facet before which the point is at the end of @p step, with positions @p
-    /// x.
-    unsigned int
-    last_facet(const std::vector<Position> &x, const Step &step) const;
-
-    /// The facet before which a point is at the beginning of a step, if there is one.
-    void
-    find_facet_now(const Point            &point,
-                   const FacetSearch<dim> &search,
-                   Step                   &step) const;
-
-    /// For a point that is not pressed, a facet that it is in front of and before
-    /// which it will be @p later, if there is one.
-    void
-    find_facet_later(const Point            &point,
-                     const FacetSearch<dim> &search,
-                     const Positions        &later,
-                     Step                   &step) const;
-
-    /// Whether the point can be followed from @p facet past vertices.
-    bool
-    may_pass(const std::vector<Position> &x, const unsigned int facet) const;
-
     /// Whether the point is beyond an open end of the surface, or beside it.
     bool
     is_off(const std::vector<Position> &x,
            const Chain                 &chain,
            const unsigned int           facet) const;
 
-    /// Read the multipliers of all points, where the last vector of get_positions()
-    /// was a solution.
-    void
-    get_multipliers();
+    /// The facet before which the point @p y of the slave with the outward @p normal
+    /// is, of those that @p search knows, if there is one. The positions are in #work
+    /// then.
+    std::optional<Facing>
+    find_facet(const Position              &y,
+               const Position              &normal,
+               const FacetSearch<dim>      &search,
+               const std::vector<Position> &master_x) const;
 
-    template <typename Number>
-    void
-    compute_rows(const unsigned int p,
-                 Rows<Number>      &rows,
-                 const bool         freeze_convex = false) const;
+    /// How deep behind a facet contact reaches: not through a body (m).
+    double
+    largest_depth(const Facing &facing) const
+    {
+      return master.facets[facing.chain.facets[facing.facet]].measure;
+    }
 
-    void
-    update(const unsigned int p) const;
+    ContactSurface<dim>           slave, master;
+    std::vector<Point>            own_points;
+    std::vector<Gaps>             gaps;
+    mutable std::vector<Position> work;
 
-    ContactSurface<dim>               slave, master;
-    std::vector<Point>                own_points;
+  private:
     mutable Vector                    ghosted;
     std::vector<std::array<int, dim>> slave_index, master_index;
-    Positions                         old_positions, new_positions;
-    mutable std::vector<Step>         steps;
-    mutable std::vector<Position>     work, old_work;
-    mutable std::vector<std::array<Differentiable, dim>> differentiable_work;
-    mutable Rows<Differentiable>                         differentiable_rows;
   };
 } // namespace Ricochet
 

@@ -152,6 +152,28 @@ namespace Ricochet
   }
 
 
+  template <int dim>
+  std::vector<unsigned int>
+  FacetSearch<dim>::near(const std::array<double, dim> &lower,
+                         const std::array<double, dim> &upper) const
+  {
+    std::pair<Point<dim>, Point<dim>> corners;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        corners.first[c]  = lower[c];
+        corners.second[c] = upper[c];
+      }
+    std::vector<unsigned int> found;
+    for (const auto &entry :
+         tree->boxes |
+           boost::geometry::index::adaptors::queried(
+             boost::geometry::index::intersects(BoundingBox<dim>(corners))))
+      found.push_back(entry.second);
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+
   template class FacetSearch<1>;
   template class FacetSearch<2>;
   template std::array<double, 1>

@@ -26,6 +26,12 @@ namespace Ricochet
     closest_facing(const std::array<double, dim> &y,
                    const std::array<double, dim> &normal) const;
 
+    /// Facets whose bounding box meets that between @p lower and @p upper, in
+    /// ascending order.
+    std::vector<unsigned int>
+    near(const std::array<double, dim> &lower,
+         const std::array<double, dim> &upper) const;
+
   private:
     struct Tree;
     const ContactSurface<dim>                  &surface;

@@ -28,9 +28,15 @@ namespace Ricochet
     /// mu and c_tau (Pa s/m) of Coulomb's friction.
     double friction_coefficient  = 0.;
     double tangential_compliance = 1e3;
+    /// Between bodies: "points", "mortar" or "dual mortar".
+    std::string coupling = "points";
 
     void
     add_parameters(dealii::ParameterHandler &parameters);
+
+    /// What programs with contact between bodies have besides.
+    void
+    add_pair_parameters(dealii::ParameterHandler &parameters);
 
     /// The parameters that the treatment makes no use of.
     std::vector<UnusedParameter>

@@ -320,6 +320,17 @@ namespace Ricochet
                        "' is one for rigid obstacles, not for contact between "
                        "bodies.\nAllowed there: " +
                        names_of(good) + ".");
+    const auto is_nodal = [](const ContactLawTraits &traits) {
+      return traits.nodal && !traits.uses_stress && !traits.needs_multiplier;
+    };
+    if (parameters.coupling != "points" && !is_nodal(find(parameters).traits))
+      throw InputError(
+        "The contact treatment '" + parameters.treatment +
+        "' acts in quadrature points and cannot be combined with Contact/Coupling "
+        "= " +
+        parameters.coupling +
+        ", which is for treatments in nodes.\nAllowed with it: " +
+        names_of(is_nodal) + ".");
     if (!scheme.contact_over_step)
       throw InputError(
         "Contact between bodies cannot be combined with the time "
@@ -353,7 +364,11 @@ namespace Ricochet
     return std::make_unique<PairContact<dim>>(
       body,
       pairs,
-      PairMethod{treatment.make_law ? treatment.make_law(parameters) : nullptr,
+      PairMethod{parameters.coupling == "mortar" ? PairCoupling::mortar
+                   : parameters.coupling == "dual mortar"
+                   ? PairCoupling::dual_mortar
+                   : PairCoupling::points,
+                 treatment.make_law ? treatment.make_law(parameters) : nullptr,
                  treatment.condition,
                  parameters.augmentation,
                  {parameters.friction_coefficient,
@@ -528,6 +543,24 @@ namespace Ricochet
       "sticks, its traction is c_tau times the slip rate (paper A, (2.11)). "
       "Used with friction by the treatments that regularise it.",
       Patterns::Double());
+    parameters.leave_subsection();
+  }
+
+
+  void
+  ContactParameters::add_pair_parameters(ParameterHandler &parameters)
+  {
+    parameters.enter_subsection("Contact");
+    parameters.add_parameter(
+      "Coupling",
+      coupling,
+      "How surfaces whose nodes do not match are coupled. points: each node (or "
+      "quadrature point, as the treatment has it) of the one with the facet of the "
+      "other before it. mortar: the mean of the gap around each node, integrated "
+      "exactly, so that a uniform pressure passes. dual mortar: the same with weights "
+      "that are orthogonal to the shape functions of other nodes. For treatments in "
+      "nodes.",
+      Patterns::Selection("points|mortar|dual mortar"));
     parameters.leave_subsection();
   }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <contact/kinematics/mortar_pair.h>
+#include <contact/kinematics/points_before_facets.h>
 #include <contact/treatments/active_set_signature.h>
 #include <contact/treatments/pair_contact.h>
 #include <contact/treatments/power_law_linearisation.h>
@@ -15,6 +17,34 @@ namespace Ricochet
   namespace
   {
     constexpr auto no_index = numbers::invalid_dof_index;
+
+    template <int dim>
+    std::unique_ptr<SurfacePair<dim>>
+    make_surface_pair(const Body<dim>   &body,
+                      const ContactPair &pair,
+                      const PairMethod  &method)
+    {
+      using Points     = PointsBeforeFacets<dim>;
+      const bool nodal = !method.law || method.law->traits().nodal;
+      if (method.coupling == PairCoupling::points)
+        return std::make_unique<Points>(
+          body,
+          pair,
+          nodal ? Points::PointsIn::nodes
+                : Points::PointsIn::quadrature_points);
+      AssertThrow(nodal, ExcMessage("Mortar couples nodes."));
+      if constexpr (dim == 2)
+        return std::make_unique<MortarPair>(body,
+                                            pair,
+                                            method.coupling ==
+                                                PairCoupling::mortar
+                                              ? MortarPair::Shape::standard
+                                              : MortarPair::Shape::dual);
+      else
+        throw InputError(
+          "On the line surfaces are points, which match: "
+          "Contact/Coupling can only be 'points'.");
+    }
 
     /// A slip in the one direction that there is.
     Tensor<1, 3>
@@ -51,12 +81,7 @@ namespace Ricochet
                            " is the slave of more than one contact.");
     for (const ContactPair &pair : pair_list)
       {
-        pairs.push_back(
-          std::make_unique<Pair>(body,
-                                 pair,
-                                 !method.law || method.law->traits().nodal
-                                   ? Pair::PointsIn::nodes
-                                   : Pair::PointsIn::quadrature_points));
+        pairs.push_back(make_surface_pair(body, pair, method));
         for (unsigned int p = 0; p < pairs.back()->points().size(); ++p)
           {
             PointState state;
@@ -164,12 +189,12 @@ namespace Ricochet
         if (++n_returns > 1)
           for (PointState &state : states)
             if (state.candidate &&
-                pair_of(state).facet(state.point) != state.accepted_facet)
+                pair_of(state).passage(state.point) != state.accepted_passage)
               pairs[state.pair]->stay_at_vertex(state.point, tolerance);
       }
     for (PointState &state : states)
       if (state.candidate)
-        state.accepted_facet = pair_of(state).facet(state.point);
+        state.accepted_passage = pair_of(state).passage(state.point);
   }
 
 
@@ -392,16 +417,14 @@ namespace Ricochet
     const unsigned int p     = state.point;
     if (state.pressure != 0. || state.traction != 0.)
       {
-        const auto &rows     = pair.rows(p);
-        const auto &unknowns = pair.unknowns(p);
-        const auto  add      = [&](const double               factor,
+        const auto &rows = pair.rows(p);
+        const auto  add  = [&](const double               factor,
                              const std::vector<double> &row,
                              Vector                    &vector) {
           values.clear();
-          for (unsigned int k = 0; k < unknowns.index.size(); ++k)
-            values.push_back(factor * unknowns.factor[k] *
-                             row[unknowns.coordinate[k]]);
-          vector.add(values.size(), unknowns.index.data(), values.data());
+          for (const double entry : row)
+            values.push_back(factor * entry);
+          vector.add(values.size(), rows.unknowns.data(), values.data());
         };
         add(-point.weight * state.pressure, rows.normal, force);
         if (state.traction != 0.)
@@ -577,50 +600,39 @@ namespace Ricochet
     if (!in_contact)
       return;
 
-    const auto        &rows     = pair.differentiated_rows(p, n_frozen > 0);
-    const auto        &unknowns = pair.unknowns(p);
-    const unsigned int n        = rows.normal.size();
-    const unsigned int m        = unknowns.index.size();
-    const double       factor   = weight * point.weight;
+    const auto &rows = pair.rows(p);
+    const auto &derivatives =
+      pair.derivatives(p, state.pressure, state.traction, n_frozen > 0);
+    const unsigned int m      = rows.unknowns.size();
+    const double       factor = weight * point.weight;
 
-    // On the coordinates of the point and its facets: pressure and traction along
-    // directions that turn.
+    // Pressure and traction along directions that turn, and how both change.
     double with_slip = 0., with_pressure = 0.;
     if (method.law && has_friction && state.pressure > 0.)
       {
         Tensor<2, 3> plane;
         plane[0][0] = 1.;
-        const auto derivatives =
+        const auto of_friction =
           friction.derivatives(&state - states.data(), plane);
-        with_slip     = derivatives.with_slip[0][0];
-        with_pressure = derivatives.with_pressure[0];
+        with_slip     = of_friction.with_slip[0][0];
+        with_pressure = of_friction.with_pressure[0];
       }
-    block.resize(n * n);
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        {
-          const double gap_gradient = rows.new_gap.dx(j);
-          double       entry        = -state.pressure * rows.normal[i].dx(j);
-          if (method.law)
-            {
-              entry += state.with_gap * rows.normal[i].val() * gap_gradient;
-              entry += rows.tangential[i].val() *
-                (with_slip * rows.slip.dx(j) -
-                 with_pressure * state.with_gap * gap_gradient);
-            }
-          if (state.traction != 0.)
-            entry += state.traction * rows.tangential[i].dx(j);
-          block[i * n + j] = factor * entry;
-        }
     values.resize(m);
     for (unsigned int a = 0; a < m; ++a)
       {
         for (unsigned int b = 0; b < m; ++b)
-          values[b] = unknowns.factor[a] * unknowns.factor[b] *
-            block[unknowns.coordinate[a] * n + unknowns.coordinate[b]];
-        tangent.add(unknowns.index[a],
+          {
+            double entry = derivatives.forces[a * m + b];
+            if (method.law)
+              entry += state.with_gap * rows.normal[a] * derivatives.gap[b] +
+                rows.tangential[a] *
+                  (with_slip * derivatives.slip[b] -
+                   with_pressure * state.with_gap * derivatives.gap[b]);
+            values[b] = factor * entry;
+          }
+        tangent.add(rows.unknowns[a],
                     m,
-                    unknowns.index.data(),
+                    rows.unknowns.data(),
                     values.data(),
                     /* elide zeros */ true);
       }
@@ -633,24 +645,19 @@ namespace Ricochet
       method.condition == ClosingCondition::two_step && pass == 0 ? .5 : 1.;
     for (unsigned int a = 0; a < m; ++a)
       {
-        const unsigned int i = unknowns.coordinate[a];
-        const double       f = factor * unknowns.factor[a];
-        tangent.add(unknowns.index[a],
-                    point.multipliers[0],
-                    -f * rows.normal[i].val());
+        const auto i = rows.unknowns[a];
+        tangent.add(i, point.multipliers[0], -factor * rows.normal[a]);
         if (closes)
           tangent.add(point.multipliers[0],
-                      unknowns.index[a],
-                      -f * half * rows.new_gap.dx(i));
+                      i,
+                      -factor * half * derivatives.gap[a]);
         if (has_exact_friction())
           {
-            tangent.add(unknowns.index[a],
-                        point.multipliers[1],
-                        f * rows.tangential[i].val());
+            tangent.add(i, point.multipliers[1], factor * rows.tangential[a]);
             if (state.status == Status::stick)
               tangent.add(point.multipliers[1],
-                          unknowns.index[a],
-                          -f * rows.slip.dx(i));
+                          i,
+                          -factor * derivatives.slip[a]);
           }
       }
   }
@@ -680,7 +687,7 @@ namespace Ricochet
           (!method.law || state.pressure != 0. || state.with_gap != 0.);
         if (!in_contact)
           continue;
-        for (const auto index : pair_of(state).unknowns(state.point).index)
+        for (const auto index : pair_of(state).rows(state.point).unknowns)
           if (!std::binary_search(state.coupled.begin(),
                                   state.coupled.end(),
                                   index))
@@ -727,10 +734,7 @@ namespace Ricochet
     std::vector<int> values_of_points;
     for (const PointState &state : states)
       values_of_points.push_back(
-        state.status != Status::open &&
-            pair_of(state).has_passed_vertex(state.point)
-          ? 1 + pair_of(state).facet(state.point)
-          : 0);
+        state.status != Status::open ? pair_of(state).passage(state.point) : 0);
     return global_hash(values_of_points, communicator);
   }
 
@@ -856,11 +860,10 @@ namespace Ricochet
     if (method.law && !method.law->traits().nodal)
       return point.weight *
         method.law->pressure(state.state, point.cell_diameter);
-    const auto &rows     = pair_of(state).rows(state.point);
-    const auto &unknowns = pair_of(state).unknowns(state.point);
-    double      sum      = 0.;
+    const auto &rows = pair_of(state).rows(state.point);
+    double      sum  = 0.;
     for (unsigned int c = 0; c < dim; ++c)
-      sum -= rows.normal[c] * contact_force(unknowns.index[c]);
+      sum -= rows.direction[c] * contact_force(rows.unknowns[c]);
     return sum;
   }
 
@@ -881,12 +884,12 @@ namespace Ricochet
         const Point &point  = point_of(state);
         if (!state.candidate)
           continue;
-        const auto &unknowns = pair_of(state).unknowns(state.point);
+        const auto &unknowns = pair_of(state).rows(state.point).unknowns;
         for (unsigned int k = 0; k < point.nodes.size(); ++k)
           {
             const double part = point.nodes[k].second * point.nodes[k].second;
-            sums(unknowns.index[k * dim]) += part * normal;
-            weights(unknowns.index[k * dim]) += part * point.weight;
+            sums(unknowns[k * dim]) += part * normal;
+            weights(unknowns[k * dim]) += part * point.weight;
           }
       }
     sums.compress(VectorOperation::add);

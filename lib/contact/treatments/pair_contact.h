@@ -13,9 +13,20 @@
 
 namespace Ricochet
 {
+  /// How the points of one surface are coupled with the facets of another one.
+  enum class PairCoupling
+  {
+    /// See PointsBeforeFacets.
+    points,
+    /// See MortarPair.
+    mortar,
+    dual_mortar
+  };
+
   /// How the points of a pair of surfaces are kept apart.
   struct PairMethod
   {
+    PairCoupling coupling = PairCoupling::points;
     /// A law for the pressure; null for a constraint.
     std::unique_ptr<ContactLaw> law;
     /// The constraint.
@@ -188,8 +199,8 @@ namespace Ricochet
       ContactPointState<> old_state, state;
       // Where the law is linearised: now, and at the last accepted iterate.
       ContactPointState<> linearisation, accepted_linearisation;
-      /// The facet before which the point was at the last accepted iterate.
-      unsigned int accepted_facet = 0;
+      /// SurfacePair::passage() at the last accepted iterate.
+      int accepted_passage = 0;
       /// Unknowns that the sparsity pattern couples, sorted.
       std::vector<dealii::types::global_dof_index> coupled;
     };
@@ -314,8 +325,7 @@ namespace Ricochet
     unsigned int n_frozen = 0, n_returns = 0;
     Couplings    all_couplings;
     // Work space.
-    mutable std::vector<double>                          values, block;
-    mutable std::vector<dealii::types::global_dof_index> columns;
+    mutable std::vector<double> values;
   };
 } // namespace Ricochet
 

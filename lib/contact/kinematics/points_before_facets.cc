@@ -1,0 +1,461 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/kinematics/points_before_facets.h>
+#include <contact/surfaces/facet_search.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  template <int dim>
+  PointsBeforeFacets<dim>::PointsBeforeFacets(const Body<dim>   &body,
+                                              const ContactPair &pair,
+                                              const PointsIn     points_in)
+    : SurfacePair<dim>(body, pair)
+  {
+    if (points_in == PointsIn::nodes)
+      this->make_nodal_points(body);
+    else
+      make_quadrature_points(body);
+    gaps.resize(own_points.size());
+    steps.resize(own_points.size());
+  }
+
+
+
+  template <int dim>
+  void
+  PointsBeforeFacets<dim>::make_quadrature_points(const Body<dim> &body)
+  {
+    const Quadrature<dim - 1> &rule = body.face_quadrature();
+    for (unsigned int f = 0; f < slave.facets.size(); ++f)
+      if (this->is_mine(body, slave.facets[f].nodes[0]))
+        for (unsigned int q = 0; q < rule.size(); ++q)
+          {
+            Point point;
+            point.facets        = {f};
+            point.weight        = rule.weight(q) * slave.facets[f].measure;
+            point.cell_diameter = slave.facets[f].cell_diameter;
+            point.boundary_id   = slave.facets[f].boundary_id;
+            point.multipliers.fill(numbers::invalid_dof_index);
+            point.can_touch = false;
+            if constexpr (dim == 1)
+              point.nodes = {{slave.facets[f].nodes[0], 1.}};
+            else
+              point.nodes = {{slave.facets[f].nodes[0], 1. - rule.point(q)[0]},
+                             {slave.facets[f].nodes[1], rule.point(q)[0]}};
+            for (const auto &node : point.nodes)
+              point.can_touch =
+                point.can_touch || !slave.nodes[node.first].is_held;
+            own_points.push_back(point);
+          }
+  }
+
+
+
+  template <int dim>
+  const std::vector<typename SurfacePair<dim>::Position> &
+  PointsBeforeFacets<dim>::gather_all(const unsigned int p,
+                                      const Chain       &chain,
+                                      const Positions   &positions) const
+  {
+    return this->gather(this->position_of(own_points[p], positions.slave),
+                        chain,
+                        positions.master);
+  }
+
+
+
+  template <int dim>
+  void
+  PointsBeforeFacets<dim>::begin_step(const ContactStart &start)
+  {
+    this->get_positions(start.solution, old_positions);
+    this->get_multipliers();
+    const bool has_length = start.time_step > 0.;
+    Positions  middle, end;
+    if (has_length)
+      {
+        this->get_positions(start.mean_velocity,
+                            middle,
+                            &old_positions,
+                            .5 * start.time_step);
+        this->get_positions(start.mean_velocity,
+                            end,
+                            &old_positions,
+                            start.time_step);
+      }
+    const FacetSearch<dim> search(master, old_positions.master);
+    const std::unique_ptr<FacetSearch<dim>> later = has_length
+      ? std::make_unique<FacetSearch<dim>>(master, end.master)
+      : nullptr;
+
+    for (unsigned int p = 0; p < own_points.size(); ++p)
+      {
+        Step &step          = steps[p];
+        Gaps &gap           = gaps[p];
+        gap.is_before_facet = false;
+        step.up_to_date     = false;
+        if (!own_points[p].can_touch)
+          continue;
+        find_facet_now(p, search);
+        if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
+          find_facet_later(p, *later, end);
+        if (!gap.is_before_facet)
+          continue;
+        step.new_facet    = step.old_facet;
+        gap.new_gap       = gap.old_gap;
+        gap.predicted_gap = gap.old_gap;
+        if (has_length)
+          {
+            const auto &x = gather_all(p, step.chain, middle);
+            gap.predicted_gap =
+              this->gap_before(x, step.chain, last_facet(x, step));
+          }
+      }
+    new_positions = old_positions;
+  }
+
+
+
+  template <int dim>
+  void
+  PointsBeforeFacets<dim>::find_facet_now(const unsigned int      p,
+                                          const FacetSearch<dim> &search)
+  {
+    const Point &point = own_points[p];
+    auto         facing =
+      this->find_facet(this->position_of(point, old_positions.slave),
+                       this->normal_of(point, old_positions.slave),
+                       search,
+                       old_positions.master);
+    if (!facing)
+      return;
+    const double gap = this->gap_before(work, facing->chain, facing->facet);
+    if (!(gap > -this->largest_depth(*facing)))
+      return;
+    gaps[p].is_before_facet = true;
+    gaps[p].old_gap         = gap;
+    steps[p].may_pass       = may_pass(work, facing->facet);
+    steps[p].old_facet      = facing->facet;
+    steps[p].chain          = std::move(facing->chain);
+  }
+
+
+
+  template <int dim>
+  void
+  PointsBeforeFacets<dim>::find_facet_later(const unsigned int      p,
+                                            const FacetSearch<dim> &search,
+                                            const Positions        &later)
+  {
+    const Point &point = own_points[p];
+    auto facing        = this->find_facet(this->position_of(point, later.slave),
+                                   this->normal_of(point, later.slave),
+                                   search,
+                                   later.master);
+    if (!facing)
+      return;
+    // The way there, from where the point is now; should it not be before this part
+    // of the surface yet, along this facet.
+    const auto        &x     = gather_all(p, facing->chain, old_positions);
+    const unsigned int first = this->facet_before(x, facing->facet);
+    const bool         passes =
+      may_pass(x, first) && this->gap_before(x, facing->chain, first) > 0.;
+    const unsigned int old_facet = passes ? first : facing->facet;
+    const double       old_gap = this->gap_before(x, facing->chain, old_facet);
+    if (!(old_gap > 0.))
+      return;
+    gaps[p].is_before_facet = true;
+    gaps[p].old_gap         = old_gap;
+    steps[p].may_pass       = passes;
+    steps[p].old_facet      = old_facet;
+    steps[p].chain          = std::move(facing->chain);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  PointsBeforeFacets<dim>::last_facet(const std::vector<Position> &x,
+                                      const Step                  &step) const
+  {
+    // Where two facets meet, their gaps differ by so little that the energy does not
+    // notice.
+    constexpr double margin = 1e-8;
+    if constexpr (dim > 1)
+      if (step.may_pass)
+        return FacetChain<double>::facet_before(x, step.old_facet, margin);
+    return step.old_facet;
+  }
+
+
+
+  template <int dim>
+  bool
+  PointsBeforeFacets<dim>::may_pass(const std::vector<Position> &x,
+                                    const unsigned int           facet) const
+  {
+    if constexpr (dim == 1)
+      return false;
+    else
+      return FacetChain<double>::is_between_bisectors(x, facet);
+  }
+
+
+
+  template <int dim>
+  void
+  PointsBeforeFacets<dim>::evaluate(const Vector &solution)
+  {
+    this->get_positions(solution, new_positions);
+    this->get_multipliers();
+    for (unsigned int p = 0; p < own_points.size(); ++p)
+      {
+        if (!gaps[p].is_before_facet)
+          continue;
+        Step       &step = steps[p];
+        const auto &x    = gather_all(p, step.chain, new_positions);
+        step.new_facet   = last_facet(x, step);
+        gaps[p].new_gap  = this->gap_before(x, step.chain, step.new_facet);
+        step.up_to_date  = false;
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  PointsBeforeFacets<dim>::stay_at_vertex(const unsigned int p,
+                                          const double       tolerance)
+  {
+    if constexpr (dim > 1)
+      {
+        Step        &step = steps[p];
+        const auto  &x    = gather_all(p, step.chain, new_positions);
+        const double small =
+          tolerance * master.facets[step.chain.facets[step.old_facet]].measure;
+        const auto is_at = [&](const unsigned int facet) {
+          return std::abs(FacetChain<double>::gap(x, facet) -
+                          FacetChain<double>::gap(x, facet + 1)) < small;
+        };
+        if ((step.old_facet > 0 && is_at(step.old_facet - 1)) ||
+            (step.old_facet + 1 < step.chain.facets.size() &&
+             is_at(step.old_facet)))
+          step.may_pass = false;
+      }
+    else
+      {
+        (void)p;
+        (void)tolerance;
+      }
+  }
+
+
+
+  template <int dim>
+  template <typename Number>
+  void
+  PointsBeforeFacets<dim>::compute_rows(const unsigned int p,
+                                        ChainRows<Number> &rows,
+                                        const bool         freeze_convex) const
+  {
+    const Step        &step  = steps[p];
+    const unsigned int first = std::min(step.old_facet, step.new_facet);
+    const unsigned int last  = std::max(step.old_facet, step.new_facet);
+    const unsigned int n     = last - first + dim + 1;
+
+    gather_all(p, step.chain, old_positions);
+    old_work.assign(1, work[0]);
+    old_work.insert(old_work.end(),
+                    work.begin() + 1 + first,
+                    work.begin() + first + n);
+    gather_all(p, step.chain, new_positions);
+    std::vector<std::array<Number, dim>> *new_x = nullptr;
+    if constexpr (std::is_same<Number, double>::value)
+      {
+        work.erase(work.begin() + 1, work.begin() + 1 + first);
+        work.resize(n);
+        new_x = &work;
+      }
+    else
+      {
+        differentiable_work.resize(n);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            differentiable_work[i][c] = Number(static_cast<int>(n * dim),
+                                               static_cast<int>(i * dim + c),
+                                               work[i == 0 ? 0 : first + i][c]);
+        new_x = &differentiable_work;
+      }
+
+    if constexpr (dim == 1)
+      {
+        const double normal =
+          master.facets[step.chain.facets[step.old_facet]].normal[0];
+        rows.normal        = {Number(normal), Number(-normal)};
+        rows.tangential    = {Number(0.), Number(0.)};
+        rows.new_gap       = normal * ((*new_x)[0][0] - (*new_x)[1][0]);
+        rows.gap_increment = normal *
+          (((*new_x)[0][0] - old_work[0][0]) -
+           ((*new_x)[1][0] - old_work[1][0]));
+        rows.slip = Number(0.);
+      }
+    else
+      FacetChain<Number>(old_work, *new_x, freeze_convex)
+        .evaluate(step.old_facet - first, step.new_facet - first, rows);
+  }
+
+
+
+  template <int dim>
+  void
+  PointsBeforeFacets<dim>::update(const unsigned int p) const
+  {
+    Step &step = steps[p];
+    if (step.up_to_date)
+      return;
+    step.up_to_date = true;
+    compute_rows<double>(p, chain_rows);
+
+    Rows &rows = step.rows;
+    rows.unknowns.clear();
+    rows.normal.clear();
+    rows.tangential.clear();
+    step.coordinate.clear();
+    step.factor.clear();
+    rows.gap_increment = chain_rows.gap_increment;
+    rows.slip          = chain_rows.slip;
+    const auto add =
+      [&](const auto &node, const unsigned int i, const double factor) {
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            rows.unknowns.push_back(node.unknowns[c]);
+            rows.normal.push_back(factor * chain_rows.normal[i * dim + c]);
+            rows.tangential.push_back(factor *
+                                      chain_rows.tangential[i * dim + c]);
+            step.coordinate.push_back(i * dim + c);
+            step.factor.push_back(factor);
+          }
+      };
+    for (const auto &[node, weight] : own_points[p].nodes)
+      add(slave.nodes[node], 0, weight);
+    const unsigned int first = std::min(step.old_facet, step.new_facet);
+    for (unsigned int i = 1; i * dim < chain_rows.normal.size(); ++i)
+      add(master.nodes[step.chain.nodes[first + i - 1]], i, 1.);
+    double square = 0.;
+    for (unsigned int c = 0; c < dim; ++c)
+      square += chain_rows.normal[c] * chain_rows.normal[c];
+    for (unsigned int c = 0; c < dim; ++c)
+      rows.direction[c] = chain_rows.normal[c] / std::sqrt(square);
+  }
+
+
+
+  template <int dim>
+  const typename SurfacePair<dim>::Rows &
+  PointsBeforeFacets<dim>::rows(const unsigned int p) const
+  {
+    update(p);
+    return steps[p].rows;
+  }
+
+
+
+  template <int dim>
+  const typename SurfacePair<dim>::Derivatives &
+  PointsBeforeFacets<dim>::derivatives(const unsigned int p,
+                                       const double       pressure,
+                                       const double       traction,
+                                       const bool         freeze_convex) const
+  {
+    update(p);
+    compute_rows<Differentiable>(p, differentiable_rows, freeze_convex);
+    const auto        &all  = differentiable_rows;
+    const Step        &step = steps[p];
+    const unsigned int m    = step.coordinate.size();
+    result.gap.resize(m);
+    result.slip.resize(m);
+    result.forces.resize(m * m);
+    for (unsigned int a = 0; a < m; ++a)
+      {
+        const unsigned int i = step.coordinate[a];
+        result.gap[a]        = step.factor[a] * all.new_gap.dx(i);
+        result.slip[a]       = step.factor[a] * all.slip.dx(i);
+        for (unsigned int b = 0; b < m; ++b)
+          {
+            const unsigned int j     = step.coordinate[b];
+            result.forces[a * m + b] = step.factor[a] * step.factor[b] *
+              (traction * all.tangential[i].dx(j) -
+               pressure * all.normal[i].dx(j));
+          }
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  int
+  PointsBeforeFacets<dim>::passage(const unsigned int p) const
+  {
+    const Step &step = steps[p];
+    return step.new_facet == step.old_facet
+      ? 0
+      : 1 + step.chain.facets[step.new_facet];
+  }
+
+
+
+  template <int dim>
+  std::vector<typename SurfacePair<dim>::Index>
+  PointsBeforeFacets<dim>::unknowns_nearby(const unsigned int p) const
+  {
+    const Step                          &step = steps[p];
+    std::vector<Index> indices;
+    const auto         add = [&](const auto &node) {
+      indices.insert(indices.end(), node.unknowns.begin(), node.unknowns.end());
+    };
+    for (const auto &node : own_points[p].nodes)
+      add(slave.nodes[node.first]);
+    for (const auto index : own_points[p].multipliers)
+      if (index != numbers::invalid_dof_index)
+        indices.push_back(index);
+    const unsigned int first = std::min(step.old_facet, step.new_facet);
+    const unsigned int last  = std::max(step.old_facet, step.new_facet);
+    for (unsigned int n = first > 0 ? first - 1 : 0;
+         n < std::min<std::size_t>(last + dim + 1, step.chain.nodes.size());
+         ++n)
+      add(master.nodes[step.chain.nodes[n]]);
+    std::sort(indices.begin(), indices.end());
+    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    return indices;
+  }
+
+
+
+  template <int dim>
+  double
+  PointsBeforeFacets<dim>::round_off(const unsigned int p) const
+  {
+    // A difference of positions, each of which is that of the reference and a
+    // displacement.
+    double         size  = 0.;
+    const Step    &step  = steps[p];
+    const auto    &chain = step.chain;
+    const Position y = this->position_of(own_points[p], new_positions.slave);
+    const unsigned int n = own_points[p].nodes[0].first;
+    for (unsigned int c = 0; c < dim; ++c)
+      size += std::abs(y[c]) + std::abs(slave.nodes[n].reference_position[c]) +
+        std::abs(new_positions.master[chain.nodes[step.new_facet]][c]);
+    return 2. * std::numeric_limits<double>::epsilon() * size;
+  }
+
+
+  template class PointsBeforeFacets<1>;
+  template class PointsBeforeFacets<2>;
+} // namespace Ricochet
