@@ -4,6 +4,7 @@
 
     figures/make.py C-6          one figure (several names may be given)
     figures/make.py all
+    figures/make.py short        those that take seconds, one of each kind
     figures/make.py timed        those that show seconds, which "all" leaves out
     figures/make.py --list
 
@@ -83,7 +84,7 @@ def command_line():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument(
-        "names", nargs="*", metavar="FIGURE", help="a name such as C-6, or all, or timed"
+        "names", nargs="*", metavar="FIGURE", help="a name such as C-6, or all, short, timed"
     )
     parser.add_argument("--list", action="store_true", help="list the figures and stop")
     parser.add_argument(
@@ -106,10 +107,15 @@ def command_line():
         parser.error("name a figure, or all; --list shows the names")
     if arguments.jobs < 1:
         parser.error("--jobs must be at least 1")
-    unknown = [name for name in arguments.names if name not in ("all", "timed", *FIGURES)]
+    unknown = [name for name in arguments.names if name not in ("all", "short", "timed", *FIGURES)]
     if unknown:
         parser.error(f"no figure {', '.join(unknown)}; there are {', '.join(FIGURES)}")
     return arguments
+
+
+def is_short(figure):
+    """Whether its runs take less than half a minute, all of them together."""
+    return not figure.timed and not figure.animate and sum(r.cost for r in figure.runs) < 30
 
 
 def make(names, build_dir, jobs, force):
@@ -118,7 +124,9 @@ def make(names, build_dir, jobs, force):
     figures = [
         figure
         for name, figure in FIGURES.items()
-        if name in names or ("timed" if figure.timed else "all") in names
+        if name in names
+        or ("timed" if figure.timed else "all") in names
+        or ("short" in names and is_short(figure))
     ]
     folder = runs.OUTPUT / "figures"
     folder.mkdir(parents=True, exist_ok=True)

@@ -5,11 +5,12 @@
 #   test.sh           what has to pass before anything is merged (below 30 minutes
 #                     on 2 cores): the debug build with all assertions of deal.II,
 #                     and the release build, which also compares with stored outputs
-#                     and makes the figures, whose numbers are checked
+#                     and makes the short ones of the figures, whose numbers are
+#                     checked
 #   test.sh --quick   while you work: the release build, unit tests, stored outputs,
 #                     bad input, files (meant to take 8 minutes with the build)
 #   test.sh --full    once before an issue is closed (meant to take 90 minutes): all of the
-#                     above, sanitizers, hostile inputs and kills, and deliberate
+#                     above, all figures, sanitizers, hostile inputs and kills, and deliberate
 #                     errors in the library, all of which the tests must find. They
 #                     come in portions: TEST_PORTION=2/3 for the second third.
 
@@ -31,6 +32,7 @@ ctest --test-dir build/debug --output-on-failure -j 2
 ctest --test-dir build/release --output-on-failure -j 2
 
 if [ "${1:-}" = "--full" ]; then
+  figures/make.py all
   bash scripts/sanitize.sh
   tests/hostile/hostile.py --programs build/release --inputs 2000 --kills 300
   tests/mutations/mutations.py --source . --build-dir build/mutations \
