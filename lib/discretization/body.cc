@@ -410,9 +410,15 @@ namespace Ricochet
 
   template <int dim>
   Vector
-  Body<dim>::make_ghosted_vector() const
+  Body<dim>::make_ghosted_vector(
+    const std::vector<types::global_dof_index> &more) const
   {
-    return Vector(owned, relevant, communicator);
+    IndexSet known = relevant;
+    // What does not exist stays unknown.
+    for (const auto index : more)
+      if (index < known.size())
+        known.add_index(index);
+    return Vector(owned, known, communicator);
   }
 
   template class Body<1>;

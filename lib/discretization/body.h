@@ -91,9 +91,10 @@ namespace Ricochet
     Vector
     make_vector() const;
 
-    /// A system vector that also holds ghost values.
+    /// A system vector that also holds ghost values, and those of the unknowns @p more.
     Vector
-    make_ghosted_vector() const;
+    make_ghosted_vector(
+      const std::vector<dealii::types::global_dof_index> &more = {}) const;
 
     /**
      * For each owned unknown, in the order of their indices, its place in an

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <contact/obstacles/half_space.h>
 #include <base/exceptions.h>
+#include <contact/treatments/contact_sum.h>
 #include <discretization/boundary_load.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
 #include <problems/clearance.h>
 #include <problems/impact.h>
 #include <time_integration/mass_redistribution.h>
+
+#include <algorithm>
 
 
 namespace Ricochet
@@ -180,26 +183,81 @@ namespace Ricochet
 
     template <int dim>
     std::unique_ptr<ContactOperator>
+    make_contact_on_cut_faces(const ImpactParameters &parameters,
+                              const Body<dim>        &body,
+                              const ImpactSetup<dim> &setup)
+    {
+      std::vector<LinearElastic> materials;
+      for (const Material<dim> &material : materials_of(setup))
+        {
+          if (!material.linear)
+            throw InputError(
+              "Contact/Coupling = cut faces is for linear elastic bodies, whose "
+              "displacements are small. For others take points or mortar.");
+          materials.push_back(*material.linear);
+        }
+      if (!setup.obstacles.empty())
+        throw InputError(
+          "Contact/Coupling = cut faces cannot be combined with "
+          "rigid obstacles.");
+      for (const ContactPair &pair : setup.pairs)
+        if (pair.is_self)
+          throw InputError(
+            "A surface that may touch itself goes with Contact/Coupling = points "
+            "only.");
+      if constexpr (dim == 2)
+        return make_cut_face_contact(parameters.contact,
+                                     scheme_traits(parameters.scheme.name),
+                                     body,
+                                     materials,
+                                     setup.pairs);
+      else
+        throw InputError("Contact/Coupling = cut faces is there in 2D only.");
+    }
+
+    template <int dim>
+    std::unique_ptr<ContactOperator>
     make_any_contact(const ImpactParameters &parameters,
                      const Body<dim>        &body,
                      const ImpactSetup<dim> &setup)
     {
       const SchemeTraits &scheme = scheme_traits(parameters.scheme.name);
-      if (setup.pairs.empty())
+      const auto          with_obstacles = [&]() {
         return make_contact(parameters.contact,
                             scheme,
                             body,
                             setup.material.linear
-                              ? LinearStress<dim>(*setup.material.linear)
-                              : LinearStress<dim>(),
+                                       ? LinearStress<dim>(*setup.material.linear)
+                                       : LinearStress<dim>(),
                             setup.obstacles);
-      if (!setup.obstacles.empty())
-        throw InputError(
-          "Contact between bodies and contact with rigid "
-          "obstacles cannot be combined in one run.");
+      };
+      if (setup.pairs.empty())
+        return with_obstacles();
       check_pair_combination(parameters.contact, scheme);
+      if (parameters.contact.coupling == "cut faces")
+        return make_contact_on_cut_faces(parameters, body, setup);
       if constexpr (dim < 3)
-        return make_pair_contact(parameters.contact, body, setup.pairs);
+        {
+          auto between =
+            make_pair_contact(parameters.contact, body, setup.pairs);
+          if (setup.obstacles.empty())
+            return between;
+          // Multipliers are where surfaces touch each other.
+          if (body.has_multipliers())
+            for (const auto &obstacle : setup.obstacles)
+              if (std::none_of(setup.pairs.begin(),
+                               setup.pairs.end(),
+                               [&](const ContactPair &pair) {
+                                 return pair.slave.count(obstacle.first) > 0;
+                               }))
+                throw InputError(
+                  "With constraints between surfaces a boundary that can touch a "
+                  "rigid obstacle has to be a slave, too; the boundary " +
+                  std::to_string(obstacle.first) + " is not.");
+          return std::make_unique<ContactSum<dim>>(with_obstacles(),
+                                                   std::move(between),
+                                                   body.communicator);
+        }
       else
         throw InputError("Contact between bodies is there in 1D and 2D only.");
     }

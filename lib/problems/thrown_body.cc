@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/treatments/contact_sum.h>
 #include <output/vtu_series.h>
 #include <problems/thrown_body.h>
 
@@ -93,10 +94,11 @@ namespace Ricochet
 
 
   void
-  throw_body(const ThrownBodyParameters &parameters,
-             const Triangulation<2>     &triangulation,
-             const types::boundary_id    outer_boundary,
-             RunFolder                  &folder)
+  throw_body(const ThrownBodyParameters                      &parameters,
+             const Triangulation<2>                          &triangulation,
+             const types::boundary_id                         outer_boundary,
+             RunFolder                                       &folder,
+             const std::map<types::boundary_id, std::string> &touching_itself)
   {
     const ImpactParameters &impact = parameters.impact;
 
@@ -106,6 +108,19 @@ namespace Ricochet
     setup.density   = parameters.material.density;
     setup.degree    = parameters.degree;
     setup.obstacles = foundation_below<2>(outer_boundary);
+    std::map<types::boundary_id, std::string> contacts = {
+      {outer_boundary, "foundation"}};
+    if (!touching_itself.empty())
+      {
+        ContactPair itself{"itself", {}, {}, /* is_self = */ true};
+        for (const auto &[id, name] : touching_itself)
+          {
+            itself.slave.insert(id);
+            contacts[ContactSum<2>::id_between_surfaces(id)] = name;
+          }
+        itself.master = itself.slave;
+        setup.pairs.push_back(itself);
+      }
     Impact<2> thrown(impact, triangulation, setup, folder.communicator);
     folder.log(std::to_string(triangulation.n_global_active_cells()) +
                " cells, " + std::to_string(thrown.body.owned_indices().size()) +
@@ -118,11 +133,7 @@ namespace Ricochet
       thrown.state_in_flight(parameters.initial_velocity);
 
     // The time loop writes energies and contact; momenta are added.
-    TimeLoop         loop(impact.time,
-                  folder,
-                  thrown.system,
-                  *thrown.scheme,
-                  {{outer_boundary, "foundation"}});
+    TimeLoop loop(impact.time, folder, thrown.system, *thrown.scheme, contacts);
     const Momenta<2> momenta(thrown.body,
                              thrown.system.mass_matrix(),
                              /* small strains */ material.linear.has_value());

@@ -68,10 +68,12 @@ private:
   static constexpr double             inner_radius = 9.;  // m
   static constexpr double             outer_radius = 10.; // m
   static constexpr types::boundary_id outer_circle = 0;
+  static constexpr types::boundary_id inner_circle = 1;
 
   ThrownBodyParameters parameters;
   unsigned int         n_nodes_around = 128;
   unsigned int         n_nodes_across = 13;
+  bool                 touches_itself = false;
 };
 
 
@@ -124,6 +126,15 @@ HyperelasticRing::add_parameters(ParameterHandler &prm)
                     "Number of circles of vertices, the boundaries included.",
                     Patterns::Integer(2));
   prm.leave_subsection();
+  prm.enter_subsection("Contact");
+  prm.add_parameter(
+    "Self",
+    touches_itself,
+    "Whether the ring feels itself: its circles touch each other and "
+    "themselves, by the same treatment as the foundation. The ring of "
+    "the papers does not, and passes through itself.",
+    Patterns::Bool());
+  prm.leave_subsection();
 }
 
 
@@ -132,6 +143,9 @@ void
 HyperelasticRing::validate() const
 {
   parameters.validate();
+  if (touches_itself)
+    check_pair_combination(parameters.impact.contact,
+                           scheme_traits(parameters.impact.scheme.name));
   parameters.impact.check_size(2. * n_nodes_around * n_nodes_across *
                                  parameters.degree * parameters.degree,
                                2);
@@ -170,7 +184,11 @@ HyperelasticRing::run(RunFolder &folder)
   // The rest is the same for every thrown body, see lib/problems/thrown_body.cc.
   // Without friction the momentum along the foundation stays what it is; off
   // contact so does the angular momentum, although the ring turns and vibrates.
-  throw_body(parameters, triangulation, outer_circle, folder);
+  std::map<types::boundary_id, std::string> touching_itself;
+  if (touches_itself)
+    touching_itself = {{outer_circle, "outer_circle"},
+                       {inner_circle, "inner_circle"}};
+  throw_body(parameters, triangulation, outer_circle, folder, touching_itself);
 }
 
 

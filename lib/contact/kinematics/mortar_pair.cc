@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
 #include <contact/kinematics/mortar_pair.h>
 #include <contact/surfaces/facet_search.h>
 
@@ -30,6 +31,10 @@ namespace Ricochet
     : SurfacePair<2>(body, pair)
     , shape(shape)
   {
+    if (is_self)
+      throw InputError(
+        "A surface that may touch itself goes with Contact/Coupling "
+        "= points only.");
     make_nodal_points(body);
     gaps.resize(own_points.size());
     all_rows.resize(own_points.size());
@@ -511,7 +516,7 @@ namespace Ricochet
   MortarPair::derivatives(const unsigned int p,
                           const double       pressure,
                           const double       traction,
-                          const bool         freeze_convex) const
+                          const Caution      caution) const
   {
     rows(p);
     Rows              &own = all_rows[p];
@@ -537,9 +542,7 @@ namespace Ricochet
                   Differentiable(static_cast<int>(2 * n),
                                  static_cast<int>(2 * i + c),
                                  work[i][c]);
-            FacetChain<Differentiable>(old_work,
-                                       differentiable_work,
-                                       freeze_convex)
+            FacetChain<Differentiable>(old_work, differentiable_work, caution)
               .evaluate(facet.intervals[point.interval].old_facet - first,
                         point.new_facet - first,
                         differentiable_rows);

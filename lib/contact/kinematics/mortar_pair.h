@@ -62,7 +62,7 @@ namespace Ricochet
     derivatives(const unsigned int p,
                 const double       pressure,
                 const double       traction,
-                const bool         freeze_convex) const override;
+                const Caution      caution) const override;
 
     std::vector<Index>
     unknowns_nearby(const unsigned int p) const override;

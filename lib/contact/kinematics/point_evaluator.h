@@ -23,7 +23,7 @@ namespace Ricochet
     template <int dim>
     ContactPointEvaluator(const Body<dim> &body, ContactPoints points)
       : points(std::move(points))
-      , ghosted(body.make_ghosted_vector())
+      , ghosted(body.make_ghosted_vector(this->points.index))
       , communicator(body.communicator)
     {
       find_local_indices();

@@ -17,10 +17,13 @@ namespace Ricochet
                                               const PointsIn     points_in)
     : SurfacePair<dim>(body, pair)
   {
-    if (points_in == PointsIn::nodes)
-      this->make_nodal_points(body);
-    else
+    if (points_in == PointsIn::quadrature_points)
       make_quadrature_points(body);
+    else
+      this->make_nodal_points(body);
+    n_first_sides = own_points.size();
+    if (points_in == PointsIn::nodes_and_valleys && dim > 1)
+      make_other_sides();
     gaps.resize(own_points.size());
     steps.resize(own_points.size());
   }
@@ -58,6 +61,23 @@ namespace Ricochet
 
 
   template <int dim>
+  void
+  PointsBeforeFacets<dim>::make_other_sides()
+  {
+    const std::vector<Point> first_sides = own_points;
+    own_points.insert(own_points.end(), first_sides.begin(), first_sides.end());
+    for (unsigned int p = 0; p < own_points.size(); ++p)
+      {
+        auto &multipliers = own_points[p].multipliers;
+        if (is_other_side(p))
+          std::swap(multipliers[0], multipliers[1]);
+        multipliers[1] = numbers::invalid_dof_index;
+      }
+  }
+
+
+
+  template <int dim>
   const std::vector<typename SurfacePair<dim>::Position> &
   PointsBeforeFacets<dim>::gather_all(const unsigned int p,
                                       const Chain       &chain,
@@ -89,6 +109,23 @@ namespace Ricochet
                             &old_positions,
                             start.time_step);
       }
+    if (is_self)
+      {
+        // A facet, and as much as two points come nearer to each other in the step.
+        self_distance = 0.;
+        for (const auto &facet : master.facets)
+          self_distance = std::max(self_distance, facet.measure);
+        double fastest = 0.;
+        for (unsigned int n = 0; n < end.master.size(); ++n)
+          {
+            double square = 0.;
+            for (unsigned int c = 0; c < dim; ++c)
+              square +=
+                std::pow(end.master[n][c] - old_positions.master[n][c], 2);
+            fastest = std::max(fastest, std::sqrt(square));
+          }
+        self_distance += 2. * fastest;
+      }
     const FacetSearch<dim> search(master, old_positions.master);
     const std::unique_ptr<FacetSearch<dim>> later = has_length
       ? std::make_unique<FacetSearch<dim>>(master, end.master)
@@ -96,15 +133,20 @@ namespace Ricochet
 
     for (unsigned int p = 0; p < own_points.size(); ++p)
       {
-        Step &step          = steps[p];
-        Gaps &gap           = gaps[p];
-        gap.is_before_facet = false;
-        step.up_to_date     = false;
-        if (!own_points[p].can_touch)
+        Step &step            = steps[p];
+        Gaps &gap             = gaps[p];
+        gap.is_before_facet   = false;
+        step.up_to_date       = false;
+        step.first_allowed    = 0;
+        step.is_beyond_valley = false;
+        step.last_allowed     = std::numeric_limits<unsigned int>::max();
+        if (!own_points[p].can_touch || is_other_side(p))
           continue;
         find_facet_now(p, search);
         if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
           find_facet_later(p, *later, end);
+        if (gap.is_before_facet && is_self && is_double(p))
+          gap.is_before_facet = false;
         if (!gap.is_before_facet)
           continue;
         step.new_facet    = step.old_facet;
@@ -117,7 +159,132 @@ namespace Ricochet
               this->gap_before(x, step.chain, last_facet(x, step));
           }
       }
+    // What was pressed from both sides, likely still is.
+    for (unsigned int p = 0; p < n_first_sides; ++p)
+      if (gaps[p].is_before_facet && other_side(p) &&
+          gaps[*other_side(p)].multipliers[0] > 0.)
+        find_valley(p, old_positions);
     new_positions = old_positions;
+  }
+
+
+
+  template <int dim>
+  void
+  PointsBeforeFacets<dim>::find_valley(const unsigned int p,
+                                       const Positions   &now)
+  {
+    if constexpr (dim > 1)
+      {
+        const unsigned int other = p + n_first_sides;
+        Step              &step  = steps[p];
+        if (!step.may_pass || gaps[other].is_before_facet)
+          return;
+        // Where facets turn by less, two constraints would be the same.
+        constexpr double flat = 1e-6;
+        const auto      &x    = gather_all(p, step.chain, now);
+        // Between this facet of the chain and the next one.
+        std::optional<unsigned int> valley;
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const int side : {-1, 0})
+          {
+            const int facet = static_cast<int>(step.old_facet) + side;
+            if (facet < 0 ||
+                facet + 1 >= static_cast<int>(step.chain.facets.size()) ||
+                FacetChain<double>::turn(x, facet) <= flat)
+              continue;
+            const double distance =
+              std::abs(FacetChain<double>::past_vertex(x, facet));
+            if (distance < nearest)
+              {
+                nearest = distance;
+                valley  = facet;
+              }
+          }
+        if (!valley)
+          return;
+        const bool goes_forward = *valley == step.old_facet;
+        Step      &beyond       = steps[other];
+        beyond.chain            = step.chain;
+        beyond.may_pass         = false;
+        beyond.is_beyond_valley = true;
+        beyond.old_facet        = goes_forward ? *valley + 1 : *valley;
+        beyond.new_facet        = beyond.old_facet;
+        (goes_forward ? step.last_allowed : beyond.last_allowed) = *valley;
+        (goes_forward ? beyond.first_allowed : step.first_allowed) =
+          *valley + 1;
+        Gaps &gap           = gaps[other];
+        gap.is_before_facet = true;
+        gap.old_gap = this->gap_before(gather_all(p, step.chain, old_positions),
+                                       step.chain,
+                                       beyond.old_facet);
+        gap.new_gap = gap.predicted_gap = gap.old_gap;
+      }
+    else
+      (void)p;
+  }
+
+
+
+  template <int dim>
+  double
+  PointsBeforeFacets<dim>::turn_at(const unsigned int node) const
+  {
+    std::optional<unsigned int> before, after;
+    for (unsigned int f = 0; f < master.facets.size(); ++f)
+      {
+        if (master.facets[f].nodes.back() == node)
+          before = f;
+        if (master.facets[f].nodes.front() == node)
+          after = f;
+      }
+    if (!before || !after)
+      return 0.;
+    const std::vector<Position> chain = {
+      old_positions.master[node],
+      old_positions.master[master.facets[*before].nodes.front()],
+      old_positions.master[node],
+      old_positions.master[master.facets[*after].nodes.back()]};
+    if constexpr (dim == 2)
+      return FacetChain<double>::turn(chain, 0);
+    else
+      return 0.;
+  }
+
+
+
+  template <int dim>
+  bool
+  PointsBeforeFacets<dim>::is_double(const unsigned int p) const
+  {
+    if constexpr (dim == 1)
+      return false;
+    else
+      {
+        if (own_points[p].multipliers[0] == numbers::invalid_dof_index)
+          return false;
+        const unsigned int node = own_points[p].nodes[0].first;
+        const Step        &step = steps[p];
+        const auto        &x    = gather_all(p, step.chain, old_positions);
+        for (const unsigned int n : {step.old_facet, step.old_facet + 1})
+          {
+            const double length =
+              master.facets[step.chain.facets[step.old_facet]].measure;
+            const auto &a = x[step.old_facet + 1], &b = x[step.old_facet + 2],
+                       &vertex = x[n + 1];
+            const double along = ((b[0] - a[0]) * (x[0][0] - vertex[0]) +
+                                  (b[1] - a[1]) * (x[0][1] - vertex[1])) /
+              std::hypot(b[0] - a[0], b[1] - a[1]);
+            if (std::abs(along) > 1e-8 * length)
+              continue;
+            const unsigned int other = step.chain.nodes[n];
+            const double own_turn = turn_at(node), other_turn = turn_at(other);
+            if (std::abs(own_turn - other_turn) < 1e-8 ? other < node
+                                                       : other_turn < own_turn)
+              return true;
+          }
+        return false;
+      }
   }
 
 
@@ -132,7 +299,9 @@ namespace Ricochet
       this->find_facet(this->position_of(point, old_positions.slave),
                        this->normal_of(point, old_positions.slave),
                        search,
-                       old_positions.master);
+                       old_positions.master,
+                       is_self ? &point : nullptr,
+                       self_distance);
     if (!facing)
       return;
     const double gap = this->gap_before(work, facing->chain, facing->facet);
@@ -157,7 +326,9 @@ namespace Ricochet
     auto facing        = this->find_facet(this->position_of(point, later.slave),
                                    this->normal_of(point, later.slave),
                                    search,
-                                   later.master);
+                                   later.master,
+                                   is_self ? &point : nullptr,
+                                   self_distance);
     if (!facing)
       return;
     // The way there, from where the point is now; should it not be before this part
@@ -188,8 +359,12 @@ namespace Ricochet
     // notice.
     constexpr double margin = 1e-8;
     if constexpr (dim > 1)
-      if (step.may_pass)
-        return FacetChain<double>::facet_before(x, step.old_facet, margin);
+      if (step.may_pass || step.is_beyond_valley)
+        return std::clamp(FacetChain<double>::facet_before(x,
+                                                           step.old_facet,
+                                                           margin),
+                          step.first_allowed,
+                          step.last_allowed);
     return step.old_facet;
   }
 
@@ -221,8 +396,10 @@ namespace Ricochet
         Step       &step = steps[p];
         const auto &x    = gather_all(p, step.chain, new_positions);
         step.new_facet   = last_facet(x, step);
-        gaps[p].new_gap  = this->gap_before(x, step.chain, step.new_facet);
-        step.up_to_date  = false;
+        if (is_other_side(p))
+          step.old_facet = step.new_facet;
+        gaps[p].new_gap = this->gap_before(x, step.chain, step.new_facet);
+        step.up_to_date = false;
       }
   }
 
@@ -235,6 +412,12 @@ namespace Ricochet
   {
     if constexpr (dim > 1)
       {
+        if (other_side(p))
+          {
+            find_valley(p, new_positions);
+            if (gaps[*other_side(p)].is_before_facet)
+              return;
+          }
         Step        &step = steps[p];
         const auto  &x    = gather_all(p, step.chain, new_positions);
         const double small =
@@ -262,7 +445,7 @@ namespace Ricochet
   void
   PointsBeforeFacets<dim>::compute_rows(const unsigned int p,
                                         ChainRows<Number> &rows,
-                                        const bool         freeze_convex) const
+                                        const Caution      caution) const
   {
     const Step        &step  = steps[p];
     const unsigned int first = std::min(step.old_facet, step.new_facet);
@@ -306,7 +489,7 @@ namespace Ricochet
         rows.slip = Number(0.);
       }
     else
-      FacetChain<Number>(old_work, *new_x, freeze_convex)
+      FacetChain<Number>(old_work, *new_x, caution)
         .evaluate(step.old_facet - first, step.new_facet - first, rows);
   }
 
@@ -371,10 +554,10 @@ namespace Ricochet
   PointsBeforeFacets<dim>::derivatives(const unsigned int p,
                                        const double       pressure,
                                        const double       traction,
-                                       const bool         freeze_convex) const
+                                       const Caution      caution) const
   {
     update(p);
-    compute_rows<Differentiable>(p, differentiable_rows, freeze_convex);
+    compute_rows<Differentiable>(p, differentiable_rows, caution);
     const auto        &all  = differentiable_rows;
     const Step        &step = steps[p];
     const unsigned int m    = step.coordinate.size();
@@ -415,7 +598,7 @@ namespace Ricochet
   std::vector<typename SurfacePair<dim>::Index>
   PointsBeforeFacets<dim>::unknowns_nearby(const unsigned int p) const
   {
-    const Step                          &step = steps[p];
+    const Step        &step = steps[p];
     std::vector<Index> indices;
     const auto         add = [&](const auto &node) {
       indices.insert(indices.end(), node.unknowns.begin(), node.unknowns.end());

@@ -14,6 +14,13 @@ namespace Ricochet
    * No history enters: that facet follows from where both are (see FacetChain for
    * vertices, which a point may pass during a step). So gaps at the end of a step
    * are those at the beginning of the next one.
+   *
+   * In a valley, between two facets that make a concave vertex, a node may be pressed
+   * against both at once. With one facet at a time it could only be held by one, and
+   * would go to and fro. So where there is a multiplier for it, each node is two
+   * points. When the node does go to and fro, or was pressed from both sides in the
+   * step before, one is before the facet where it begins, the other before the facet
+   * beyond the concave vertex, and neither of them passes that.
    */
   template <int dim>
   class PointsBeforeFacets : public SurfacePair<dim>
@@ -28,6 +35,8 @@ namespace Ricochet
     enum class PointsIn
     {
       nodes,
+      /// Nodes, each with two points and two multipliers.
+      nodes_and_valleys,
       quadrature_points
     };
 
@@ -49,7 +58,7 @@ namespace Ricochet
     derivatives(const unsigned int p,
                 const double       pressure,
                 const double       traction,
-                const bool         freeze_convex) const override;
+                const Caution      caution) const override;
 
     void
     stay_at_vertex(const unsigned int p, const double tolerance) override;
@@ -63,12 +72,27 @@ namespace Ricochet
     double
     round_off(const unsigned int p) const override;
 
+    bool
+    is_other_side(const unsigned int p) const override
+    {
+      return p >= n_first_sides;
+    }
+
+    std::optional<unsigned int>
+    other_side(const unsigned int p) const override
+    {
+      if (n_first_sides == own_points.size() || is_other_side(p))
+        return {};
+      return p + n_first_sides;
+    }
+
   private:
     using typename SurfacePair<dim>::Chain;
     using typename SurfacePair<dim>::Facing;
     using typename SurfacePair<dim>::Gaps;
     using typename SurfacePair<dim>::Positions;
     using SurfacePair<dim>::gaps;
+    using SurfacePair<dim>::is_self;
     using SurfacePair<dim>::master;
     using SurfacePair<dim>::own_points;
     using SurfacePair<dim>::slave;
@@ -89,6 +113,11 @@ namespace Ricochet
       unsigned int old_facet = 0, new_facet = 0;
       /// It may pass vertices: it begins between the bisectors of the old facet.
       bool may_pass = false;
+      /// It is the other side of a node, and has the row of the facet where it ends.
+      bool is_beyond_valley = false;
+      /// The facets of the chain to which it may pass.
+      unsigned int first_allowed = 0,
+                   last_allowed  = std::numeric_limits<unsigned int>::max();
 
       bool up_to_date = false;
       Rows rows;
@@ -101,6 +130,15 @@ namespace Ricochet
     void
     make_quadrature_points(const Body<dim> &body);
 
+    /// Give each node a point before the other facet of a valley.
+    void
+    make_other_sides();
+
+    /// Let the points @p p and other_side(p) be before the facets of the valley that
+    /// is the nearest one @p now, if there is one.
+    void
+    find_valley(const unsigned int p, const Positions &now);
+
     /// Position of the point @p p and those of the nodes of its chain.
     const std::vector<Position> &
     gather_all(const unsigned int p,
@@ -111,6 +149,16 @@ namespace Ricochet
     /// x.
     unsigned int
     last_facet(const std::vector<Position> &x, const Step &step) const;
+
+    /// The sine of the angle of the surface at @p node: positive in a valley.
+    double
+    turn_at(const unsigned int node) const;
+
+    /// Of two nodes of one surface that meet each other exactly, one is enough: two
+    /// constraints would be the same. It is the one that sees a valley, which holds it,
+    /// rather than the one that sees the tip in it.
+    bool
+    is_double(const unsigned int p) const;
 
     /// The facet before which a point is at the beginning of a step, if there is one.
     void
@@ -131,7 +179,7 @@ namespace Ricochet
     void
     compute_rows(const unsigned int p,
                  ChainRows<Number> &rows,
-                 const bool         freeze_convex = false) const;
+                 const Caution      caution = Caution::none) const;
 
     void
     update(const unsigned int p) const;
@@ -143,6 +191,10 @@ namespace Ricochet
     mutable ChainRows<double>                            chain_rows;
     mutable ChainRows<Differentiable>                    differentiable_rows;
     mutable Derivatives                                  result;
+    /// The points before it have others on the other side.
+    unsigned int n_first_sides = 0;
+    /// How far from a point facets of its own surface are looked for (m).
+    double self_distance = 0.;
   };
 } // namespace Ricochet
 

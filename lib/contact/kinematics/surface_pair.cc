@@ -46,7 +46,8 @@ namespace Ricochet
 
   template <int dim>
   SurfacePair<dim>::SurfacePair(const Body<dim> &body, const ContactPair &pair)
-    : slave(body, pair.slave)
+    : is_self(pair.is_self)
+    , slave(body, pair.slave)
     , master(body, pair.master)
   {
     IndexSet relevant = body.owned_indices();
@@ -56,6 +57,16 @@ namespace Ricochet
     slave_index  = local_indices(slave, ghosted);
     master_index = local_indices(master, ghosted);
 
+    bool is_same = false;
+    for (const auto id : pair.slave)
+      is_same = is_same || pair.master.count(id) > 0;
+    if (is_same && (!is_self || pair.slave != pair.master))
+      throw InputError(
+        "The contact '" + pair.name +
+        "' has a boundary that is slave and master. A surface that "
+        "may touch itself has to be said to do so.");
+    if (is_self)
+      return;
     bool some_face = false;
     for (const auto &facet : slave.facets)
       for (const auto &other : master.facets)
@@ -273,13 +284,69 @@ namespace Ricochet
 
 
   template <int dim>
+  bool
+  SurfacePair<dim>::can_touch_itself(
+    const Point                 &point,
+    const unsigned int           f,
+    const Position              &y,
+    const Position              &normal_of_point,
+    const std::vector<Position> &master_x) const
+  {
+    const auto &own = master.facets[f];
+    for (const unsigned int of_point : point.facets)
+      for (const unsigned int a : slave.facets[of_point].nodes)
+        for (const unsigned int b : own.nodes)
+          if (a == b)
+            return false;
+    // Between the far sides of a wall is its material, which becomes thinner by less
+    // than half; what is pressed into a facet is nearer to it than that.
+    dealii::Point<dim> reference;
+    for (const auto &[node, weight] : point.nodes)
+      reference += weight * slave.nodes[node].reference_position;
+    const auto &a = master.nodes[own.nodes[0]].reference_position;
+    double      distance, gap = 0.;
+    if constexpr (dim == 2)
+      {
+        const auto   e = master.nodes[own.nodes[1]].reference_position - a;
+        const double along =
+          std::clamp(((reference - a) * e) / e.norm_square(), 0., 1.);
+        distance = (reference - (a + along * e)).norm();
+      }
+    else
+      distance = (reference - a).norm();
+    const Position normal = facet_normal<dim>(master, master_x, f);
+    double         square = 0., square_of_point = 0., product = 0.;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        gap += normal[c] * (y[c] - master_x[own.nodes[0]][c]);
+        square += normal[c] * normal[c];
+        square_of_point += normal_of_point[c] * normal_of_point[c];
+        product += normal[c] * normal_of_point[c];
+      }
+    // Where the surface is about to be folded it does not face itself yet; but what is
+    // behind such a facet is only round a corner.
+    const double cosine = product / std::sqrt(square * square_of_point);
+    return gap > (cosine < 0. ? -.5 * distance * std::sqrt(square) : 0.) &&
+      cosine < std::sqrt(.5);
+  }
+
+
+
+  template <int dim>
   std::optional<typename SurfacePair<dim>::Facing>
   SurfacePair<dim>::find_facet(const Position              &y,
                                const Position              &normal,
                                const FacetSearch<dim>      &search,
-                               const std::vector<Position> &master_x) const
+                               const std::vector<Position> &master_x,
+                               const Point                 *self,
+                               const double largest_distance) const
   {
-    const auto found = search.closest_facing(y, normal);
+    const auto can_touch = [&](const unsigned int f) {
+      return !self || can_touch_itself(*self, f, y, normal, master_x);
+    };
+    const auto found = self
+      ? search.closest_facing(y, normal, can_touch, largest_distance)
+      : search.closest_facing(y, normal);
     if (!found)
       return {};
     Facing       facing;
@@ -287,7 +354,8 @@ namespace Ricochet
     facing.chain       = chain_around(*found, place);
     gather(y, facing.chain, master_x);
     facing.facet = facet_before(work, place);
-    if (is_off(work, facing.chain, facing.facet))
+    if (is_off(work, facing.chain, facing.facet) ||
+        !can_touch(facing.chain.facets[facing.facet]))
       return {};
     return facing;
   }

@@ -5,8 +5,11 @@
 #include <contact/kinematics/contact_kinematics.h>
 #include <contact/surfaces/contact_pair.h>
 #include <contact/surfaces/contact_surface.h>
+#include <contact/surfaces/facet_chain.h>
 
 #include <Sacado_Fad_SLFad.hpp>
+
+#include <limits>
 
 namespace Ricochet
 {
@@ -91,6 +94,13 @@ namespace Ricochet
     virtual void
     evaluate(const Vector &solution) = 0;
 
+    /// Whether it is one surface, against itself.
+    bool
+    touches_itself() const
+    {
+      return is_self;
+    }
+
     const std::vector<Point> &
     points() const
     {
@@ -134,20 +144,35 @@ namespace Ricochet
       return gaps[p].multipliers;
     }
 
+    /// Whether point @p p is the same node as another point, before the other facet
+    /// of a valley. Its weight is that of the node, which must not count twice.
+    virtual bool
+    is_other_side(const unsigned int /*p*/) const
+    {
+      return false;
+    }
+
+    /// The point that is the same node as @p p, before the other facet of a valley.
+    virtual std::optional<unsigned int>
+    other_side(const unsigned int /*p*/) const
+    {
+      return {};
+    }
+
     virtual const Rows &
     rows(const unsigned int p) const = 0;
 
     /**
      * In work space that the next call overwrites.
      *
-     * @param freeze_convex leave out what makes points go to and fro between facets,
+     * @param caution keep points from going to and fro between facets,
      * see FacetChain.
      */
     virtual const Derivatives &
     derivatives(const unsigned int p,
                 const double       pressure,
                 const double       traction,
-                const bool         freeze_convex) const = 0;
+                const Caution      caution) const = 0;
 
     /// The unknowns of the rows and those that may join them in the course of a
     /// step, for sparsity patterns, sorted.
@@ -162,7 +187,8 @@ namespace Ricochet
       return 0;
     }
 
-    /// Let the point end before the facet where it began: until the next begin_step()
+    /// Let the point and its other side, should there be one, be before the facets of
+    /// a valley. Or let it end before the facet where it began: until the next begin_step()
     /// it passes no vertex. Only for a point so near to one that the gaps of both
     /// facets differ by less than @p tolerance times the facet's length; others are
     /// left alone.
@@ -265,11 +291,27 @@ namespace Ricochet
     /// The facet before which the point @p y of the slave with the outward @p normal
     /// is, of those that @p search knows, if there is one. The positions are in #work
     /// then.
+    ///
+    /// @param self the point, where a surface is searched for contact with itself:
+    /// not before its own facets and their neighbours, nor before those on the far
+    /// side of the wall that it is on.
+    /// @param largest_distance of the facet (m).
     std::optional<Facing>
     find_facet(const Position              &y,
                const Position              &normal,
                const FacetSearch<dim>      &search,
-               const std::vector<Position> &master_x) const;
+               const std::vector<Position> &master_x,
+               const Point                 *self = nullptr,
+               const double                 largest_distance =
+                 std::numeric_limits<double>::infinity()) const;
+
+    /// Whether facet @p f of its own surface can touch the @p point at @p y.
+    bool
+    can_touch_itself(const Point                 &point,
+                     const unsigned int           f,
+                     const Position              &y,
+                     const Position              &normal_of_point,
+                     const std::vector<Position> &master_x) const;
 
     /// How deep behind a facet contact reaches: not through a body (m).
     double
@@ -278,6 +320,7 @@ namespace Ricochet
       return master.facets[facing.chain.facets[facing.facet]].measure;
     }
 
+    const bool                    is_self;
     ContactSurface<dim>           slave, master;
     std::vector<Point>            own_points;
     std::vector<Gaps>             gaps;

@@ -18,6 +18,10 @@ namespace Ricochet
     /// and of the one before whose facets they are (master). The slave should be
     /// the softer body.
     std::set<dealii::types::boundary_id> slave, master;
+
+    /// One surface, that of one or several bodies, against itself: each of its nodes
+    /// is held off all of its facets. Slave and master are the same then.
+    bool is_self = false;
   };
 } // namespace Ricochet
 

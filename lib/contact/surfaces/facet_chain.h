@@ -9,6 +9,18 @@
 
 namespace Ricochet
 {
+  /// Other derivatives of the part of the way behind a vertex, with which Newton's
+  /// method does not go to and fro over it.
+  enum class Caution
+  {
+    none,
+    /// None behind a convex vertex, which gives a pressed point a negative stiffness.
+    at_convex_vertices,
+    /// Behind a concave vertex, in which a point may come to rest, the secant instead
+    /// of the tangent, which falls off soon behind the vertex.
+    at_all_vertices
+  };
+
   /**
    * Contact of a point with a chain of straight facets in the plane, all of which
    * move: the gap, and the directions along which forces on the point and on the
@@ -62,17 +74,13 @@ namespace Ricochet
     /**
      * Positions at the beginning of a step and at its end: first that of the
      * point, then those of the nodes of the chain (m). References are kept.
-     *
-     * @param freeze_convex leave out the derivatives of the part of the way behind
-     * a convex vertex: there a pressed point has a negative stiffness, with which
-     * Newton's method may go to and fro.
      */
     FacetChain(const std::vector<Vector2<double>> &old_positions,
                const std::vector<Vector2<Number>> &new_positions,
-               const bool                          freeze_convex = false)
+               const Caution                       caution = Caution::none)
       : old_x(old_positions)
       , new_x(new_positions)
-      , freeze_convex(freeze_convex)
+      , caution(caution)
     {}
 
     /**
@@ -121,6 +129,15 @@ namespace Ricochet
       const auto r = minus(x[0], x[facet + 2]);
       return (dot(e1, r) / l1 + dot(e2, r) / l2) /
         (1. + dot(e1, e2) / (l1 * l2));
+    }
+
+    /// The sine of the angle between @p facet and the next one: positive for a
+    /// concave vertex.
+    static double
+    turn(const std::vector<Vector2<double>> &x, const unsigned int facet)
+    {
+      const auto e1 = edge(x, facet), e2 = edge(x, facet + 1);
+      return cross(e1, e2) / std::sqrt(dot(e1, e1) * dot(e2, e2));
     }
 
     /// Whether the point is between the bisectors at both ends of @p facet.
@@ -285,9 +302,14 @@ namespace Ricochet
       // The part of the way behind the vertex.
       Number part = new_t / (new_t - old_t);
       if constexpr (!std::is_same<Number, double>::value)
-        if (freeze_convex &&
-            cross(edge(old_x, facet), edge(old_x, facet + 1)) < 0.)
-          part = Number(part.val());
+        {
+          const bool is_convex = turn(old_x, facet) < 0.;
+          if (is_convex && caution != Caution::none)
+            part = Number(part.val());
+          else if (!is_convex && caution == Caution::at_all_vertices)
+            part = Number(part.val() +
+                          (new_t - new_t.val()) / (new_t.val() - old_t));
+        }
       add_normal_row(facet + 1, Number(direction * part), row);
       add_normal_row(facet, Number(-direction * part), row);
       add_turning_row(facet, Number(direction * old_t * part), row);
@@ -333,7 +355,7 @@ namespace Ricochet
 
     const std::vector<Vector2<double>> &old_x;
     const std::vector<Vector2<Number>> &new_x;
-    const bool                          freeze_convex;
+    const Caution                       caution;
   };
 } // namespace Ricochet
 

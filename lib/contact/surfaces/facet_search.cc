@@ -112,15 +112,19 @@ namespace Ricochet
 
   template <int dim>
   std::optional<unsigned int>
-  FacetSearch<dim>::closest_facing(const std::array<double, dim> &y,
-                                   const std::array<double, dim> &normal) const
+  FacetSearch<dim>::closest_facing(
+    const std::array<double, dim>                   &y,
+    const std::array<double, dim>                   &normal,
+    const std::function<bool(const unsigned int f)> &accept,
+    const double                                     largest_distance) const
   {
     namespace bgi = boost::geometry::index;
     Point<dim> point;
     for (unsigned int c = 0; c < dim; ++c)
       point[c] = y[c];
     std::optional<unsigned int> best;
-    double                      smallest = std::numeric_limits<double>::max();
+    double smallest = std::min(std::numeric_limits<double>::max(),
+                               largest_distance * largest_distance);
     // Boxes come in the order of their distance, which is not larger than that of
     // the facet within.
     const auto &boxes = tree->boxes;
@@ -139,10 +143,13 @@ namespace Ricochet
         if (box_distance > smallest * (1. + 1e-12))
           break;
         const unsigned int f = entry->second;
-        if (!(dot<dim>(facet_normal<dim>(surface, positions, f), normal) < 0.))
+        if (!accept &&
+            !(dot<dim>(facet_normal<dim>(surface, positions, f), normal) < 0.))
           continue;
         const double distance = squared_distance<dim>(surface, positions, f, y);
-        if (distance < smallest || (distance == smallest && f < *best))
+        if (distance > smallest || (accept && !accept(f)))
+          continue;
+        if (!best || distance < smallest || f < *best)
           {
             smallest = distance;
             best     = f;

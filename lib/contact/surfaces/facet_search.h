@@ -4,6 +4,8 @@
 
 #include <contact/surfaces/contact_surface.h>
 
+#include <functional>
+#include <limits>
 #include <memory>
 
 namespace Ricochet
@@ -22,9 +24,15 @@ namespace Ricochet
     /// The facet that is closest to @p y among those whose outward normal points
     /// against @p normal (of any length), the outward one at y; none if there is no
     /// such facet. Of several the first.
+    ///
+    /// @param accept whether a facet may be it at all; empty for all of them.
+    /// @param largest_distance facets farther from y are not looked at (m).
     std::optional<unsigned int>
-    closest_facing(const std::array<double, dim> &y,
-                   const std::array<double, dim> &normal) const;
+    closest_facing(const std::array<double, dim>                   &y,
+                   const std::array<double, dim>                   &normal,
+                   const std::function<bool(const unsigned int f)> &accept = {},
+                   const double largest_distance =
+                     std::numeric_limits<double>::infinity()) const;
 
     /// Facets whose bounding box meets that between @p lower and @p upper, in
     /// ascending order.

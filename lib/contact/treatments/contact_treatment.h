@@ -5,6 +5,7 @@
 #include <base/parameter_file.h>
 #include <contact/contact_operator.h>
 #include <contact/surfaces/contact_pair.h>
+#include <materials/linear_elastic.h>
 #include <time_integration/scheme_traits.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -14,6 +15,9 @@
 
 namespace Ricochet
 {
+  template <int dim>
+  class PairContact;
+
   /// Everything about the contact treatment that a user chooses.
   struct ContactParameters
   {
@@ -68,9 +72,9 @@ namespace Ricochet
                     const bool               linear_material,
                     const bool               viscous);
 
-  /// The same for contact between bodies, beside check_combination(): it is
-  /// formulated over the steps of the midpoint scheme, for treatments that need
-  /// neither stress nor the multipliers of rigid obstacles.
+  /// The same for contact between bodies, beside check_combination(). Where what is
+  /// before what changes, it is formulated over the steps of the midpoint scheme, for
+  /// treatments that need neither stress nor the multipliers of rigid obstacles.
   /// @throws InputError that names what is allowed.
   void
   check_pair_combination(const ContactParameters &parameters,
@@ -87,10 +91,22 @@ namespace Ricochet
   /// The treatment that @p parameters name between the surfaces of the @p pairs.
   /// @throws InputError see PairContact
   template <int dim>
-  std::unique_ptr<ContactOperator>
+  std::unique_ptr<PairContact<dim>>
   make_pair_contact(const ContactParameters        &parameters,
                     const Body<dim>                &body,
                     const std::vector<ContactPair> &pairs);
+
+  /// The same on the cut faces between linear elastic bodies with the @p materials, by
+  /// material id or one for all, see CutFaces.
+  /// @throws InputError see CutFaces; and when Nitsche's parameter is too small for it
+  /// to be stable.
+  template <int dim>
+  std::unique_ptr<ContactOperator>
+  make_cut_face_contact(const ContactParameters          &parameters,
+                        const SchemeTraits               &scheme,
+                        const Body<dim>                  &body,
+                        const std::vector<LinearElastic> &materials,
+                        const std::vector<ContactPair>   &pairs);
 
   /// The treatment that @p parameters name, for the time scheme @p scheme, on
   /// @p body against @p obstacles. @p stress is that of the body on the contact

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
+#include <contact/kinematics/cut_faces.h>
 #include <contact/treatments/active_set_contact.h>
 #include <contact/treatments/contact_treatment.h>
 #include <contact/laws/augmented_lagrangian.h>
@@ -9,6 +10,7 @@
 #include <contact/laws/normal_compliance.h>
 #include <contact/laws/penalty.h>
 #include <contact/laws/signorini_multiplier.h>
+#include <contact/treatments/cut_face_contact.h>
 #include <contact/treatments/nitsche_bound.h>
 #include <contact/treatments/pair_contact.h>
 #include <contact/treatments/pointwise_contact.h>
@@ -312,9 +314,29 @@ namespace Ricochet
   check_pair_combination(const ContactParameters &parameters,
                          const SchemeTraits      &scheme)
   {
+    if (parameters.coupling == "cut faces")
+      {
+        const auto integrates = [](const ContactLawTraits &traits) {
+          return !traits.nodal;
+        };
+        if (!integrates(find(parameters).traits))
+          throw InputError(
+            "The contact treatment '" + parameters.treatment +
+            "' acts in nodes and cannot be combined with Contact/Coupling = cut "
+            "faces.\nAllowed with it: " +
+            names_of(integrates) + ". For nodes take mortar.");
+        // The schemes are those that go with a rigid obstacle.
+        return;
+      }
     const auto good = [](const ContactLawTraits &traits) {
       return !traits.uses_stress && !traits.needs_multiplier;
     };
+    if (!good(find(parameters).traits) && !find(parameters).traits.nodal)
+      throw InputError(
+        "Between bodies the contact treatment '" + parameters.treatment +
+        "' cannot be combined with Contact/Coupling = " + parameters.coupling +
+        ".\nAllowed with it: cut faces, for linear elastic bodies at small "
+        "displacements.");
     if (!good(find(parameters).traits))
       throw InputError("The contact treatment '" + parameters.treatment +
                        "' is one for rigid obstacles, not for contact between "
@@ -346,16 +368,23 @@ namespace Ricochet
   MultiplierSpace
   pair_multiplier_space(const ContactParameters &parameters)
   {
-    if (find(parameters).make_law)
+    const Treatment &treatment = find(parameters);
+    if (parameters.coupling == "cut faces")
+      return multiplier_space(parameters);
+    if (treatment.make_law)
       return MultiplierSpace::none;
-    return parameters.friction_coefficient > 0. ? MultiplierSpace::linear_vector
-                                                : MultiplierSpace::linear;
+    // A second multiplier is for friction, or for the other facet of a valley.
+    return parameters.friction_coefficient > 0. ||
+        (treatment.condition == ClosingCondition::signorini &&
+         parameters.coupling == "points")
+      ? MultiplierSpace::linear_vector
+      : MultiplierSpace::linear;
   }
 
 
 
   template <int dim>
-  std::unique_ptr<ContactOperator>
+  std::unique_ptr<PairContact<dim>>
   make_pair_contact(const ContactParameters        &parameters,
                     const Body<dim>                &body,
                     const std::vector<ContactPair> &pairs)
@@ -415,16 +444,12 @@ namespace Ricochet
   {
     /// Refuse a parameter with which Nitsche's method is not stable: energy could
     /// grow without bound.
-    template <int dim>
     void
     check_nitsche_bound(const ContactParameters &parameters,
-                        const Body<dim>         &body,
-                        const LinearStress<dim> &stress,
-                        const Obstacles         &obstacles)
+                        const double             trace_constant)
     {
       const double theta = parameters.nitsche_theta;
-      const double bound = .25 * (1. + theta) * (1. + theta) *
-        nitsche_trace_constant(body, stress, obstacles);
+      const double bound = .25 * (1. + theta) * (1. + theta) * trace_constant;
       // Equal is not enough, and both come with round-off.
       if (parameters.nitsche_gamma_0 > (1. + 1e-9) * bound)
         return;
@@ -439,6 +464,69 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    /// The law as the scheme needs it.
+    std::unique_ptr<ContactLaw>
+    make_law(const ContactParameters &parameters, const SchemeTraits &scheme)
+    {
+      const Treatment &treatment = find(parameters);
+      return (scheme.contact_over_step && treatment.make_midpoint_law
+                ? treatment.make_midpoint_law
+                : treatment.make_law)(parameters);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::unique_ptr<ContactOperator>
+  make_cut_face_contact(const ContactParameters          &parameters,
+                        const SchemeTraits               &scheme,
+                        const Body<dim>                  &body,
+                        const std::vector<LinearElastic> &materials,
+                        const std::vector<ContactPair>   &pairs)
+  {
+    const CutFaces<dim> cut_faces(body, materials, pairs);
+    if (find(parameters).traits.uses_stress)
+      {
+        // (w_1 p_1 + w_2 p_2)^2 is not larger than w_1 p_1^2 + w_2 p_2^2.
+        std::set<types::boundary_id> ids;
+        for (const ContactPair &pair : pairs)
+          {
+            ids.insert(pair.slave.begin(), pair.slave.end());
+            ids.insert(pair.master.begin(), pair.master.end());
+          }
+        const std::vector<double> constants = nitsche_trace_constants<dim>(
+          body,
+          std::vector<LinearStress<dim>>(materials.begin(), materials.end()),
+          ids);
+        double largest = 0.;
+        for (const auto &[a, b] : cut_faces.parts)
+          {
+            const unsigned int i = materials.size() == 1 ? 0 : a,
+                               j = materials.size() == 1 ? 0 : b;
+            largest              = std::max(
+              {largest,
+                            constants[i] *
+                              CutFaces<dim>::stress_weight(materials[i], materials[j]),
+                            constants[j] *
+                              CutFaces<dim>::stress_weight(materials[j], materials[i])});
+          }
+        check_nitsche_bound(parameters, largest);
+      }
+    return std::make_unique<CutFaceContact>(
+      body,
+      make_law(parameters, scheme),
+      cut_faces.points,
+      CoulombFriction{parameters.friction_coefficient,
+                      parameters.tangential_compliance},
+      parameters.augmentation,
+      has_modified_energy(parameters));
+  }
+
+
+
   template <int dim>
   std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters                     &parameters,
@@ -449,7 +537,8 @@ namespace Ricochet
   {
     const Treatment &treatment = find(parameters);
     if (treatment.traits.uses_stress)
-      check_nitsche_bound(parameters, body, stress, obstacles);
+      check_nitsche_bound(parameters,
+                          nitsche_trace_constant(body, stress, obstacles));
     ContactPoints stress_points;
     if (stress || !treatment.traits.nodal)
       stress_points = make_quadrature_contact_points(body, stress, obstacles);
@@ -466,13 +555,9 @@ namespace Ricochet
         treatment.condition,
         parameters.augmentation,
         parameters.friction_coefficient);
-    const auto &make_law =
-      scheme.contact_over_step && treatment.make_midpoint_law
-      ? treatment.make_midpoint_law
-      : treatment.make_law;
     return std::make_unique<PointwiseContact>(
       body,
-      make_law(parameters),
+      make_law(parameters, scheme),
       std::move(points),
       std::move(stress_points),
       CoulombFriction{parameters.friction_coefficient,
@@ -558,21 +643,30 @@ namespace Ricochet
       "quadrature point, as the treatment has it) of the one with the facet of the "
       "other before it. mortar: the mean of the gap around each node, integrated "
       "exactly, so that a uniform pressure passes. dual mortar: the same with weights "
-      "that are orthogonal to the shape functions of other nodes. For treatments in "
-      "nodes.",
-      Patterns::Selection("points|mortar|dual mortar"));
+      "that are orthogonal to the shape functions of other nodes. Both are for "
+      "treatments in nodes. cut faces: points on faces that are cut where the other "
+      "ones end, for Nitsche, its hybrid, penalty and the proximal augmented "
+      "Lagrangian between linear elastic bodies; small displacements, what is before "
+      "what stays as it is at the start.",
+      Patterns::Selection("points|mortar|dual mortar|cut faces"));
     parameters.leave_subsection();
   }
 
 
-  template std::unique_ptr<ContactOperator>
+  template std::unique_ptr<PairContact<1>>
   make_pair_contact(const ContactParameters &,
                     const Body<1> &,
                     const std::vector<ContactPair> &);
-  template std::unique_ptr<ContactOperator>
+  template std::unique_ptr<PairContact<2>>
   make_pair_contact(const ContactParameters &,
                     const Body<2> &,
                     const std::vector<ContactPair> &);
+  template std::unique_ptr<ContactOperator>
+  make_cut_face_contact(const ContactParameters &,
+                        const SchemeTraits &,
+                        const Body<2> &,
+                        const std::vector<LinearElastic> &,
+                        const std::vector<ContactPair> &);
   template std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters &,
                const SchemeTraits &,

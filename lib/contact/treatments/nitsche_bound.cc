@@ -37,6 +37,92 @@ namespace Ricochet
         .eigenvalues()
         .maxCoeff();
     }
+
+    /// See nitsche_trace_constants().
+    ///
+    /// @param direction along which the stress is taken on a face with that
+    /// boundary id, in that point and with that outward normal; none where there is
+    /// no contact.
+    template <int dim>
+    std::vector<double>
+    trace_constants(
+      const Body<dim>                      &body,
+      const std::vector<LinearStress<dim>> &stresses,
+      const std::function<std::optional<Tensor<1, 3>>(const types::boundary_id,
+                                                      const Tensor<1, 3> &,
+                                                      const Tensor<1, 3> &)>
+        &direction)
+    {
+      const FEValuesExtractors::Vector displacement(0);
+      const FiniteElement<dim>        &element = body.dof_handler().get_fe();
+      FEValues<dim>                    cell_values(body.mapping(),
+                                element,
+                                body.cell_quadrature(),
+                                update_gradients | update_JxW_values);
+      FEFaceValues<dim>                face_values(body.mapping(),
+                                    element,
+                                    body.face_quadrature(),
+                                    update_gradients |
+                                      update_quadrature_points |
+                                      update_normal_vectors |
+                                      update_JxW_values);
+      const unsigned int               n = element.n_dofs_per_cell();
+      Eigen::MatrixXd                  traction(n, n), energy(n, n);
+      Eigen::VectorXd                  pressure(n);
+      std::vector<double>              largest(stresses.size(), 0.);
+      for (const auto &cell : body.dof_handler().active_cell_iterators())
+        {
+          if (!cell->is_locally_owned())
+            continue;
+          const unsigned int part =
+            stresses.size() == 1 ? 0 : cell->material_id();
+          const LinearStress<dim> &stress = stresses[part];
+          traction.setZero();
+          for (const unsigned int f : cell->face_indices())
+            {
+              if (!cell->face(f)->at_boundary())
+                continue;
+              face_values.reinit(cell, f);
+              for (const unsigned int q :
+                   face_values.quadrature_point_indices())
+                {
+                  const auto along =
+                    direction(cell->face(f)->boundary_id(),
+                              in_space<dim>(face_values.quadrature_point(q)),
+                              in_space(face_values.normal_vector(q)));
+                  if (!along)
+                    break;
+                  for (unsigned int i = 0; i < n; ++i)
+                    pressure[i] = *along *
+                      in_space(
+                        stress(
+                          face_values[displacement].symmetric_gradient(i, q)) *
+                        face_values.normal_vector(q));
+                  traction.noalias() += cell->diameter() * face_values.JxW(q) *
+                    pressure * pressure.transpose();
+                }
+            }
+          if (traction.isZero(0.))
+            continue;
+          cell_values.reinit(cell);
+          energy.setZero();
+          for (const unsigned int q : cell_values.quadrature_point_indices())
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                const SymmetricTensor<2, dim> cell_stress =
+                  stress(cell_values[displacement].symmetric_gradient(i, q));
+                for (unsigned int j = 0; j < n; ++j)
+                  energy(i, j) += cell_values.JxW(q) *
+                    (cell_stress *
+                     cell_values[displacement].symmetric_gradient(j, q));
+              }
+          largest[part] =
+            std::max(largest[part], largest_eigenvalue(traction, energy));
+        }
+      for (double &constant : largest)
+        constant = Utilities::MPI::max(constant, body.communicator);
+      return largest;
+    }
   } // namespace
 
 
@@ -47,68 +133,39 @@ namespace Ricochet
                          const std::common_type_t<LinearStress<dim>> &stress,
                          const Obstacles                             &obstacles)
   {
-    const FEValuesExtractors::Vector displacement(0);
-    const FiniteElement<dim>        &element = body.dof_handler().get_fe();
-    FEValues<dim>                    cell_values(body.mapping(),
-                              element,
-                              body.cell_quadrature(),
-                              update_gradients | update_JxW_values);
-    FEFaceValues<dim>                face_values(body.mapping(),
-                                  element,
-                                  body.face_quadrature(),
-                                  update_gradients | update_quadrature_points |
-                                    update_normal_vectors | update_JxW_values);
-    const unsigned int               n = element.n_dofs_per_cell();
-    Eigen::MatrixXd                  traction(n, n), energy(n, n);
-    Eigen::VectorXd                  pressure(n);
-    double                           largest = 0.;
-    for (const auto &cell : body.dof_handler().active_cell_iterators())
-      {
-        if (!cell->is_locally_owned())
-          continue;
-        traction.setZero();
-        for (const unsigned int f : cell->face_indices())
-          {
-            const auto obstacle = obstacles.find(cell->face(f)->boundary_id());
-            if (!cell->face(f)->at_boundary() || obstacle == obstacles.end())
-              continue;
-            face_values.reinit(cell, f);
-            for (const unsigned int q : face_values.quadrature_point_indices())
-              {
-                const Tensor<1, 3> along = stress_direction(
-                  *obstacle->second,
-                  obstacle->second->normal(in_space<dim>(
-                                             face_values.quadrature_point(q)),
-                                           0.),
-                  in_space(face_values.normal_vector(q)));
-                for (unsigned int i = 0; i < n; ++i)
-                  pressure[i] =
-                    along *
-                    in_space(
-                      stress(
-                        face_values[displacement].symmetric_gradient(i, q)) *
-                      face_values.normal_vector(q));
-                traction.noalias() += cell->diameter() * face_values.JxW(q) *
-                  pressure * pressure.transpose();
-              }
-          }
-        if (traction.isZero(0.))
-          continue;
-        cell_values.reinit(cell);
-        energy.setZero();
-        for (const unsigned int q : cell_values.quadrature_point_indices())
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              const SymmetricTensor<2, dim> cell_stress =
-                stress(cell_values[displacement].symmetric_gradient(i, q));
-              for (unsigned int j = 0; j < n; ++j)
-                energy(i, j) += cell_values.JxW(q) *
-                  (cell_stress *
-                   cell_values[displacement].symmetric_gradient(j, q));
-            }
-        largest = std::max(largest, largest_eigenvalue(traction, energy));
-      }
-    return Utilities::MPI::max(largest, body.communicator);
+    return trace_constants<dim>(
+      body,
+      {stress},
+      [&](const types::boundary_id id,
+          const Tensor<1, 3>      &x,
+          const Tensor<1, 3>      &outward) -> std::optional<Tensor<1, 3>> {
+        const auto obstacle = obstacles.find(id);
+        if (obstacle == obstacles.end())
+          return {};
+        return stress_direction(*obstacle->second,
+                                obstacle->second->normal(x, 0.),
+                                outward);
+      })[0];
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  nitsche_trace_constants(const Body<dim>                      &body,
+                          const std::vector<LinearStress<dim>> &stresses,
+                          const std::set<types::boundary_id>   &boundary_ids)
+  {
+    return trace_constants<dim>(
+      body,
+      stresses,
+      [&](const types::boundary_id id,
+          const Tensor<1, 3> &,
+          const Tensor<1, 3> &outward) -> std::optional<Tensor<1, 3>> {
+        if (boundary_ids.count(id) == 0)
+          return {};
+        return -outward;
+      });
   }
 
 
@@ -124,4 +181,8 @@ namespace Ricochet
   nitsche_trace_constant(const Body<3> &,
                          const LinearStress<3> &,
                          const Obstacles &);
+  template std::vector<double>
+  nitsche_trace_constants(const Body<2> &,
+                          const std::vector<LinearStress<2>> &,
+                          const std::set<types::boundary_id> &);
 } // namespace Ricochet

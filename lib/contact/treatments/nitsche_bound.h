@@ -25,6 +25,15 @@ namespace Ricochet
   nitsche_trace_constant(const Body<dim>                             &body,
                          const std::common_type_t<LinearStress<dim>> &stress,
                          const Obstacles &obstacles);
+
+  /// The same for each part of a body of several, with the stress of that part (by
+  /// material id), on faces with the @p boundary_ids and along their normals.
+  template <int dim>
+  std::vector<double>
+  nitsche_trace_constants(
+    const Body<dim>                            &body,
+    const std::vector<LinearStress<dim>>       &stresses,
+    const std::set<dealii::types::boundary_id> &boundary_ids);
 } // namespace Ricochet
 
 #endif

@@ -30,8 +30,11 @@ namespace Ricochet
         return std::make_unique<Points>(
           body,
           pair,
-          nodal ? Points::PointsIn::nodes
-                : Points::PointsIn::quadrature_points);
+          !nodal ? Points::PointsIn::quadrature_points
+            : !method.law && method.condition == ClosingCondition::signorini &&
+              method.friction.coefficient == 0.
+            ? Points::PointsIn::nodes_and_valleys
+            : Points::PointsIn::nodes);
       AssertThrow(nodal, ExcMessage("Mortar couples nodes."));
       if constexpr (dim == 2)
         return std::make_unique<MortarPair>(body,
@@ -182,15 +185,25 @@ namespace Ricochet
         // are at a vertex that holds them stay before the one where they began.
         // What this leaves between the gap at the end of the step and that at the
         // beginning of the next one is no matter to a condition on the increment.
-        const bool on_increment =
-          !method.law && method.condition != ClosingCondition::signorini;
-        const double tolerance = on_increment ? 1e-4 : 1e-10;
-        n_frozen               = 4;
-        if (++n_returns > 1)
+        // Signorini's condition with friction has no solution where a node is pressed
+        // into a valley from both sides; it is given up there bit by bit.
+        const double tolerance = method.law ? 1e-10
+          : method.condition != ClosingCondition::signorini
+          ? 1e-4
+          : std::min(has_friction ? 1e-2 : 1e-9,
+                     1e-10 * std::pow(10., n_returns));
+        ++n_returns;
+        n_frozen = 4 * std::max(1u, n_returns - 1);
+        if (n_returns > 1)
           for (PointState &state : states)
             if (state.candidate &&
                 pair_of(state).passage(state.point) != state.accepted_passage)
               pairs[state.pair]->stay_at_vertex(state.point, tolerance);
+        // Others sides of valleys may have come in.
+        if (n_returns > 1)
+          for (PointState &state : states)
+            if (pair_of(state).is_other_side(state.point))
+              state.candidate = pair_of(state).is_before_facet(state.point);
       }
     for (PointState &state : states)
       if (state.candidate)
@@ -602,7 +615,12 @@ namespace Ricochet
 
     const auto &rows = pair.rows(p);
     const auto &derivatives =
-      pair.derivatives(p, state.pressure, state.traction, n_frozen > 0);
+      pair.derivatives(p,
+                       state.pressure,
+                       state.traction,
+                       n_frozen == 0      ? Caution::none
+                         : n_returns <= 2 ? Caution::at_convex_vertices
+                                          : Caution::at_all_vertices);
     const unsigned int m      = rows.unknowns.size();
     const double       factor = weight * point.weight;
 
@@ -833,6 +851,30 @@ namespace Ricochet
 
 
   template <int dim>
+  void
+  PairContact<dim>::reaction_at(const Vector &solution,
+                                const double  time,
+                                Vector       &result)
+  {
+    if (method.law)
+      return force_at(solution, time, result);
+    begin_instant(solution, time);
+    force = 0.;
+    for (PointState &state : states)
+      {
+        state.traction = 0.;
+        state.pressure =
+          state.candidate ? pair_of(state).multipliers(state.point)[0] : 0.;
+        add_force(state);
+      }
+    force.compress(VectorOperation::add);
+    clear_multipliers(force);
+    result = force;
+  }
+
+
+
+  template <int dim>
   double
   PairContact<dim>::potential(const Vector &solution, const double time)
   {
@@ -857,9 +899,18 @@ namespace Ricochet
     if (!state.candidate)
       return 0.;
     const Point &point = point_of(state);
-    if (method.law && !method.law->traits().nodal)
+    // The nodes of a surface that touches itself are pushed by others besides.
+    if (method.law &&
+        (!method.law->traits().nodal || pair_of(state).touches_itself()))
       return point.weight *
         method.law->pressure(state.state, point.cell_diameter);
+    if (pair_of(state).touches_itself())
+      {
+        double pressure = pair_of(state).multipliers(state.point)[0];
+        if (const auto other = pair_of(state).other_side(state.point))
+          pressure += pair_of(state).multipliers(*other)[0];
+        return point.weight * pressure;
+      }
     const auto &rows = pair_of(state).rows(state.point);
     double      sum  = 0.;
     for (unsigned int c = 0; c < dim; ++c)
@@ -880,11 +931,11 @@ namespace Ricochet
     sums = weights = 0.;
     for (const PointState &state : states)
       {
-        const double normal = normal_force(state, contact_force);
-        const Point &point  = point_of(state);
-        if (!state.candidate)
+        if (!state.candidate || pair_of(state).is_other_side(state.point))
           continue;
-        const auto &unknowns = pair_of(state).rows(state.point).unknowns;
+        const double normal   = normal_force(state, contact_force);
+        const Point &point    = point_of(state);
+        const auto  &unknowns = pair_of(state).rows(state.point).unknowns;
         for (unsigned int k = 0; k < point.nodes.size(); ++k)
           {
             const double part = point.nodes[k].second * point.nodes[k].second;
@@ -917,6 +968,8 @@ namespace Ricochet
     std::map<types::boundary_id, double> my_area;
     for (const PointState &state : states)
       {
+        if (pair_of(state).is_other_side(state.point))
+          continue;
         const Point    &point = point_of(state);
         ContactSummary &sums  = my_sums[point.boundary_id];
         if (state.candidate)

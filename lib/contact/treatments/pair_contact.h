@@ -139,6 +139,12 @@ namespace Ricochet
     void
     force_at(const Vector &solution, const double time, Vector &force) override;
 
+    /// The normal force that the multipliers of @p solution stand for, or force_at()
+    /// for laws: what the force at the end of a step is, but for its direction, which
+    /// is that of the instant.
+    void
+    reaction_at(const Vector &solution, const double time, Vector &force);
+
     double
     potential(const Vector &solution, const double time) override;
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_kinematics_cut_faces_h
+#define ricochet_contact_kinematics_cut_faces_h
+
+#include <contact/kinematics/contact_points.h>
+#include <contact/surfaces/contact_pair.h>
+#include <materials/linear_elastic.h>
+
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * Quadrature points between two linear elastic bodies, for treatments that
+   * integrate over the faces of the contact boundary: each face of the slave is cut
+   * where facets of the master end before it, seen along its normal n, and what is
+   * left has quadrature points of its own. On them everything is a polynomial, so
+   * that a uniform pressure passes exactly between meshes that do not match.
+   *
+   * The point x of the slave meets the point x + gap n of the master; both are those
+   * of the undeformed bodies and stay the same, as small displacements have it. So
+   * the gap is an affine function of the unknowns of both,
+   *
+   *     gap = initial gap - n . (u_slave - u_master),
+   *
+   * and all that holds before a plane at rest holds here: laws, time schemes,
+   * energies. The sum of the forces and that of their moments about the undeformed
+   * positions are zero, since both points are on one normal; but friction across a gap
+   * that has closed makes a couple, traction times initial gap, which nothing takes.
+   *
+   * The stress pressure is the mean of both sides' -n . sigma n, weighted by the
+   * modulus lambda + 2 mu of the other one: a soft body next to a stiff one is what
+   * tells the pressure (Burman and Zunino, SIAM J. Numer. Anal. 44, 2006, with moduli
+   * for diffusivities). h_T is the smaller one of both sides.
+   */
+  template <int dim>
+  struct CutFaces
+  {
+    ContactPoints points;
+    /// Which parts (material ids) meet.
+    std::set<std::pair<unsigned int, unsigned int>> parts;
+
+    /**
+     * Collective.
+     *
+     * @param materials by material id, or one for all.
+     * @throws InputError when the faces of a pair nowhere overlap.
+     */
+    CutFaces(const Body<dim>                  &body,
+             const std::vector<LinearElastic> &materials,
+             const std::vector<ContactPair>   &pairs);
+
+    /// The weight of the stress of the first of two materials.
+    static double
+    stress_weight(const LinearElastic &own, const LinearElastic &other)
+    {
+      const double own_modulus   = own.lambda + 2. * own.mu;
+      const double other_modulus = other.lambda + 2. * other.mu;
+      return other_modulus / (own_modulus + other_modulus);
+    }
+  };
+} // namespace Ricochet
+
+#endif

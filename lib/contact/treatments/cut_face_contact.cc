@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/treatments/cut_face_contact.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <set>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  void
+  CutFaceContact::find_couplings(const ContactPoints &points)
+  {
+    constant_couplings.version = 1;
+    for (const ContactPoint &point : points.points)
+      {
+        std::vector<types::global_dof_index> list(points.index.begin() +
+                                                    point.begin,
+                                                  points.index.begin() +
+                                                    point.end);
+        std::sort(list.begin(), list.end());
+        // Points of one cut follow each other.
+        if (constant_couplings.lists.empty() ||
+            constant_couplings.lists.back() != list)
+          constant_couplings.lists.push_back(list);
+      }
+  }
+
+
+
+  void
+  CutFaceContact::find_free_multipliers(const ContactPoints &points,
+                                        const IndexSet      &owned_multipliers,
+                                        const MPI_Comm       communicator)
+  {
+    std::vector<types::global_dof_index> mine;
+    for (unsigned int k = 0; k < points.index.size(); ++k)
+      if (points.multiplier_coefficient[k] != 0.)
+        mine.push_back(points.index[k]);
+    std::set<types::global_dof_index> known;
+    for (const auto &list : Utilities::MPI::all_gather(communicator, mine))
+      known.insert(list.begin(), list.end());
+    for (const auto index : owned_multipliers)
+      if (known.count(index) == 0)
+        {
+          free_multipliers.push_back(index);
+          constant_couplings.lists.push_back({index});
+        }
+  }
+
+
+
+  void
+  CutFaceContact::begin_stage(const ContactStart &start, const double weight)
+  {
+    stage_weight = weight;
+    PointwiseContact::begin_stage(start, weight);
+  }
+
+
+
+  void
+  CutFaceContact::complete_residual(const Vector &solution, Vector &residual)
+  {
+    PointwiseContact::complete_residual(solution, residual);
+    for (const auto index : free_multipliers)
+      residual(index) -= stage_weight * solution(index);
+    residual.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  CutFaceContact::add_free_multipliers(Matrix &tangent) const
+  {
+    for (const auto index : free_multipliers)
+      tangent.add(index, index, -stage_weight);
+    tangent.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  CutFaceContact::complete_tangent(Matrix &tangent) const
+  {
+    PointwiseContact::complete_tangent(tangent);
+    add_free_multipliers(tangent);
+  }
+
+
+
+  void
+  CutFaceContact::complete_open_tangent(Matrix &tangent) const
+  {
+    PointwiseContact::complete_open_tangent(tangent);
+    add_free_multipliers(tangent);
+  }
+
+
+
+  ContactStructure
+  CutFaceContact::tangent_structure() const
+  {
+    ContactStructure structure;
+    structure.has_multipliers =
+      PointwiseContact::tangent_structure().has_multipliers;
+    structure.couplings_change = true;
+    return structure;
+  }
+} // namespace Ricochet

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_treatments_cut_face_contact_h
+#define ricochet_contact_treatments_cut_face_contact_h
+
+#include <contact/treatments/pointwise_contact.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * Pointwise contact of two bodies on the cut faces between them: it couples
+   * unknowns that the bodies do not, always the same ones.
+   *
+   * Multipliers of nodes that nothing is before are zero.
+   */
+  class CutFaceContact : public PointwiseContact
+  {
+  public:
+    /// The parameters are those of PointwiseContact.
+    template <int dim>
+    CutFaceContact(const Body<dim>            &body,
+                   std::unique_ptr<ContactLaw> law,
+                   const ContactPoints        &points,
+                   const CoulombFriction      &friction,
+                   const double                augmentation,
+                   const bool                  modified_energy)
+      : PointwiseContact(body,
+                         std::move(law),
+                         points,
+                         points,
+                         friction,
+                         augmentation,
+                         modified_energy)
+    {
+      find_couplings(points);
+      find_free_multipliers(points,
+                            body.multiplier_indices(),
+                            body.communicator);
+    }
+
+    void
+    begin_stage(const ContactStart &start, const double weight) override;
+
+    void
+    complete_residual(const Vector &solution, Vector &residual) override;
+
+    void
+    complete_tangent(Matrix &tangent) const override;
+
+    void
+    complete_open_tangent(Matrix &tangent) const override;
+
+    ContactStructure
+    tangent_structure() const override;
+
+    const Couplings *
+    couplings() override
+    {
+      return &constant_couplings;
+    }
+
+  private:
+    void
+    find_couplings(const ContactPoints &points);
+
+    void
+    find_free_multipliers(const ContactPoints    &points,
+                          const dealii::IndexSet &owned_multipliers,
+                          const MPI_Comm          communicator);
+
+    void
+    add_free_multipliers(Matrix &tangent) const;
+
+    Couplings constant_couplings;
+    // Of this rank.
+    std::vector<dealii::types::global_dof_index> free_multipliers;
+    double                                       stage_weight = 1.;
+  };
+} // namespace Ricochet
+
+#endif
