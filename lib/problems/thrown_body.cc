@@ -98,7 +98,7 @@ namespace Ricochet
              const Triangulation<2>                          &triangulation,
              const types::boundary_id                         outer_boundary,
              RunFolder                                       &folder,
-             const std::map<types::boundary_id, std::string> &touching_itself)
+             const std::map<types::boundary_id, std::string> &self_contact)
   {
     const ImpactParameters &impact = parameters.impact;
 
@@ -110,16 +110,15 @@ namespace Ricochet
     setup.obstacles = foundation_below<2>(outer_boundary);
     std::map<types::boundary_id, std::string> contacts = {
       {outer_boundary, "foundation"}};
-    if (!touching_itself.empty())
+    if (!self_contact.empty())
       {
-        ContactPair itself{"itself", {}, {}, /* is_self = */ true};
-        for (const auto &[id, name] : touching_itself)
+        std::set<types::boundary_id> ids;
+        for (const auto &[id, name] : self_contact)
           {
-            itself.slave.insert(id);
+            ids.insert(id);
             contacts[ContactSum<2>::id_between_surfaces(id)] = name;
           }
-        itself.master = itself.slave;
-        setup.pairs.push_back(itself);
+        setup.pairs.push_back(touching_itself(ids));
       }
     Impact<2> thrown(impact, triangulation, setup, folder.communicator);
     folder.log(std::to_string(triangulation.n_global_active_cells()) +

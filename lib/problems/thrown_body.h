@@ -62,16 +62,16 @@ namespace Ricochet
    * to the last step.
    *
    * @param outer_boundary the boundary id that can touch the foundation.
-   * @param touching_itself the boundaries that together are the surface that may
+   * @param self_contact the boundaries that together are the surface that may
    * touch itself, with their names; none for a body that passes through itself.
    */
   void
-  throw_body(const ThrownBodyParameters      &parameters,
-             const dealii::Triangulation<2>  &triangulation,
-             const dealii::types::boundary_id outer_boundary,
-             RunFolder                       &folder,
-             const std::map<dealii::types::boundary_id, std::string>
-               &touching_itself = {});
+  throw_body(
+    const ThrownBodyParameters                              &parameters,
+    const dealii::Triangulation<2>                          &triangulation,
+    const dealii::types::boundary_id                         outer_boundary,
+    RunFolder                                               &folder,
+    const std::map<dealii::types::boundary_id, std::string> &self_contact = {});
 } // namespace Ricochet
 
 #endif

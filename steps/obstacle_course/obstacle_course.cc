@@ -34,6 +34,8 @@
 //   bowl                         a disk runs to and fro and keeps its energy
 //   rising_plate                 a ball on a plate that is lifted
 //   drum                         a body in a drum that turns and drags it along
+//   folding_strip                a strip that falls on its end buckles, and touches
+//                                itself where it folds
 //
 // Run it as
 //
@@ -42,6 +44,7 @@
 
 #include <base/program.h>
 #include <contact/obstacles/obstacle_parameters.h>
+#include <contact/treatments/contact_sum.h>
 #include <materials/material_parameters.h>
 #include <output/obstacle_work.h>
 #include <output/vtu_series.h>
@@ -90,6 +93,7 @@ private:
   Tensor<1, 2> initial_velocity;
   double       initial_spin = 0.;
   Tensor<1, 2> gravity;
+  bool         touches_itself = false;
 };
 
 
@@ -162,6 +166,15 @@ ObstacleCourse::add_parameters(ParameterHandler &prm)
                     Patterns::Integer(8, 100000));
   prm.leave_subsection();
 
+  prm.enter_subsection("Contact");
+  prm.add_parameter(
+    "Self",
+    touches_itself,
+    "Whether the boundary of the body also touches itself, by the "
+    "same treatment as the obstacle.",
+    Patterns::Bool());
+  prm.leave_subsection();
+
   prm.enter_subsection("Start");
   prm.add_parameter("Initial velocity",
                     initial_velocity,
@@ -179,6 +192,8 @@ ObstacleCourse::add_parameters(ParameterHandler &prm)
 void
 ObstacleCourse::validate() const
 {
+  if (touches_itself)
+    check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
   material.validate(2, impact.scheme.name);
   impact.validate(material.law == "linear elastic",
                   material.viscosity != "none" && material.viscosity_eta > 0.);
@@ -251,6 +266,12 @@ ObstacleCourse::run(RunFolder &folder)
   setup.density   = material.density;
   setup.obstacles = {{surface, obstacle.make(impact.time.final_time)}};
   setup.gravity   = gravity;
+  std::map<types::boundary_id, std::string> contacts = {{surface, "obstacle"}};
+  if (touches_itself)
+    {
+      setup.pairs = {touching_itself({surface})};
+      contacts[ContactSum<2>::id_between_surfaces(surface)] = "itself";
+    }
   Impact<2> course(impact, triangulation, setup, folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
              " cells, " + std::to_string(course.body.owned_indices().size()) +
@@ -269,11 +290,7 @@ ObstacleCourse::run(RunFolder &folder)
 
   // The time loop writes energies and contact; momenta tell the rest: the motion
   // of the middle, and the spin.
-  TimeLoop         loop(impact.time,
-                folder,
-                course.system,
-                *course.scheme,
-                {{surface, "obstacle"}});
+  TimeLoop loop(impact.time, folder, course.system, *course.scheme, contacts);
   const Momenta<2> momenta(course.body,
                            course.system.mass_matrix(),
                            /* small strains */ elastic.linear.has_value());

@@ -14,6 +14,8 @@
 #include <problems/impact.h>
 #include <problems/part_meshes.h>
 
+#include <Eigen/SVD>
+
 #include <boost/test/unit_test.hpp>
 
 using namespace Ricochet;
@@ -299,6 +301,70 @@ BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
           BOOST_CHECK_SMALL(difference.l2_norm() / product.l2_norm(), 1e-6);
         }
       }
+}
+
+
+
+// What couplings cost, in one and the same collision with Signorini's condition:
+// iterations, entries of the tangent, and its condition when every unknown is scaled so
+// that the largest entry of its column is 1, and then every row. Mortar couples more, and
+// is no worse to solve.
+BOOST_AUTO_TEST_CASE(cost_of_couplings)
+{
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    return;
+  std::map<std::string, double> conditions, entries;
+  for (const std::string coupling : {"points", "mortar", "dual mortar"})
+    {
+      Collision    disks("Signorini active set, " + coupling, 0.);
+      unsigned int n_steps_in_contact = 0;
+      while (n_steps_in_contact < 8)
+        {
+          disks.step(time_step);
+          n_steps_in_contact += disks.state.contact_force.l2_norm() > 1.;
+        }
+      Impact<2>       &impact  = *disks.impact;
+      const Body<2>   &body    = impact.body;
+      ContactOperator &contact = *impact.contact;
+      const Vector    &old     = disks.state.solution;
+      contact.begin_stage({old,
+                           disks.state.contact_force,
+                           disks.state.mean_velocity,
+                           time_step,
+                           disks.state.time + time_step},
+                          1.);
+      Vector residual = body.make_vector();
+      contact.complete_residual(old, residual);
+      Matrix of_bodies, matrix;
+      of_bodies.reinit(body.sparsity_pattern());
+      of_bodies.add(4. / (time_step * time_step), impact.system.mass_matrix());
+      impact.bulk->add_tangent(1., old, of_bodies);
+      UnitedPattern united;
+      united.update(body.sparsity_pattern(), *contact.couplings());
+      united.embed(of_bodies, matrix);
+      contact.complete_tangent(matrix);
+
+      Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(matrix.m(), matrix.n());
+      for (const auto &entry : matrix)
+        dense(entry.row(), entry.column()) = entry.value();
+      for (Eigen::Index i = 0; i < dense.cols(); ++i)
+        dense.col(i) /= dense.col(i).cwiseAbs().maxCoeff();
+      for (Eigen::Index i = 0; i < dense.rows(); ++i)
+        dense.row(i) /= dense.row(i).cwiseAbs().maxCoeff();
+      const Eigen::VectorXd values =
+        Eigen::BDCSVD<Eigen::MatrixXd>(dense).singularValues();
+      conditions[coupling] = values[0] / values[values.size() - 1];
+      entries[coupling]    = (dense.array() != 0.).count();
+      BOOST_TEST_MESSAGE(coupling << ": " << disks.iterations
+                                  << " iterations, condition "
+                                  << conditions[coupling] << ", "
+                                  << entries[coupling] << " entries");
+    }
+  for (const std::string coupling : {"mortar", "dual mortar"})
+    {
+      BOOST_CHECK_LT(conditions[coupling], 3. * conditions["points"]);
+      BOOST_CHECK_LT(entries[coupling], 1.5 * entries["points"]);
+    }
 }
 
 

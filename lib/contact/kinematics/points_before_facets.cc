@@ -145,7 +145,8 @@ namespace Ricochet
         find_facet_now(p, search);
         if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
           find_facet_later(p, *later, end);
-        if (gap.is_before_facet && is_self && is_double(p))
+        step.is_double = gap.is_before_facet && is_self && meets_node(p);
+        if (step.is_double && !has_other_sides())
           gap.is_before_facet = false;
         if (!gap.is_before_facet)
           continue;
@@ -161,7 +162,7 @@ namespace Ricochet
       }
     // What was pressed from both sides, likely still is.
     for (unsigned int p = 0; p < n_first_sides; ++p)
-      if (gaps[p].is_before_facet && other_side(p) &&
+      if (gaps[p].is_before_facet && has_other_sides() &&
           gaps[*other_side(p)].multipliers[0] > 0.)
         find_valley(p, old_positions);
     new_positions = old_positions;
@@ -180,10 +181,11 @@ namespace Ricochet
         Step              &step  = steps[p];
         if (!step.may_pass || gaps[other].is_before_facet)
           return;
-        // Where facets turn by less, two constraints would be the same.
+        // Where facets turn by less, two constraints would be the same. It has to be a
+        // valley from the beginning on: otherwise the force on its other side would
+        // come from where that was not yet in the way, and do work.
         constexpr double flat = 1e-6;
-        const auto      &x    = gather_all(p, step.chain, now);
-        // Between this facet of the chain and the next one.
+        // The valley is between this facet of the chain and the next one.
         std::optional<unsigned int> valley;
         double nearest = std::numeric_limits<double>::infinity();
         for (const int side : {-1, 0})
@@ -191,11 +193,14 @@ namespace Ricochet
             const int facet = static_cast<int>(step.old_facet) + side;
             if (facet < 0 ||
                 facet + 1 >= static_cast<int>(step.chain.facets.size()) ||
-                FacetChain<double>::turn(x, facet) <= flat)
+                FacetChain<double>::turn(
+                  gather_all(p, step.chain, old_positions),
+                  facet) <= flat)
               continue;
+            const auto  &x = gather_all(p, step.chain, now);
             const double distance =
               std::abs(FacetChain<double>::past_vertex(x, facet));
-            if (distance < nearest)
+            if (FacetChain<double>::turn(x, facet) > flat && distance < nearest)
               {
                 nearest = distance;
                 valley  = facet;
@@ -255,7 +260,7 @@ namespace Ricochet
 
   template <int dim>
   bool
-  PointsBeforeFacets<dim>::is_double(const unsigned int p) const
+  PointsBeforeFacets<dim>::meets_node(const unsigned int p) const
   {
     if constexpr (dim == 1)
       return false;
@@ -412,7 +417,7 @@ namespace Ricochet
   {
     if constexpr (dim > 1)
       {
-        if (other_side(p))
+        if (has_other_sides())
           {
             find_valley(p, new_positions);
             if (gaps[*other_side(p)].is_before_facet)

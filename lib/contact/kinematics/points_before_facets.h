@@ -81,9 +81,15 @@ namespace Ricochet
     std::optional<unsigned int>
     other_side(const unsigned int p) const override
     {
-      if (n_first_sides == own_points.size() || is_other_side(p))
+      if (!has_other_sides() || is_other_side(p))
         return {};
       return p + n_first_sides;
+    }
+
+    bool
+    is_double(const unsigned int p) const override
+    {
+      return steps[p].is_double;
     }
 
   private:
@@ -106,6 +112,12 @@ namespace Ricochet
     template <typename Number>
     using ChainRows = typename FacetChain<Number>::Rows;
 
+    bool
+    has_other_sides() const
+    {
+      return n_first_sides < own_points.size();
+    }
+
     struct Step
     {
       Chain chain;
@@ -113,6 +125,8 @@ namespace Ricochet
       unsigned int old_facet = 0, new_facet = 0;
       /// It may pass vertices: it begins between the bisectors of the old facet.
       bool may_pass = false;
+      /// See SurfacePair::is_double().
+      bool is_double = false;
       /// It is the other side of a node, and has the row of the facet where it ends.
       bool is_beyond_valley = false;
       /// The facets of the chain to which it may pass.
@@ -154,11 +168,11 @@ namespace Ricochet
     double
     turn_at(const unsigned int node) const;
 
-    /// Of two nodes of one surface that meet each other exactly, one is enough: two
-    /// constraints would be the same. It is the one that sees a valley, which holds it,
-    /// rather than the one that sees the tip in it.
+    /// Of two nodes of one surface that meet each other exactly, whether @p p is the
+    /// one to leave out: two constraints would be the same. The other one sees a
+    /// valley, which holds it, rather than the tip in it.
     bool
-    is_double(const unsigned int p) const;
+    meets_node(const unsigned int p) const;
 
     /// The facet before which a point is at the beginning of a step, if there is one.
     void

@@ -159,6 +159,14 @@ namespace Ricochet
       return {};
     }
 
+    /// Whether the point is a node on another one, whose constraint is the same or
+    /// nearly so.
+    virtual bool
+    is_double(const unsigned int /*p*/) const
+    {
+      return false;
+    }
+
     virtual const Rows &
     rows(const unsigned int p) const = 0;
 

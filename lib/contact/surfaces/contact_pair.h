@@ -23,6 +23,13 @@ namespace Ricochet
     /// is held off all of its facets. Slave and master are the same then.
     bool is_self = false;
   };
+
+  /// The surface of the boundary @p ids that may touch itself.
+  inline ContactPair
+  touching_itself(const std::set<dealii::types::boundary_id> &ids)
+  {
+    return {"itself", ids, ids, /* is_self = */ true};
+  }
 } // namespace Ricochet
 
 #endif

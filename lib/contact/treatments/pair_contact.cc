@@ -454,7 +454,7 @@ namespace Ricochet
           const double multiplier = pair.multipliers(p)[c];
           double       equation   = -multiplier / r;
           if (c == 0 && state.status != Status::open)
-            equation = -closing(state);
+            equation = -closing(state) - softness(state) * multiplier;
           if (c == 1 && state.status == Status::stick)
             equation = -pair.rows(p).slip;
           if (c == 1 && state.status == Status::slip)
@@ -658,7 +658,11 @@ namespace Ricochet
       return;
 
     // Columns and rows of the multipliers.
-    const bool   closes = state.status != Status::open;
+    const bool closes = state.status != Status::open;
+    if (closes && softness(state) > 0.)
+      tangent.add(point.multipliers[0],
+                  point.multipliers[0],
+                  -factor * softness(state));
     const double half =
       method.condition == ClosingCondition::two_step && pass == 0 ? .5 : 1.;
     for (unsigned int a = 0; a < m; ++a)

@@ -239,6 +239,15 @@ namespace Ricochet
       return has_friction && !method.law;
     }
 
+    /// How far (m) a pressure of 1 Pa pushes a closed point in. Nothing, but where two
+    /// constraints are the same: so little tells how they share the force.
+    double
+    softness(const PointState &state) const
+    {
+      return pair_of(state).is_double(state.point) ? 1e-9 / stiffness(state)
+                                                   : 0.;
+    }
+
     /// What the condition keeps at zero in the current pass (m).
     double
     closing(const PointState &state) const;
