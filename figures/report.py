@@ -49,7 +49,7 @@ class Figure:
     the results of `runs`, which are there when they are called.
     """
 
-    name: str  # paper and number, such as C-6; O, D, S for those of no paper
+    name: str  # paper and number, such as C-6; D, O, R, S for those of no paper
     title: str
     caption: str
     runs: list

@@ -94,6 +94,40 @@ class ObstaclesAtRest(ProgramTest):
                             1e-9 * scale, msg=name)
 
 
+class FoldingStrip(ProgramTest):
+    """A strip that falls on its end buckles and touches itself, and the ground."""
+
+    def fall(self, treatment, *parameters):
+        return self.run_program(
+            "obstacle_course",
+            NO_FIELDS + ["Time/Final time=0.2",
+                         f"Contact/Treatment={treatment}", *parameters],
+            prm=FILES / "folding_strip.prm")
+
+    def test_balance_and_depth(self):
+        for treatment in ("persistent contact", "Signorini active set"):
+            with self.subTest(treatment):
+                ledger = self.fall(treatment)
+                start = ledger["energy"][0]
+                self.assertGreater(max(ledger["active_points_itself"]), 0)
+                self.assertGreater(max(ledger["contact_force_itself"]), 1.)
+                self.assertLess(max(map(abs, ledger["balance_residual"])), 1e-10)
+                energy = energy_of_all(ledger)
+                if treatment in KEEP_ENERGY:
+                    for e in energy:
+                        self.assertLess(abs(e - start), 1e-9 * start)
+                    # No deeper than in the ground.
+                    self.assertLess(max(ledger["penetration_itself"]),
+                                    max(ledger["penetration_obstacle"]))
+                else:
+                    for a, b in zip(energy, energy[1:]):
+                        self.assertLess(b - a, 1e-11 * start)
+                    # The strip is 1.2 m long.
+                    for name in ("itself", "obstacle"):
+                        self.assertLess(max(ledger[f"penetration_{name}"]),
+                                        1.2e-10)
+
+
 class Incline(ProgramTest):
     """tan(beta) = 1/2. Coarser bodies than those of the parameter files, which
     the figures hold against the same numbers."""

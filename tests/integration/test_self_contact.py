@@ -1,0 +1,441 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The ring that feels itself (hyperelastic_ring with Contact/Self): energy and momenta,
+what its nodes and its outline do, ranks, restart, and what is refused.
+
+The ring touches the foundation after 0.05 s, and itself, with its inner circle, after
+1.4 s, for about half a second.
+"""
+
+import math
+
+from common import *
+
+sys.path.insert(0, str(ROOT / "figures"))
+try:
+    import numpy as np
+    import overlap
+    import vtu
+except ImportError:
+    np = None
+needs_numpy = unittest.skipIf(np is None,
+                              "numpy (Debian's python3-numpy) is missing")
+
+DT, RADIUS, INNER_RADIUS = 1e-2, 10., 9.
+SELF = "Contact/Self=true"
+
+
+def ring(around=64, across=4, end=1.9):
+    return [f"Mesh/Nodes around={around}", f"Mesh/Nodes across={across}",
+            f"Time/Time step={DT}", f"Time/Final time={end}"]
+
+
+# Compliance that is soft enough: with the program's default, 800 times as stiff,
+# Newton's method fails soon after the ring has touched itself.
+SOFT = ["Contact/Compliance coefficient=1e9"]
+TREATMENTS = {"persistent contact": [], "Ayyad-Barboteu two-step": [],
+              "Signorini active set": [], "improved normal compliance": SOFT}
+
+CIRCLES = ("outer_circle", "inner_circle")
+
+# Runs that several tests read, with pictures.
+PICTURES = ["Output/Fields every=3", "Output/Log every=0"]
+SHARED = {name: ring() + [SELF, f"Contact/Treatment={name}"] + special
+          for name, special in TREATMENTS.items()}
+SHARED["without"] = ring(end=1.7) + ["Contact/Treatment=persistent contact"]
+for shape in ((48, 3), (96, 5)):
+    SHARED[shape] = ring(*shape, end=1.65) + [
+        SELF, "Contact/Treatment=Signorini active set"]
+
+
+def setUpModule():
+    global shared_folder, ledgers
+    shared_folder, ledgers = pathlib.Path(tempfile.mkdtemp(prefix="ricochet-")), {}
+    unittest.addModuleCleanup(shutil.rmtree, shared_folder, ignore_errors=True)
+
+
+def largest(values):
+    return max(map(abs, values))
+
+
+def increments(values):
+    return [b - a for a, b in zip(values, values[1:])]
+
+
+class SelfContactTest(ProgramTest):
+
+    def long_run(self):
+        if is_debug_build():
+            self.skipTest("takes a minute with assertions; other tests run the same")
+
+    def shared_run(self, name):
+        """The ledger of one of the runs above, which is made once."""
+        if name not in ledgers:
+            ledgers[name] = self.run_program("hyperelastic_ring",
+                                             SHARED[name] + PICTURES,
+                                             shared_folder / str(name))
+        return ledgers[name]
+
+    def depths(self, ledger):
+        """Of the ring's deepest node in itself (m), after each step."""
+        return [max(both) for both in
+                zip(*(ledger[f"penetration_{circle}"] for circle in CIRCLES))]
+
+    def pictures(self, name):
+        """The numbers of the steps with a picture, and the files."""
+        self.shared_run(name)
+        files = sorted((shared_folder / str(name) / "solution").glob("*.vtu"))
+        self.assertGreater(len(files), 20)
+        return [(int(file.stem.split("-")[1]), file) for file in files]
+
+
+class Conservation(SelfContactTest):
+
+    def test_it_touches_itself(self):
+        """And not from the start: nodes do not take facets beside them for others."""
+        for name in TREATMENTS:
+            with self.subTest(name):
+                ledger = self.shared_run(name)
+                points = [sum(ledger[f"active_points_{circle}"][row]
+                              for circle in CIRCLES)
+                          for row in range(len(ledger["time"]))]
+                first = next(row for row, n in enumerate(points) if n > 0)
+                self.assertGreater(ledger["time"][first], 1.2)
+                self.assertGreater(sum(n > 0 for n in points), 10)
+                self.assertGreater(max(points), 4)
+                # It pushes as hard as the foundation did.
+                self.assertGreater(max(ledger["contact_force_inner_circle"]), 1e6)
+
+    def test_balance(self):
+        for name in TREATMENTS:
+            with self.subTest(name):
+                ledger = self.shared_run(name)
+                self.assertLess(largest(ledger["balance_residual"]), 1e-10)
+
+    def test_energy(self):
+        for name in TREATMENTS:
+            with self.subTest(name):
+                ledger = self.shared_run(name)
+                scale = ledger["energy"][0]
+                if name in KEEP_ENERGY:
+                    kept = ledger["energy"]
+                    self.assertLess(largest(ledger["contact_work"]), 1e-9 * scale)
+                else:
+                    kept = ledger["modified_energy"]
+                if name in LOSE_ENERGY:
+                    self.assertLess(max(increments(kept)), 1e-11 * scale)
+                    self.assertGreaterEqual(min(increments(ledger["contact_work"])),
+                                            -1e-11 * scale)
+                    # It loses also while it touches nothing but itself.
+                    free = [work for below, inside, work in
+                            zip(ledger["contact_force_foundation"][1:],
+                                ledger["contact_force_inner_circle"][1:],
+                                increments(ledger["contact_work"]))
+                            if below == 0. and inside > 0.]
+                    self.assertGreater(sum(free), 1e-4 * scale)
+                else:
+                    self.assertLess(largest([e - scale for e in kept]), 1e-9 * scale)
+
+    def test_energy_comes_back(self):
+        """What improved normal compliance stores is there again whenever no point is
+        active, and it stores a lot between the circles."""
+        ledger = self.shared_run("improved normal compliance")
+        scale = ledger["energy"][0]
+        stored = [m - e for m, e in zip(ledger["modified_energy"],
+                                        ledger["energy"])]
+        points = zip(*(ledger[f"active_points_{name}"]
+                       for name in ("foundation",) + CIRCLES))
+        for energy, active in zip(stored, points):
+            if not any(active):
+                self.assertLess(abs(energy), 1e-9 * scale)
+        self.assertGreater(max(s for s, f, p in zip(
+            stored, ledger["active_points_foundation"],
+            ledger["active_points_inner_circle"]) if p > 0), 1e-3 * scale)
+
+    def test_momenta(self):
+        """Nothing but the foundation takes any, and that in the vertical only."""
+        for name in TREATMENTS:
+            with self.subTest(name):
+                ledger = self.shared_run(name)
+                force = ledger["contact_force_foundation"]
+                scale = abs(ledger["momentum_x"][0])
+                drift = largest([p - ledger["momentum_x"][0]
+                                 for p in ledger["momentum_x"]])
+                self.assertLess(drift, 1e-11 * scale)
+                for change, f in zip(increments(ledger["momentum_y"]), force[1:]):
+                    self.assertLess(abs(change - DT * f), 1e-10 * scale)
+                free = [f == 0. for f in force[1:]]
+                self.assertGreater(sum(free), 20)
+                for change, is_free in zip(increments(ledger["angular_momentum"]),
+                                           free):
+                    if is_free:
+                        self.assertLess(abs(change), 1e-11 * scale * RADIUS)
+                # In some of these steps the ring pushes itself.
+                if name != "improved normal compliance":
+                    self.assertGreater(
+                        sum(f and s > 0. for f, s in
+                            zip(free, ledger["contact_force_inner_circle"][1:])), 2)
+
+
+class Nodes(SelfContactTest):
+    """How deep the ring's nodes are in itself, by the program's own columns."""
+
+    def check_signorini(self, name):
+        self.assertLess(max(self.depths(self.shared_run(name))), 1e-10 * 2. * RADIUS)
+
+    def test_signorini(self):
+        self.check_signorini("Signorini active set")
+
+    def test_signorini_on_other_meshes(self):
+        """On the coarser one, where a node comes down on a node, the energy once rose by
+        a thousandth in a single step."""
+        self.long_run()
+        for name in ((48, 3), (96, 5)):
+            with self.subTest(name):
+                self.check_signorini(name)
+                energy = self.shared_run(name)["energy"]
+                self.assertLess(max(increments(energy)), 1e-11 * energy[0])
+
+    @needs_numpy
+    def test_conditions_on_the_velocity(self):
+        """Nodes are as deep as they come in the step in which they touch: at most by
+        the way of two nodes towards each other."""
+        for name in KEEP_ENERGY:
+            with self.subTest(name):
+                deepest = max(self.depths(self.shared_run(name)))
+                fastest = 0.
+                for _, file in self.pictures(name):
+                    velocity = vtu.read(file)[2]["velocity"]
+                    velocity = velocity - velocity.mean(axis=0)
+                    fastest = max(fastest,
+                                  np.linalg.norm(velocity, axis=1).max())
+                self.assertGreater(deepest, 1e-3)
+                self.assertLess(deepest, 2. * fastest * DT)
+
+    def test_compliance(self):
+        """The springs of the deepest nodes, c d^2 / 2 on the length of a side, hold no
+        more than all of them."""
+        ledger = self.shared_run("improved normal compliance")
+        depths = self.depths(ledger)
+        self.assertGreater(max(depths), 1e-3)
+        length = 2. * INNER_RADIUS * math.sin(math.pi / 64)
+        for modified, energy, inside, below in zip(
+                ledger["modified_energy"], ledger["energy"], depths,
+                ledger["penetration_foundation"]):
+            self.assertLess(1e9 * length * (inside**2 + below**2) / 2.,
+                            modified - energy + 1e-9 * ledger["energy"][0])
+
+
+@needs_numpy
+class Outline(SelfContactTest):
+    """Where the ring covers itself, found in its pictures without the program's help
+    (figures/overlap.py). They have single precision."""
+
+    ROUND_OFF = 1e-5
+
+    def square(self, x, y, size=1.):
+        return np.array([(x, y), (x + size, y), (x + size, y + size),
+                         (x, y + size)])
+
+    def check_overlap(self, found, depth, area, digits=12):
+        self.assertAlmostEqual(found.depth, depth, digits)
+        self.assertAlmostEqual(found.area, area, digits)
+
+    def test_overlaps_known_by_hand(self):
+        square = self.square
+        of = overlap.overlap_of
+        # Beside each other, one in the other by a side, by a corner.
+        self.check_overlap(of([square(0., 0.), square(1.5, 0.)]), 0., 0.)
+        self.check_overlap(of([square(0., 0.), square(.9, -.3)]), .1, .07)
+        self.check_overlap(of([square(0., 0.), square(.9, .7)]), .1, .03)
+        # A tip in the middle of a side.
+        tip = np.array([(-.2, 0.), (1., -1.), (1., 1.)])
+        self.check_overlap(of([square(-1., -.5), tip]), .2, .2 * .2 / 1.2)
+        # A block whose middle was taken out, in which another one is: no overlap.
+        hole = square(-1., -1., 3.)[::-1]
+        self.check_overlap(of([square(-2., -2., 5.), hole, square(0., 0.)]), 0., 0.)
+        # One line that comes back across itself: a strip, 1 wide, in the shape of a
+        # hook whose end has gone .2 deep into its beginning.
+        hook = np.array([(0., 0.), (5., 0.), (5., 4.), (2., 4.), (2., .8), (3., .8),
+                         (3., 3.), (4., 3.), (4., 1.), (0., 1.)])
+        self.check_overlap(of([hook]), .2, .2)
+        # Two circles: the lens between them.
+        def circle(x):
+            angle = 2. * np.pi * np.arange(1000) / 1000
+            return np.stack((x + np.cos(angle), np.sin(angle)), axis=1)
+        half = math.acos(.95)
+        self.check_overlap(of([circle(0.), circle(1.9)]), .1,
+                           2. * half - math.sin(2. * half), 3)
+
+    def test_outline_of_the_ring(self):
+        """Two circles, of which the inner one goes around clockwise."""
+        step, file = self.pictures("without")[0]
+        self.assertEqual(step, 0)
+        points, cells, _ = vtu.read(file)
+        lines = [points[line] for line in overlap.outlines(points, cells)]
+        self.assertEqual([len(line) for line in lines], [64, 64])
+        areas = sorted(overlap.cross(line, np.roll(line, -1, axis=0)).sum() / 2
+                       for line in lines)
+        for area, radius in zip(areas, (-INNER_RADIUS, RADIUS)):
+            exact = math.copysign(32. * math.sin(math.pi / 32) * radius**2, radius)
+            self.assertAlmostEqual(area / exact, 1., 5)
+
+    def test_without(self):
+        """The ring of the papers passes through itself, and this is seen: its walls
+        are 1 m thick."""
+        found = [overlap.overlap_in(file) for _, file in self.pictures("without")]
+        self.assertGreater(max(one.depth for one in found), .7)
+        self.assertGreater(max(one.area for one in found), 7.)
+        self.assertEqual(found[0], overlap.NONE)
+
+    def test_with(self):
+        """The outline is in the ring by what the columns say of the nodes: at each
+        instant the two are the same."""
+        for name in TREATMENTS:
+            with self.subTest(name):
+                depths, n_overlaps = self.depths(self.shared_run(name)), 0
+                for step, file in self.pictures(name):
+                    found = overlap.overlap_in(file)
+                    self.assertAlmostEqual(
+                        found.depth, depths[step],
+                        delta=self.ROUND_OFF + .01 * depths[step])
+                    self.assertLess(found.area, .5)
+                    n_overlaps += found.depth > self.ROUND_OFF
+                self.assertEqual(n_overlaps > 1, name not in LOSE_ENERGY)
+
+    def test_meshes(self):
+        """With Signorini's condition the outline is not in the ring on any mesh: nodes
+        of both sides are held off, and of two polygons that overlap one has a corner in
+        the other. A pass over one side only would let corners in by as much as a chord
+        is away from its arc."""
+        self.long_run()
+        for name, around in (((48, 3), 48), ("Signorini active set", 64),
+                             ((96, 5), 96)):
+            with self.subTest(around):
+                self.assertGreater(
+                    max(self.shared_run(name)["active_points_inner_circle"]), 4)
+                chord = INNER_RADIUS * (1. - math.cos(math.pi / around))
+                for _, file in self.pictures(name):
+                    depth = overlap.overlap_in(file).depth
+                    self.assertLess(depth, self.ROUND_OFF)
+                    self.assertLess(depth, 1e-2 * chord)
+
+
+class RestartAndRanks(SelfContactTest):
+
+    def parameters(self, name, end):
+        return (ring(end=end) + [SELF, f"Contact/Treatment={name}"] +
+                TREATMENTS[name])
+
+    def compare(self, one, other, n_rows):
+        """To 1e-9 of the largest value of each column."""
+        self.assertEqual(one.names, other.names)
+        self.assertEqual(len(other["time"]), n_rows)
+        # They touch themselves by then.
+        self.assertGreater(sum(f > 0. for f in other["contact_force_inner_circle"]),
+                           2)
+        for column in ("time", "kinetic_energy", "elastic_energy", "energy",
+                       "modified_energy", "momentum_x", "momentum_y",
+                       "angular_momentum", "contact_force_foundation",
+                       "contact_force_inner_circle", "penetration_foundation",
+                       "penetration_inner_circle"):
+            scale = max(largest(one[column]), 1e-3)
+            difference = largest([a - b for a, b in
+                                  zip(one[column], other[column])])
+            self.assertLess(difference / scale, 1e-9, msg=column)
+
+    def test_one_and_two_ranks(self):
+        """The first steps in which the ring touches itself. It is symmetric but for
+        round-off, and what comes down at its top is a node, just above another one:
+        later it is round-off that decides before which facet either is, and runs
+        part."""
+        for name, end in (("persistent contact", 1.52),
+                          ("Signorini active set", 1.54)):
+            with self.subTest(name):
+                two = self.run_program("hyperelastic_ring",
+                                       NO_FIELDS + self.parameters(name, end),
+                                       n_ranks=2)
+                self.compare(self.shared_run(name), two, round(end / DT) + 1)
+
+    def test_one_and_two_ranks_without_symmetry(self):
+        """Friction at the foundation bends the ring to one side."""
+        self.long_run()
+        end = 1.55
+        parameters = NO_FIELDS + [
+            "Contact/Friction coefficient=0.2", "Contact/Tangential compliance=1e7",
+            *self.parameters("improved normal compliance", end)]
+        one, two = (self.run_program("hyperelastic_ring", parameters,
+                                     self.folder / f"{n}", n_ranks=n)
+                    for n in (1, 2))
+        self.compare(one, two, round(end / DT) + 1)
+
+    def test_stopped_while_it_touches_itself(self):
+        """Digit for digit."""
+        names = ("persistent contact", "Signorini active set",
+                 "improved normal compliance")
+        for name in names[:1] if is_debug_build() else names:
+            with self.subTest(name):
+                self.shared_run(name)
+                whole, parts = shared_folder / name, self.folder / "parts"
+                options, touching = [], 0
+                for end in (1.47, 1.51, 1.56):
+                    ledger = self.run_program(
+                        "hyperelastic_ring", self.parameters(name, end) + PICTURES +
+                        ["Output/Checkpoint every=1000"], parts, options=options)
+                    options = ["--resume"]
+                    touching += ledger["active_points_inner_circle"][-1] > 0.
+                self.assertGreater(touching, 1)
+                rows = (parts / "energy.csv").read_text().splitlines()
+                self.assertEqual(len(rows), 158)
+                self.assertEqual(
+                    rows, (whole / "energy.csv").read_text().splitlines()[:158])
+                for file in ("step-000153.vtu", "step-000156.vtu"):
+                    self.assertEqual((whole / "solution" / file).read_bytes(),
+                                     (parts / "solution" / file).read_bytes())
+                shutil.rmtree(parts)
+
+
+class BadInput(ProgramTest):
+
+    def refuse(self, messages, *parameters):
+        code, out, error = self.attempt("hyperelastic_ring", [SELF, *parameters])
+        self.assertEqual(code, 1, msg=out + error)
+        text = " ".join(error.split())
+        for message in messages:
+            self.assertIn(message, text)
+        for noise in ("Stacktrace", "dealii::", "terminate called", "violated"):
+            self.assertNotIn(noise, error)
+        self.assertFalse((self.folder / "run" / "energy.csv").exists())
+
+    def test_treatments_of_rigid_obstacles(self):
+        for name in ("Nitsche", "proximal augmented Lagrangian"):
+            with self.subTest(name):
+                self.refuse([f"contact treatment '{name}'", "Allowed"],
+                            f"Contact/Treatment={name}")
+        self.refuse(["'Signorini multipliers' is one for rigid obstacles, not for "
+                     "contact between bodies", "persistent contact"],
+                    "Contact/Treatment=Signorini multipliers")
+
+    def test_time_schemes(self):
+        for scheme, treatment in (
+                ("HHT", "persistent contact"),
+                ("ARKODE", "Signorini active set")):
+            with self.subTest(f"{scheme} {treatment}"):
+                self.refuse([f"the time scheme '{scheme}'", "midpoint"],
+                            f"Time/Scheme={scheme}",
+                            f"Contact/Treatment={treatment}")
+        # Before rigid obstacles this treatment does go with the scheme.
+        self.refuse(["Contact between bodies cannot be combined with the time scheme "
+                     "'TR-BDF2'", "Allowed with it: midpoint"],
+                    "Time/Scheme=TR-BDF2", "Contact/Treatment=Signorini active set")
+
+    def test_degree_and_solvers(self):
+        self.refuse(["Contact between bodies needs displacements of degree 1; the "
+                     "degree is 2"], "Mesh/Degree=2")
+        self.refuse(["direct or automatic instead of corrected"],
+                    "Linear solver/Type=corrected")
+        self.refuse(["choose KLU, MUMPS or automatic"],
+                    "Linear solver/Factorisation=CHOLMOD")
+
+
+if __name__ == "__main__":
+    main()
