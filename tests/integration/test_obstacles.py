@@ -127,6 +127,24 @@ class FoldingStrip(ProgramTest):
                         self.assertLess(max(ledger[f"penetration_{name}"]),
                                         1.2e-10)
 
+    def test_on_a_circle_with_friction(self):
+        """Forces of both contacts have all directions here, and nodes that can touch
+        themselves have multipliers, which are nothing to the obstacle."""
+        for treatment in ("persistent contact", "Signorini active set"):
+            with self.subTest(treatment):
+                ledger = self.fall(treatment, "Obstacle/Shape=circle",
+                                   "Body/Centre=0.1,1.15", "Time/Final time=0.1",
+                                   "Contact/Friction coefficient=0.2")
+                start = ledger["energy"][0]
+                self.assertLess(max(map(abs, ledger["balance_residual"])), 1e-10)
+                work = ledger["friction_work"]
+                self.assertGreater(work[-1], 1e-3 * start)
+                for a, b in zip(work, work[1:]):
+                    self.assertGreaterEqual(b - a, -1e-12 * start)
+                energy = energy_of_all(ledger)
+                for a, b in zip(energy, energy[1:]):
+                    self.assertLess(b - a, 1e-11 * start)
+
 
 class Incline(ProgramTest):
     """tan(beta) = 1/2. Coarser bodies than those of the parameter files, which

@@ -176,6 +176,24 @@ class Conservation(SelfContactTest):
                             zip(free, ledger["contact_force_inner_circle"][1:])), 2)
 
 
+    def test_friction(self):
+        """Exact stick and slip, on the foundation and in the ring."""
+        cases = [(name, "hyperelastic_ring",
+                  NO_FIELDS + ring(48, 3, 1.7) +
+                  [SELF, f"Contact/Treatment={name}",
+                   "Contact/Friction coefficient=0.2"])
+                 for name in ("persistent contact", "Signorini active set")]
+        for name, ledger in self.run_many(cases):
+            with self.subTest(name):
+                scale = ledger["energy"][0]
+                self.assertGreater(max(ledger["contact_force_inner_circle"]), 1e6)
+                self.assertLess(largest(ledger["balance_residual"]), 1e-10)
+                self.assertGreater(ledger["friction_work"][-1], 1e-2 * scale)
+                self.assertGreaterEqual(min(increments(ledger["friction_work"])),
+                                        -1e-12 * scale)
+                self.assertLess(max(increments(ledger["energy"])), 1e-11 * scale)
+
+
 class Nodes(SelfContactTest):
     """How deep the ring's nodes are in itself, by the program's own columns."""
 

@@ -336,7 +336,7 @@ BOOST_AUTO_TEST_CASE(boundary_masses_of_quadratic_tetrahedra)
                     1e-10);
   // 3 x 3 vertices.
   BOOST_CHECK_EQUAL(dealii::Utilities::MPI::sum(n_zero, MPI_COMM_WORLD), 9u);
-  BOOST_CHECK_THROW(make_nodal_contact_points(body, cube.plane(0.)),
+  BOOST_CHECK_THROW(make_nodal_contact_points(body, cube.plane(0.), false),
                     InputError);
 }
 

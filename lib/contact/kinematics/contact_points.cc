@@ -298,10 +298,12 @@ namespace Ricochet
 
   template <int dim>
   ContactPoints
-  make_nodal_contact_points(const Body<dim> &body, const Obstacles &obstacles)
+  make_nodal_contact_points(const Body<dim> &body,
+                            const Obstacles &obstacles,
+                            const bool       with_multipliers)
   {
     const unsigned int degree = body.dof_handler().get_fe().degree;
-    if (body.has_multipliers() && degree > 1)
+    if (with_multipliers && degree > 1)
       throw InputError(
         "Multipliers in the nodes need displacements of degree "
         "1; with degree " +
@@ -309,7 +311,7 @@ namespace Ricochet
         " take the proximal augmented Lagrangian or the active "
         "set.");
     const ContactPoints points =
-      make_contact_nodes(body, obstacles, body.has_multipliers());
+      make_contact_nodes(body, obstacles, with_multipliers);
     bool positive = true, clamped = false;
     for (const ContactPoint &point : points.points)
       {
@@ -350,13 +352,13 @@ namespace Ricochet
   template ContactPoints
   make_contact_nodes(const Body<1> &, const Obstacles &, const bool);
   template ContactPoints
-  make_nodal_contact_points(const Body<1> &, const Obstacles &);
+  make_nodal_contact_points(const Body<1> &, const Obstacles &, const bool);
   template ContactPoints
   make_contact_nodes(const Body<2> &, const Obstacles &, const bool);
   template ContactPoints
-  make_nodal_contact_points(const Body<2> &, const Obstacles &);
+  make_nodal_contact_points(const Body<2> &, const Obstacles &, const bool);
   template ContactPoints
   make_contact_nodes(const Body<3> &, const Obstacles &, const bool);
   template ContactPoints
-  make_nodal_contact_points(const Body<3> &, const Obstacles &);
+  make_nodal_contact_points(const Body<3> &, const Obstacles &, const bool);
 } // namespace Ricochet

@@ -146,8 +146,10 @@ namespace Ricochet
                      const bool       with_multipliers);
 
   /**
-   * The same for treatments that live in nodes, with the multipliers of the body
-   * if it has some.
+   * The same for treatments that live in nodes.
+   *
+   * @param with_multipliers as above: a body may have multipliers that are not for
+   * its obstacles.
    *
    * @throws InputError when a lumped boundary mass is not positive (vertices of
    * quadratic tetrahedra), for nodal multipliers with degree > 1, and when a node
@@ -155,7 +157,9 @@ namespace Ricochet
    */
   template <int dim>
   ContactPoints
-  make_nodal_contact_points(const Body<dim> &body, const Obstacles &obstacles);
+  make_nodal_contact_points(const Body<dim> &body,
+                            const Obstacles &obstacles,
+                            const bool       with_multipliers);
 } // namespace Ricochet
 
 #endif

@@ -543,7 +543,9 @@ namespace Ricochet
     if (stress || !treatment.traits.nodal)
       stress_points = make_quadrature_contact_points(body, stress, obstacles);
     ContactPoints points = treatment.traits.nodal
-      ? make_nodal_contact_points(body, obstacles)
+      ? make_nodal_contact_points(body,
+                                  obstacles,
+                                  treatment.traits.needs_multiplier)
       : stress_points;
     if (!stress)
       stress_points = ContactPoints();
