@@ -42,6 +42,13 @@ run colliding_disks --set "Disks/Rings of the left disk=4" \
   --set "Disks/Rings of the right disk=3" --set "Disks/Offset=1" \
   --set "Time/Final time=0.1" --set "Contact/Treatment=improved normal compliance" \
   --set "Contact/Friction coefficient=0.2"
+run colliding_disks --set "Disks/Rings of the left disk=4" \
+  --set "Disks/Rings of the right disk=3" --set "Material/Law=linear elastic" \
+  --set "Time/Final time=0.1" --set "Contact/Treatment=proximal augmented Lagrangian" \
+  --set "Contact/Augmentation=2e7" --set "Contact/Coupling=cut faces"
+run hyperelastic_ring parameter_files/hyperelastic_ring/feels_itself.prm \
+  --set "Mesh/Nodes around=48" --set "Mesh/Nodes across=3" --set "Time/Time step=2e-2" \
+  --set "Time/Final time=1.6" --set "Contact/Treatment=Signorini active set"
 run stent_artery --set "Geometry/Artery nodes along=31" \
   --set "Geometry/Artery nodes across=4" --set "Geometry/Stent nodes along=41" \
   --set "Geometry/Stent nodes across=3" --set "Geometry/Gap=0.001" \

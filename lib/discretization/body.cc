@@ -414,10 +414,14 @@ namespace Ricochet
     const std::vector<types::global_dof_index> &more) const
   {
     IndexSet known = relevant;
-    // What does not exist stays unknown.
+    // What does not exist stays unknown. Indices that are sorted are added at once.
+    std::vector<types::global_dof_index> unknown;
     for (const auto index : more)
-      if (index < known.size())
-        known.add_index(index);
+      if (index < known.size() && !relevant.is_element(index))
+        unknown.push_back(index);
+    std::sort(unknown.begin(), unknown.end());
+    unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
+    known.add_indices(unknown.begin(), unknown.end());
     return Vector(owned, known, communicator);
   }
 

@@ -200,6 +200,9 @@ namespace Ricochet
         throw InputError(
           "Contact/Coupling = cut faces cannot be combined with "
           "rigid obstacles.");
+      if (setup.degree > 1)
+        throw InputError(
+          "Contact/Coupling = cut faces needs displacements of degree 1.");
       for (const ContactPair &pair : setup.pairs)
         if (pair.is_self)
           throw InputError(
@@ -233,7 +236,9 @@ namespace Ricochet
       };
       if (setup.pairs.empty())
         return with_obstacles();
-      check_pair_combination(parameters.contact, scheme);
+      check_pair_combination(parameters.contact,
+                             scheme,
+                             setup.pairs.front().is_self);
       if (parameters.contact.coupling == "cut faces")
         return make_contact_on_cut_faces(parameters, body, setup);
       if constexpr (dim < 3)
@@ -242,6 +247,14 @@ namespace Ricochet
             make_pair_contact(parameters.contact, body, setup.pairs);
           if (setup.obstacles.empty())
             return between;
+          // Before others it starts from the nodes that were pressed, whatever by.
+          if (parameters.contact.treatment == "persistent contact")
+            for (const auto &obstacle : setup.obstacles)
+              if (!obstacle.second->is_plane_at_rest())
+                throw InputError(
+                  "Persistent contact of a body both with itself or others and with "
+                  "a curved or moving obstacle is not there. Take Ayyad-Barboteu "
+                  "two-step, improved normal compliance or Signorini active set.");
           // Multipliers are where surfaces touch each other.
           if (body.has_multipliers())
             for (const auto &obstacle : setup.obstacles)

@@ -55,7 +55,7 @@ namespace Ricochet
 
     /// Several bodies, with as many material ids; empty for one.
     std::vector<Part<dim>> parts = {};
-    /// Surfaces that may touch, instead of obstacles.
+    /// Surfaces that may touch each other or themselves.
     std::vector<ContactPair> pairs = {};
     /// Prescribed displacements, by boundary id.
     std::map<dealii::types::boundary_id, ImposedDisplacement<dim>> imposed = {};

@@ -35,8 +35,8 @@ namespace Ricochet
       {
         if (type == "corrected" || type == "multigrid")
           throw InputError(
-            "Contact between bodies couples unknowns that change from step to "
-            "step: choose Linear solver/Type = direct or automatic instead of " +
+            "Contact between bodies couples unknowns that the bodies do not "
+            "couple: choose Linear solver/Type = direct or automatic instead of " +
             type + ".");
         if (parameters.factorisation == "CHOLMOD")
           throw InputError(

@@ -145,7 +145,8 @@ HyperelasticRing::validate() const
   parameters.validate();
   if (touches_itself)
     check_pair_combination(parameters.impact.contact,
-                           scheme_traits(parameters.impact.scheme.name));
+                           scheme_traits(parameters.impact.scheme.name),
+                           /* is_self */ true);
   parameters.impact.check_size(2. * n_nodes_around * n_nodes_across *
                                  parameters.degree * parameters.degree,
                                2);

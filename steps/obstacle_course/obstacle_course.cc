@@ -193,7 +193,9 @@ void
 ObstacleCourse::validate() const
 {
   if (touches_itself)
-    check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
+    check_pair_combination(impact.contact,
+                           scheme_traits(impact.scheme.name),
+                           /* is_self */ true);
   material.validate(2, impact.scheme.name);
   impact.validate(material.law == "linear elastic",
                   material.viscosity != "none" && material.viscosity_eta > 0.);

@@ -130,7 +130,14 @@ class FoldingStrip(ProgramTest):
     def test_on_a_circle_with_friction(self):
         """Forces of both contacts have all directions here, and nodes that can touch
         themselves have multipliers, which are nothing to the obstacle."""
-        for treatment in ("persistent contact", "Signorini active set"):
+        code, out, err = self.attempt(
+            "obstacle_course", NO_FIELDS + ["Obstacle/Shape=circle",
+                                            "Body/Centre=0.1,1.15"],
+            prm=FILES / "folding_strip.prm")
+        self.assertEqual(code, 1, msg=out + err)
+        self.assertIn("with a curved or moving obstacle is not there",
+                      " ".join(err.split()))
+        for treatment in ("Ayyad-Barboteu two-step", "Signorini active set"):
             with self.subTest(treatment):
                 ledger = self.fall(treatment, "Obstacle/Shape=circle",
                                    "Body/Centre=0.1,1.15", "Time/Final time=0.1",

@@ -264,6 +264,7 @@ namespace Ricochet
           [&](const auto &cell, const unsigned int f) {
             Face<dim> slave = make_face<dim>(CellIterator<dim>(cell), f);
             slave.unknowns  = unknowns_of(body, cell);
+            slave_area[cell->face(f)->boundary_id()] += slave.length();
             for (const Cut<dim> &part : cut(slave, master))
               for (unsigned int q = 0; q < rule.size(); ++q)
                 {
@@ -340,7 +341,7 @@ namespace Ricochet
                             body.multiplier_system_index(multiplier_indices[i]);
                           const double value = shape.values.shape_value(i, 0);
                           if (index != numbers::invalid_dof_index &&
-                              value != 0.)
+                              std::abs(value) > 1e-12)
                             points.add_multiplier(index, value);
                         }
                     }
@@ -358,6 +359,9 @@ namespace Ricochet
             "of the master before it. Contact/Coupling = cut faces needs the "
             "bodies where they will touch, at small displacements.");
       }
+    for (const ContactPair &pair : pairs)
+      for (const auto id : pair.slave)
+        slave_area[id] = Utilities::MPI::sum(slave_area[id], body.communicator);
     // The same on all ranks.
     using Parts = std::vector<std::pair<unsigned int, unsigned int>>;
     for (const Parts &list :

@@ -6,6 +6,7 @@
 #include <contact/surfaces/contact_pair.h>
 #include <materials/linear_elastic.h>
 
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -39,6 +40,8 @@ namespace Ricochet
   struct CutFaces
   {
     ContactPoints points;
+    /// Of all of the slave, by boundary id (m^(dim-1)).
+    std::map<dealii::types::boundary_id, double> slave_area;
     /// Which parts (material ids) meet.
     std::set<std::pair<unsigned int, unsigned int>> parts;
 

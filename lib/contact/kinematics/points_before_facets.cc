@@ -283,6 +283,8 @@ namespace Ricochet
             if (std::abs(along) > 1e-8 * length)
               continue;
             const unsigned int other = step.chain.nodes[n];
+            if (master.nodes[other].is_held)
+              continue;
             const double own_turn = turn_at(node), other_turn = turn_at(other);
             if (std::abs(own_turn - other_turn) < 1e-8 ? other < node
                                                        : other_turn < own_turn)
@@ -417,6 +419,8 @@ namespace Ricochet
   {
     if constexpr (dim > 1)
       {
+        if (is_other_side(p))
+          return;
         if (has_other_sides())
           {
             find_valley(p, new_positions);

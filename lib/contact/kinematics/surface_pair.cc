@@ -285,6 +285,20 @@ namespace Ricochet
 
   template <int dim>
   bool
+  SurfacePair<dim>::shares_node(const Point &point, const unsigned int f) const
+  {
+    for (const unsigned int of_point : point.facets)
+      for (const unsigned int a : slave.facets[of_point].nodes)
+        for (const unsigned int b : master.facets[f].nodes)
+          if (a == b)
+            return true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  bool
   SurfacePair<dim>::can_touch_itself(
     const Point                 &point,
     const unsigned int           f,
@@ -293,11 +307,8 @@ namespace Ricochet
     const std::vector<Position> &master_x) const
   {
     const auto &own = master.facets[f];
-    for (const unsigned int of_point : point.facets)
-      for (const unsigned int a : slave.facets[of_point].nodes)
-        for (const unsigned int b : own.nodes)
-          if (a == b)
-            return false;
+    if (shares_node(point, f))
+      return false;
     // Between the far sides of a wall is its material, which becomes thinner by less
     // than half; what is pressed into a facet is nearer to it than that.
     dealii::Point<dim> reference;
@@ -325,8 +336,10 @@ namespace Ricochet
       }
     // Where the surface is about to be folded it does not face itself yet; but what is
     // behind such a facet is only round a corner.
-    const double cosine = product / std::sqrt(square * square_of_point);
-    return gap > (cosine < 0. ? -.5 * distance * std::sqrt(square) : 0.) &&
+    const double cosine  = product / std::sqrt(square * square_of_point);
+    const bool   is_wall = slave.facets[point.facets[0]].part == own.part;
+    const double depth   = is_wall ? .5 * distance : own.measure;
+    return gap > (cosine < 0. ? -depth * std::sqrt(square) : 0.) &&
       cosine < std::sqrt(.5);
   }
 

@@ -313,6 +313,10 @@ namespace Ricochet
                const double                 largest_distance =
                  std::numeric_limits<double>::infinity()) const;
 
+    /// Whether the @p point and facet @p f of one surface hang together.
+    bool
+    shares_node(const Point &point, const unsigned int f) const;
+
     /// Whether facet @p f of its own surface can touch the @p point at @p y.
     bool
     can_touch_itself(const Point                 &point,

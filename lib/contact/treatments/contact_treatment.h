@@ -32,7 +32,7 @@ namespace Ricochet
     /// mu and c_tau (Pa s/m) of Coulomb's friction.
     double friction_coefficient  = 0.;
     double tangential_compliance = 1e3;
-    /// Between bodies: "points", "mortar" or "dual mortar".
+    /// Between bodies: "points", "mortar", "dual mortar" or "cut faces".
     std::string coupling = "points";
 
     void
@@ -75,10 +75,12 @@ namespace Ricochet
   /// The same for contact between bodies, beside check_combination(). Where what is
   /// before what changes, it is formulated over the steps of the midpoint scheme, for
   /// treatments that need neither stress nor the multipliers of rigid obstacles.
+  /// @param is_self a surface touches itself.
   /// @throws InputError that names what is allowed.
   void
   check_pair_combination(const ContactParameters &parameters,
-                         const SchemeTraits      &scheme);
+                         const SchemeTraits      &scheme,
+                         const bool               is_self = false);
 
   /// The multiplier space that the treatment of @p parameters needs.
   MultiplierSpace

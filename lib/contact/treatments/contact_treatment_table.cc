@@ -312,7 +312,8 @@ namespace Ricochet
 
   void
   check_pair_combination(const ContactParameters &parameters,
-                         const SchemeTraits      &scheme)
+                         const SchemeTraits      &scheme,
+                         const bool               is_self)
   {
     if (parameters.coupling == "cut faces")
       {
@@ -331,7 +332,8 @@ namespace Ricochet
     const auto good = [](const ContactLawTraits &traits) {
       return !traits.uses_stress && !traits.needs_multiplier;
     };
-    if (!good(find(parameters).traits) && !find(parameters).traits.nodal)
+    if (!is_self && !good(find(parameters).traits) &&
+        !find(parameters).traits.nodal)
       throw InputError(
         "Between bodies the contact treatment '" + parameters.treatment +
         "' cannot be combined with Contact/Coupling = " + parameters.coupling +
@@ -519,6 +521,7 @@ namespace Ricochet
       body,
       make_law(parameters, scheme),
       cut_faces.points,
+      cut_faces.slave_area,
       CoulombFriction{parameters.friction_coefficient,
                       parameters.tangential_compliance},
       parameters.augmentation,

@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 namespace Ricochet
@@ -96,6 +97,29 @@ namespace Ricochet
   {
     PointwiseContact::complete_open_tangent(tangent);
     add_free_multipliers(tangent);
+  }
+
+
+
+  ContactSummaries
+  CutFaceContact::summary(const Vector &solution,
+                          const Vector &contact_force,
+                          const double  time)
+  {
+    ContactSummaries summaries =
+      PointwiseContact::summary(solution, contact_force, time);
+    for (const auto &[id, area] : slave_area)
+      {
+        const auto [entry, is_new] = summaries.emplace(id, ContactSummary());
+        ContactSummary &own        = entry->second;
+        if (is_new)
+          own.mean_gap = own.smallest_gap =
+            std::numeric_limits<double>::quiet_NaN();
+        own.contact_pressure *= own.area / area;
+        own.stress_pressure *= own.area / area;
+        own.area = area;
+      }
+    return summaries;
   }
 
 

@@ -4,6 +4,7 @@
 
 #include <contact/treatments/pointwise_contact.h>
 
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -20,13 +21,16 @@ namespace Ricochet
   {
   public:
     /// The parameters are those of PointwiseContact.
+    /// @param slave_area by boundary id (m^(dim-1)).
     template <int dim>
-    CutFaceContact(const Body<dim>            &body,
-                   std::unique_ptr<ContactLaw> law,
-                   const ContactPoints        &points,
-                   const CoulombFriction      &friction,
-                   const double                augmentation,
-                   const bool                  modified_energy)
+    CutFaceContact(
+      const Body<dim>                                    &body,
+      std::unique_ptr<ContactLaw>                         law,
+      const ContactPoints                                &points,
+      const std::map<dealii::types::boundary_id, double> &slave_area,
+      const CoulombFriction                              &friction,
+      const double                                        augmentation,
+      const bool                                          modified_energy)
       : PointwiseContact(body,
                          std::move(law),
                          points,
@@ -34,6 +38,7 @@ namespace Ricochet
                          friction,
                          augmentation,
                          modified_energy)
+      , slave_area(slave_area)
     {
       find_couplings(points);
       find_free_multipliers(points,
@@ -56,6 +61,20 @@ namespace Ricochet
     ContactStructure
     tangent_structure() const override;
 
+    /// A slave of which nothing is before the master has no gap.
+    bool
+    gaps_may_be_unknown() const override
+    {
+      return true;
+    }
+
+    /// Areas and mean pressures are those of the whole slave, mean gaps those of its
+    /// cut faces.
+    ContactSummaries
+    summary(const Vector &solution,
+            const Vector &contact_force,
+            const double  time) override;
+
     const Couplings *
     couplings() override
     {
@@ -74,7 +93,8 @@ namespace Ricochet
     void
     add_free_multipliers(Matrix &tangent) const;
 
-    Couplings constant_couplings;
+    const std::map<dealii::types::boundary_id, double> slave_area;
+    Couplings                                          constant_couplings;
     // Of this rank.
     std::vector<dealii::types::global_dof_index> free_multipliers;
     double                                       stage_weight = 1.;
