@@ -116,6 +116,14 @@ class ProgramTest(unittest.TestCase):
             yield from pool.map(run, enumerate(cases))
 
 
+def largest(values):
+    return max(map(abs, values))
+
+
+def increments(values):
+    return [b - a for a, b in zip(values, values[1:])]
+
+
 def is_debug_build():
     """Debug programs are several times slower: tests shorten their runs."""
     result = subprocess.run([program_path("bar_sd"), "--version"],

@@ -40,14 +40,6 @@ PAIR_TREATMENTS = (KEEP_ENERGY + KEEP_MODIFIED_ENERGY +
                    ["standard normal compliance at midpoint"])
 
 
-def largest(values):
-    return max(map(abs, values))
-
-
-def increments(values):
-    return [b - a for a, b in zip(values, values[1:])]
-
-
 class BodiesTest(ProgramTest):
 
     def check_parts(self, program, ledger):

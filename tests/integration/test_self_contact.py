@@ -53,14 +53,6 @@ def setUpModule():
     unittest.addModuleCleanup(shutil.rmtree, shared_folder, ignore_errors=True)
 
 
-def largest(values):
-    return max(map(abs, values))
-
-
-def increments(values):
-    return [b - a for a, b in zip(values, values[1:])]
-
-
 class SelfContactTest(ProgramTest):
 
     def long_run(self):

@@ -27,14 +27,6 @@ VISCOSITY = {
 CORRECTED = ["Linear solver/Type=corrected"]
 
 
-def largest(values):
-    return max(map(abs, values))
-
-
-def increments(values):
-    return [b - a for a, b in zip(values, values[1:])]
-
-
 class ThrownBodies(ProgramTest):
 
     def body(self, program):

@@ -21,17 +21,6 @@ namespace Ricochet
       return entry->second;
     }
 
-    /// Whether the multiplier @p i of a cell is one of pressure.
-    template <int dim>
-    bool
-    is_pressure(const Body<dim> &body, const unsigned int i)
-    {
-      return body.multiplier_dof_handler()
-               .get_fe()
-               .system_to_component_index(i)
-               .first == 0;
-    }
-
     /// What a point at @p x knows of the obstacle of its boundary.
     void
     set_obstacle(const Obstacles         &obstacles,
@@ -147,8 +136,7 @@ namespace Ricochet
                     const types::global_dof_index index =
                       body.multiplier_system_index(multiplier_indices[i]);
                     const double value = multiplier_values->shape_value(i, q);
-                    if (!is_pressure(body, i))
-                      continue;
+
                     // Multipliers off the contact boundary do not exist, and
                     // the shape functions of the others sum up to 1 on it.
                     if (index == numbers::invalid_dof_index || value == 0.)
@@ -256,10 +244,8 @@ namespace Ricochet
                   info.index[c] = body.system_index(
                     indices[element.component_to_system_index(c, node)]);
                 if (with_multipliers)
-                  info.index[dim] = body.multiplier_system_index(
-                    multiplier_indices[body.multiplier_dof_handler()
-                                         .get_fe()
-                                         .component_to_system_index(0, node)]);
+                  info.index[dim] =
+                    body.multiplier_system_index(multiplier_indices[node]);
 
                 set_obstacle(obstacles,
                              face->boundary_id(),

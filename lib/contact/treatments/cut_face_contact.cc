@@ -54,20 +54,11 @@ namespace Ricochet
 
 
   void
-  CutFaceContact::begin_stage(const ContactStart &start, const double weight)
-  {
-    stage_weight = weight;
-    PointwiseContact::begin_stage(start, weight);
-  }
-
-
-
-  void
   CutFaceContact::complete_residual(const Vector &solution, Vector &residual)
   {
     PointwiseContact::complete_residual(solution, residual);
     for (const auto index : free_multipliers)
-      residual(index) -= stage_weight * solution(index);
+      residual(index) -= stage_weight() * solution(index);
     residual.compress(VectorOperation::add);
   }
 
@@ -77,7 +68,7 @@ namespace Ricochet
   CutFaceContact::add_free_multipliers(Matrix &tangent) const
   {
     for (const auto index : free_multipliers)
-      tangent.add(index, index, -stage_weight);
+      tangent.add(index, index, -stage_weight());
     tangent.compress(VectorOperation::add);
   }
 

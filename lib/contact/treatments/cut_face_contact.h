@@ -47,9 +47,6 @@ namespace Ricochet
     }
 
     void
-    begin_stage(const ContactStart &start, const double weight) override;
-
-    void
     complete_residual(const Vector &solution, Vector &residual) override;
 
     void
@@ -97,7 +94,6 @@ namespace Ricochet
     Couplings                                          constant_couplings;
     // Of this rank.
     std::vector<dealii::types::global_dof_index> free_multipliers;
-    double                                       stage_weight = 1.;
   };
 } // namespace Ricochet
 

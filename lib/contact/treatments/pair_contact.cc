@@ -199,7 +199,7 @@ namespace Ricochet
             if (state.candidate &&
                 pair_of(state).passage(state.point) != state.accepted_passage)
               pairs[state.pair]->stay_at_vertex(state.point, tolerance);
-        // Others sides of valleys may have come in.
+        // Other sides of valleys may have come in.
         if (n_returns > 1)
           for (PointState &state : states)
             if (pair_of(state).is_other_side(state.point))

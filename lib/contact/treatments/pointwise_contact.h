@@ -157,6 +157,14 @@ namespace Ricochet
                    const Vector &contact_force,
                    const double  time) override;
 
+  protected:
+    /// The factor of contact in the residual of the stage.
+    double
+    stage_weight() const
+    {
+      return weight;
+    }
+
   private:
     /// The normal force (N) in a point, at #state.
     double
