@@ -35,6 +35,8 @@ build()
   folder="build/$(echo "$1" | tr '[:upper:]' '[:lower:]')"
   shift
   [ "$#" -eq 0 ] || type="Release"
+  # A new folder is for a build from scratch; one that exists keeps its options.
+  [ -e "$folder/CMakeCache.txt" ] || set -- "$@" -DRICOCHET_UNITY=ON
   # Debian's interpreter is the one that sees Debian's matplotlib and h5py.
   cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE="$type" "$@" \
     -DPython3_EXECUTABLE=/usr/bin/python3 >"/tmp/ricochet-cmake-$$.log" ||

@@ -68,6 +68,14 @@ namespace Ricochet
     virtual const Vector &
     contact_force() const = 0;
 
+    /// The part of contact_force() between surfaces of bodies, where obstacles have
+    /// a share in it too; null otherwise. Also right after force_at().
+    virtual const Vector *
+    force_between_surfaces() const
+    {
+      return nullptr;
+    }
+
     /// The part of contact_force() that friction makes; null without friction.
     virtual const Vector *
     friction_force() const

@@ -41,6 +41,20 @@ namespace Ricochet
         const bool          is_active);
   };
 
+  /// A solved state, as far as what is told of contact depends on it.
+  struct ContactInstant
+  {
+    /// Unknowns.
+    const Vector &solution;
+    /// Contact force (N); of two-point treatments that over the last step.
+    const Vector &contact_force;
+    /// s
+    double time = 0.;
+    /// The part of contact_force between surfaces of bodies, where obstacles have
+    /// a share in it too; null otherwise.
+    const Vector *force_between_surfaces = nullptr;
+  };
+
   /// By boundary id.
   using ContactSummaries = std::map<dealii::types::boundary_id, ContactSummary>;
 
@@ -86,18 +100,14 @@ namespace Ricochet
     /// it is read off the force, elsewhere it is the law's pressure at the
     /// solution.
     virtual Vector
-    pressure_field(const Vector &solution,
-                   const Vector &contact_force,
-                   const double  time) = 0;
+    pressure_field(const ContactInstant &instant) = 0;
 
     /// Whether the summary has the pressure of the body's own stress.
     virtual bool
     knows_stress_pressure() const = 0;
 
     virtual ContactSummaries
-    summary(const Vector &solution,
-            const Vector &contact_force,
-            const double  time) = 0;
+    summary(const ContactInstant &instant) = 0;
   };
 
   /// Complete the entries of @p my_sums that are means or totals over all

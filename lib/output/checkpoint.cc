@@ -19,7 +19,7 @@ namespace Ricochet
 
   namespace
   {
-    const std::string magic     = "Ricochet checkpoint, format 6\n";
+    const std::string magic     = "Ricochet checkpoint, format 7\n";
     const std::string file_name = "checkpoint.bin";
 
     /// The vectors of a state, in the order in which they are stored.
@@ -31,6 +31,7 @@ namespace Ricochet
       visit(state.velocity);
       visit(state.acceleration);
       visit(state.contact_force);
+      visit(state.force_between_surfaces);
       visit(state.mean_velocity);
       visit(state.scheme_force);
     }

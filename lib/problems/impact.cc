@@ -247,14 +247,6 @@ namespace Ricochet
             make_pair_contact(parameters.contact, body, setup.pairs);
           if (setup.obstacles.empty())
             return between;
-          // Before others it starts from the nodes that were pressed, whatever by.
-          if (parameters.contact.treatment == "persistent contact")
-            for (const auto &obstacle : setup.obstacles)
-              if (!obstacle.second->is_plane_at_rest())
-                throw InputError(
-                  "Persistent contact of a body both with itself or others and with "
-                  "a curved or moving obstacle is not there. Take Ayyad-Barboteu "
-                  "two-step, improved normal compliance or Signorini active set.");
           // Multipliers are where surfaces touch each other.
           if (body.has_multipliers())
             for (const auto &obstacle : setup.obstacles)

@@ -169,9 +169,14 @@ namespace Ricochet
           scheme.step(system, old_state, time_step, new_state);
         if (obstacle_work && system.contact.has_moving_obstacles())
           {
+            // What surfaces of bodies do to each other is not the obstacles' work.
             Vector force(new_state.contact_force);
+            force -= new_state.force_between_surfaces;
             if (!scheme.contact_force_is_of_step())
-              force.sadd(.5, .5, old_state.contact_force);
+              {
+                force.sadd(.5, .5, old_state.contact_force);
+                force.add(-.5, old_state.force_between_surfaces);
+              }
             report.obstacle_work = obstacle_work(old_state.solution,
                                                  new_state.solution,
                                                  force,
@@ -199,7 +204,12 @@ namespace Ricochet
     report += advance(middle, .5 * time_step, n_halvings_so_far + 1, new_state);
     // A force over the step is the mean of those over its halves.
     if (scheme.contact_force_is_of_step())
-      new_state.contact_force.sadd(.5, .5, middle.contact_force);
+      {
+        new_state.contact_force.sadd(.5, .5, middle.contact_force);
+        new_state.force_between_surfaces.sadd(.5,
+                                              .5,
+                                              middle.force_between_surfaces);
+      }
     return report;
   }
 
@@ -281,7 +291,10 @@ namespace Ricochet
                 static_cast<double>(report.linear_solves),
                 static_cast<double>(sums.n_halvings)});
     const auto summaries =
-      system.contact.summary(state.solution, state.contact_force, state.time);
+      system.contact.summary({state.solution,
+                              state.contact_force,
+                              state.time,
+                              &state.force_between_surfaces});
     for (const auto &entry : contact_names)
       {
         const ContactSummary &contact = summaries.at(entry.first);

@@ -91,9 +91,7 @@ namespace Ricochet
     new_state.time     = old_state.time + time_step;
     new_state.solution = solution.block(0);
     new_state.velocity = solution.block(1);
-    system.contact.force_at(new_state.solution,
-                            new_state.time,
-                            new_state.contact_force);
+    system.set_contact_force(new_state);
     system.total_force(new_state.solution,
                        new_state.contact_force,
                        new_state.time,

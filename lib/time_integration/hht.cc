@@ -47,10 +47,7 @@ namespace Ricochet
                            .5 * dt * dt,
                            old_state.acceleration);
     StepReport report;
-    report.newton_iterations = system.solve_stage(stage,
-                                                  old_state,
-                                                  new_state.solution,
-                                                  new_state.contact_force);
+    report.newton_iterations = system.solve_stage(stage, old_state, new_state);
     report.linear_solves     = report.newton_iterations;
 
     new_state.acceleration = new_state.solution;

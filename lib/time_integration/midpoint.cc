@@ -32,10 +32,7 @@ namespace Ricochet
     // The guess is free flight: in this scheme accelerations alternate.
     new_state.solution.add(dt, old_state.velocity);
     StepReport report;
-    report.newton_iterations = system.solve_stage(stage,
-                                                  old_state,
-                                                  new_state.solution,
-                                                  new_state.contact_force);
+    report.newton_iterations = system.solve_stage(stage, old_state, new_state);
     report.linear_solves     = report.newton_iterations;
 
     work = new_state.solution;

@@ -142,11 +142,12 @@ namespace Ricochet
         unknowns.impose_rate(time, state.velocity);
       }
     state.contact_force.reinit(displacement);
+    state.force_between_surfaces.reinit(displacement);
     state.acceleration.reinit(displacement);
     state.scheme_force.reinit(displacement);
     state.mean_velocity = state.velocity;
 
-    contact.force_at(state.solution, time, state.contact_force);
+    set_contact_force(state);
     total_force(state.solution, state.contact_force, time, force);
     force *= -1.;
     solve_mass(force, state.acceleration);
@@ -156,12 +157,20 @@ namespace Ricochet
     return state;
   }
 
+  void
+  SemiDiscreteSystem::set_contact_force(State &state) const
+  {
+    contact.force_at(state.solution, state.time, state.contact_force);
+    if (const Vector *share = contact.force_between_surfaces())
+      state.force_between_surfaces = *share;
+  }
+
   unsigned int
   SemiDiscreteSystem::solve_stage(const Stage &stage,
                                   const State &old_state,
-                                  Vector      &solution,
-                                  Vector      &contact_force)
+                                  State       &new_state)
   {
+    Vector      &solution = new_state.solution;
     StageProblem problem({mass,
                           bulk,
                           contact,
@@ -195,7 +204,8 @@ namespace Ricochet
                              old_state.contact_force,
                              old_state.mean_velocity,
                              stage.time_step,
-                             stage.end_time};
+                             stage.end_time,
+                             &old_state.force_between_surfaces};
     const auto                  solve_all_passes = [&]() {
       problem.forget_tangents();
       contact.begin_stage(start, stage.contact_weight_new);
@@ -232,7 +242,9 @@ namespace Ricochet
             throw NewtonFailure(newton_failure.what() + reason + "\n");
           }
       }
-    contact_force = contact.contact_force();
+    new_state.contact_force = contact.contact_force();
+    if (const Vector *share = contact.force_between_surfaces())
+      new_state.force_between_surfaces = *share;
     return problem.n_iterations();
   }
 

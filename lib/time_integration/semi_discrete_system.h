@@ -31,6 +31,9 @@ namespace Ricochet
     /// Contact force at this instant (two-point treatments: over the last
     /// step), on the side of the internal forces (N).
     Vector contact_force;
+    /// The part of contact_force between surfaces of bodies, where obstacles have
+    /// a share in it too; zero otherwise (N).
+    Vector force_between_surfaces;
     /// Mean velocity over the last step, (u_new - u_old)/dt (m/s), which
     /// predictors of the gap need; kept by the midpoint scheme.
     Vector mean_velocity;
@@ -102,17 +105,18 @@ namespace Ricochet
                   const double  time);
 
     /**
-   * Solve @p stage. @p solution holds the initial guess and gets the
-   * result; @p contact_force gets the contact force at the result.
+   * Solve @p stage. The solution of @p new_state holds the initial guess and gets
+   * the result, its forces of contact those at the result.
    *
    * @return the number of Newton iterations (linear solves).
    * @throws NewtonFailure
    */
     unsigned int
-    solve_stage(const Stage &stage,
-                const State &old_state,
-                Vector      &solution,
-                Vector      &contact_force);
+    solve_stage(const Stage &stage, const State &old_state, State &new_state);
+
+    /// The forces of contact at the instant of @p state, from its solution alone.
+    void
+    set_contact_force(State &state) const;
 
     /// bulk(solution) + @p contact_force - load(time).
     void

@@ -49,10 +49,8 @@ namespace Ricochet
     system.external_load(new_state.time, stage.load);
 
     new_state.solution.add((1. - gamma) * dt, middle.velocity);
-    const unsigned int iterations = system.solve_stage(stage,
-                                                       middle,
-                                                       new_state.solution,
-                                                       new_state.contact_force);
+    const unsigned int iterations =
+      system.solve_stage(stage, middle, new_state);
     report.newton_iterations += iterations;
     report.linear_solves += iterations;
 

@@ -934,7 +934,7 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_in_nodes)
   // Pressures 8 and 1.6 Pa: 8/4 + 1.6/2 N, against the body's way down.
   BOOST_CHECK_CLOSE(boundary_sum(body, force, 1, 2), -2.8, round_off);
   BOOST_CHECK_SMALL(boundary_sum(body, force, 0, 2), 1e-14);
-  auto summary = contact->summary(solution, force, 0.).at(2);
+  auto summary = contact->summary({solution, force, 0.}).at(2);
   BOOST_CHECK_CLOSE(summary.area, 2., round_off);
   BOOST_CHECK_CLOSE(summary.mean_gap, .06, round_off);
   BOOST_CHECK_CLOSE(summary.smallest_gap, -.1, round_off);
@@ -952,7 +952,7 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_in_nodes)
                                        body,
                                        LinearElastic{1., 1.},
                                        foundation);
-  summary               = active_set->summary(solution, force, 0.).at(2);
+  summary               = active_set->summary({solution, force, 0.}).at(2);
   BOOST_CHECK_CLOSE(summary.mean_gap, .06, round_off);
   BOOST_CHECK_CLOSE(summary.smallest_gap, -.1, round_off);
   BOOST_CHECK_CLOSE(summary.max_penetration, .1, round_off);
@@ -981,7 +981,7 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_in_nodes)
                                         {[](const Point<2> &) { return 0.; },
                                          [](const Point<2> &) { return 1.; }});
   contact->force_at(raised, 0., force);
-  summary = contact->summary(raised, force, 0.).at(2);
+  summary = contact->summary({raised, force, 0.}).at(2);
   BOOST_CHECK_CLOSE(summary.mean_gap, 1.25, round_off);
   BOOST_CHECK_CLOSE(summary.smallest_gap, 1.25, round_off);
   BOOST_CHECK_EQUAL(summary.max_penetration, 0.);
@@ -1011,7 +1011,7 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_by_integration)
   Vector force = body.make_vector();
   contact->force_at(solution, 0., force);
   const double epsilon = .1 * std::sqrt(.5);
-  const auto   summary = contact->summary(solution, force, 0.).at(2);
+  const auto   summary = contact->summary({solution, force, 0.}).at(2);
   BOOST_CHECK_CLOSE(summary.mean_gap, -.2, round_off);
   // The first Gauss point lies at x = (1 - 1/sqrt(3))/4.
   const double deepest = .3 - .025 * (1. - 1. / std::sqrt(3.));
@@ -1051,7 +1051,7 @@ BOOST_AUTO_TEST_CASE(nitsche_pressure_of_a_pressed_block)
   contact->force_at(solution, 0., force);
   const double gamma = 100. / std::sqrt(.5), p = (lambda + 2. * mu) * .02,
                q     = p + gamma * .05;
-  const auto summary = contact->summary(solution, force, 0.).at(2);
+  const auto summary = contact->summary({solution, force, 0.}).at(2);
   BOOST_CHECK_CLOSE(summary.stress_pressure, p, round_off);
   BOOST_CHECK_CLOSE(summary.contact_pressure, q, round_off);
   BOOST_CHECK_CLOSE(summary.force, 2. * q, round_off);
@@ -1082,7 +1082,7 @@ BOOST_AUTO_TEST_CASE(gap_to_an_oblique_plane)
                      [](const Point<2> &) { return -1.5; }});
   Vector force = body.make_vector();
   contact->force_at(solution, 0., force);
-  const auto summary = contact->summary(solution, force, 0.).at(2);
+  const auto summary = contact->summary({solution, force, 0.}).at(2);
   BOOST_CHECK_CLOSE(summary.mean_gap, .2, round_off);
   BOOST_CHECK_CLOSE(summary.smallest_gap, -.4, round_off);
   // One corner of length 1/2 under 10 0.4 Pa, pushed along the normal.
@@ -1453,7 +1453,7 @@ BOOST_AUTO_TEST_CASE(block_that_slides_down_its_speed)
           const StepReport report =
             impact.scheme->step(impact.system, state, time_step, next);
           const double pressed =
-            impact.contact->summary(next.solution, next.contact_force, 0.)
+            impact.contact->summary({next.solution, next.contact_force, 0.})
               .at(2)
               .force;
           const Tensor<1, 2> gained =

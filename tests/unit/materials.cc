@@ -24,6 +24,8 @@ using dealii::Tensor;
 using AD  = Sacado::Fad::DFad<double>;
 using AD2 = Sacado::Fad::DFad<AD>;
 
+BOOST_AUTO_TEST_SUITE(materials)
+
 namespace
 {
   const CiarletGeymonat      ciarlet_geymonat{.5, .005, .35};
@@ -336,7 +338,6 @@ namespace
 } // namespace
 
 
-BOOST_AUTO_TEST_SUITE(materials)
 
 BOOST_AUTO_TEST_CASE(derivatives_are_derivatives)
 {

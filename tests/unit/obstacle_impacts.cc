@@ -286,7 +286,8 @@ BOOST_AUTO_TEST_CASE(instants_see_the_obstacle_where_it_is)
       met.step(1e-3);
       const auto summary =
         met.impact->contact
-          ->summary(met.state.solution, met.state.contact_force, met.state.time)
+          ->summary(
+            {met.state.solution, met.state.contact_force, met.state.time})
           .at(1);
       BOOST_CHECK_CLOSE(summary.mean_gap, -5e-3, 8.);
     }

@@ -696,9 +696,8 @@ BOOST_AUTO_TEST_CASE(bars_exchange_their_velocities)
       bars.step(1e-8);
       mean_force += .01 *
         bars.impact->contact
-          ->summary(bars.state.solution,
-                    bars.state.contact_force,
-                    bars.state.time)
+          ->summary(
+            {bars.state.solution, bars.state.contact_force, bars.state.time})
           .at(rectangle_side(0, Rectangle::right))
           .force;
     }

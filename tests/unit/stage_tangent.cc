@@ -301,11 +301,11 @@ BOOST_AUTO_TEST_CASE(pressure_fields_do_not_remember_iterates)
       contact->complete_residual(pressed, residual);
       contact->accept_iterate();
       const Vector force(contact->contact_force());
-      const Vector before = contact->pressure_field(pressed, force, 0.);
+      const Vector before = contact->pressure_field({pressed, force, 0.});
       BOOST_CHECK_GT(before.linfty_norm(), .05);
       residual = 0.;
       contact->complete_residual(failed, residual);
-      Vector after = contact->pressure_field(pressed, force, 0.);
+      Vector after = contact->pressure_field({pressed, force, 0.});
       after -= before;
       BOOST_CHECK_EQUAL(after.linfty_norm(), 0.);
     }

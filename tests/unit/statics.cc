@@ -47,15 +47,16 @@ namespace
     const Vector zero = impact.body.make_vector();
     State        rest;
     rest.solution = rest.velocity = rest.acceleration = rest.contact_force =
-      rest.mean_velocity = rest.scheme_force = zero;
+      rest.force_between_surfaces = rest.mean_velocity = rest.scheme_force =
+        zero;
     Stage stage;
     stage.inertia_origin = zero;
     stage.load           = zero;
     stage.time_step      = 1.;
     stage.end_time       = end_time;
-    std::pair<Vector, Vector> result(zero, zero);
-    impact.system.solve_stage(stage, rest, result.first, result.second);
-    return result;
+    State result         = rest;
+    impact.system.solve_stage(stage, rest, result);
+    return {result.solution, result.contact_force};
   }
 
   /// A unit cube without lateral contraction, held at its top, on a plane that
@@ -100,10 +101,10 @@ namespace
       ", degree " + std::to_string(degree) + ", " + std::to_string(dim) + "D";
     BOOST_CHECK_MESSAGE(difference.linfty_norm() < 1e-10,
                         name << ": error " << difference.linfty_norm());
-    const auto summary = impact.contact->summary(solution, force, 0.);
+    const auto summary = impact.contact->summary({solution, force, 0.});
     BOOST_CHECK_CLOSE(summary.at(1).force, pressure, 1e-8);
     // And the pressure is uniform, not only in the mean.
-    const Vector field = impact.contact->pressure_field(solution, force, 0.);
+    const Vector field = impact.contact->pressure_field({solution, force, 0.});
     double       worst = 0.;
     unsigned int n     = 0;
     for (const auto i : field.locally_owned_elements())
@@ -184,12 +185,12 @@ namespace
         return x[0] * x[0] + x[1] * x[1];
       });
     const double total =
-      impact.contact->summary(solution, force, 0.).at(1).force;
+      impact.contact->summary({solution, force, 0.}).at(1).force;
     const double radius = std::sqrt(2.5 * std::abs(square * force) / total);
     // The pressure is discontinuous and its largest value wherever it happens to
     // be; so the mean over the nodes near the pole, where Hertz's is 0.984 of
     // the peak.
-    const Vector field = impact.contact->pressure_field(solution, force, 0.);
+    const Vector field = impact.contact->pressure_field({solution, force, 0.});
     std::map<dealii::types::global_dof_index, dealii::Point<3>> positions;
     dealii::DoFTools::map_dofs_to_support_points(impact.body.mapping(),
                                                  impact.body.dof_handler(),
@@ -296,7 +297,7 @@ namespace
         [value](const Point<2> &x) { return x[1] < 0. ? value(x[0]) : 0.; };
     };
     const double total =
-      impact.contact->summary(solution, force, 0.).at(slave).force;
+      impact.contact->summary({solution, force, 0.}).at(slave).force;
     const double square =
       vertical<2>(impact.body, of_lower([](const double x) { return x * x; })) *
       force;
@@ -310,7 +311,7 @@ namespace
     const double exact_peak = 2. * total / (dealii::numbers::PI * exact_radius);
     // The pressure of single nodes goes up and down; the mean over the middle third,
     // weighted with the length that each node stands for.
-    const Vector field = impact.contact->pressure_field(solution, force, 0.);
+    const Vector field = impact.contact->pressure_field({solution, force, 0.});
     std::map<dealii::types::global_dof_index, Point<2>> positions;
     dealii::DoFTools::map_dofs_to_support_points(impact.body.mapping(),
                                                  impact.body.dof_handler(),
@@ -459,7 +460,7 @@ namespace
       (1. / (soft.lambda + 2. * soft.mu) +
        (1. + overlap) / (stiff.lambda + 2. * stiff.mu) + compliance);
     const double pressure = press * stiffness;
-    const Vector field    = impact.contact->pressure_field(solution, force, 1.);
+    const Vector field = impact.contact->pressure_field({solution, force, 1.});
     double       worst = 0., n = 0.;
     for (const auto i : field.locally_owned_elements())
       if (const double value = field(i); value != 0.)

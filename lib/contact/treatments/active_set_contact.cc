@@ -403,18 +403,17 @@ namespace Ricochet
 
 
   Vector
-  ActiveSetContact::pressure_field(const Vector &solution,
-                                   const Vector &contact_force,
-                                   const double  time)
+  ActiveSetContact::pressure_field(const ContactInstant &instant)
   {
-    kinematics->begin_instant(time);
-    kinematics->evaluate(solution, state);
+    kinematics->begin_instant(instant.time);
+    kinematics->evaluate(instant.solution, state);
     std::vector<double> pressures;
     for (unsigned int p = 0; p < nodes.size(); ++p)
       {
         kinematics->update_geometry(p);
-        pressures.push_back(kinematics->nodal_normal_force(p, contact_force) /
-                            evaluator.contact_points()[p].weight);
+        pressures.push_back(
+          kinematics->nodal_normal_force(p, instant.contact_force) /
+          evaluator.contact_points()[p].weight);
       }
     return evaluator.nodal_averages(pressures);
   }
@@ -422,25 +421,23 @@ namespace Ricochet
 
 
   ContactSummaries
-  ActiveSetContact::summary(const Vector &solution,
-                            const Vector &contact_force,
-                            const double  time)
+  ActiveSetContact::summary(const ContactInstant &instant)
   {
-    kinematics->begin_instant(time);
-    kinematics->evaluate(solution, state);
+    kinematics->begin_instant(instant.time);
+    kinematics->evaluate(instant.solution, state);
     ContactSummaries sums;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         const ContactPoint &point = evaluator.contact_points()[p];
         kinematics->update_geometry(p);
         const double node_reaction =
-          kinematics->nodal_normal_force(p, contact_force);
+          kinematics->nodal_normal_force(p, instant.contact_force);
         sums[point.boundary_id].add(point,
                                     state[p].gap,
                                     node_reaction,
                                     node_reaction > 0.);
       }
-    add_stress_pressure(solution, stress_evaluator, stress_state, sums);
+    add_stress_pressure(instant.solution, stress_evaluator, stress_state, sums);
     return reduce_summaries(sums, evaluator.communicator);
   }
 } // namespace Ricochet

@@ -154,14 +154,10 @@ namespace Ricochet
     }
 
     ContactSummaries
-    summary(const Vector &solution,
-            const Vector &contact_force,
-            const double  time) override;
+    summary(const ContactInstant &instant) override;
 
     Vector
-    pressure_field(const Vector &solution,
-                   const Vector &contact_force,
-                   const double  time) override;
+    pressure_field(const ContactInstant &instant) override;
 
   private:
     enum class Status

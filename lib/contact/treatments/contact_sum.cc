@@ -8,6 +8,19 @@ namespace Ricochet
 {
   using namespace dealii;
 
+  namespace
+  {
+    Vector
+    difference(const Vector &a, const Vector &b)
+    {
+      Vector result(a);
+      result -= b;
+      return result;
+    }
+  } // namespace
+
+
+
   template <int dim>
   ContactSum<dim>::ContactSum(std::unique_ptr<ContactOperator> obstacle_contact,
                               std::unique_ptr<PairContact<dim>> pair_contact,
@@ -17,7 +30,9 @@ namespace Ricochet
     , communicator(communicator)
     , has_friction(obstacles->friction_force() || pairs->friction_force())
     , force(pairs->contact_force())
+    , between_surfaces(pairs->contact_force())
     , friction(pairs->contact_force())
+    , old_force_of_obstacles(pairs->contact_force())
   {}
 
 
@@ -26,8 +41,21 @@ namespace Ricochet
   void
   ContactSum<dim>::begin_stage(const ContactStart &start, const double weight)
   {
-    pairs->begin_stage(start, weight);
-    obstacles->begin_stage(start, weight);
+    // Obstacles tell by the force in a node whether it was pressed.
+    old_force_of_obstacles = start.contact_force;
+    old_force_of_obstacles -= *start.force_between_surfaces;
+    pairs->begin_stage({start.solution,
+                        *start.force_between_surfaces,
+                        start.mean_velocity,
+                        start.time_step,
+                        start.end_time},
+                       weight);
+    obstacles->begin_stage({start.solution,
+                            old_force_of_obstacles,
+                            start.mean_velocity,
+                            start.time_step,
+                            start.end_time},
+                           weight);
   }
 
 
@@ -38,7 +66,8 @@ namespace Ricochet
   {
     pairs->complete_residual(solution, residual);
     obstacles->complete_residual(solution, residual);
-    force = pairs->contact_force();
+    between_surfaces = pairs->contact_force();
+    force            = between_surfaces;
     force += obstacles->contact_force();
     if (!has_friction)
       return;
@@ -198,10 +227,9 @@ namespace Ricochet
                             const double  time,
                             Vector       &result)
   {
-    pairs->force_at(solution, time, result);
-    Vector more(result);
-    obstacles->force_at(solution, time, more);
-    result += more;
+    pairs->force_at(solution, time, between_surfaces);
+    obstacles->force_at(solution, time, result);
+    result += between_surfaces;
   }
 
 
@@ -236,30 +264,14 @@ namespace Ricochet
 
   template <int dim>
   Vector
-  ContactSum<dim>::force_of_obstacles(const Vector &solution,
-                                      const Vector &contact_force,
-                                      const double  time)
+  ContactSum<dim>::pressure_field(const ContactInstant &instant)
   {
-    Vector between(contact_force);
-    pairs->reaction_at(solution, time, between);
-    between.sadd(-1., 1., contact_force);
-    return between;
-  }
-
-
-
-  template <int dim>
-  Vector
-  ContactSum<dim>::pressure_field(const Vector &solution,
-                                  const Vector &contact_force,
-                                  const double  time)
-  {
-    Vector sum = obstacles->pressure_field(solution,
-                                           force_of_obstacles(solution,
-                                                              contact_force,
-                                                              time),
-                                           time);
-    sum += pairs->pressure_field(solution, contact_force, time);
+    const Vector of_obstacles =
+      difference(instant.contact_force, *instant.force_between_surfaces);
+    Vector sum =
+      obstacles->pressure_field({instant.solution, of_obstacles, instant.time});
+    sum += pairs->pressure_field(
+      {instant.solution, *instant.force_between_surfaces, instant.time});
     return sum;
   }
 
@@ -267,16 +279,14 @@ namespace Ricochet
 
   template <int dim>
   ContactSummaries
-  ContactSum<dim>::summary(const Vector &solution,
-                           const Vector &contact_force,
-                           const double  time)
+  ContactSum<dim>::summary(const ContactInstant &instant)
   {
+    const Vector of_obstacles =
+      difference(instant.contact_force, *instant.force_between_surfaces);
     ContactSummaries all =
-      obstacles->summary(solution,
-                         force_of_obstacles(solution, contact_force, time),
-                         time);
-    for (const auto &[id, summary] :
-         pairs->summary(solution, contact_force, time))
+      obstacles->summary({instant.solution, of_obstacles, instant.time});
+    for (const auto &[id, summary] : pairs->summary(
+           {instant.solution, *instant.force_between_surfaces, instant.time}))
       all[id_between_surfaces(id)] = summary;
     return all;
   }

@@ -49,6 +49,12 @@ namespace Ricochet
     }
 
     const Vector *
+    force_between_surfaces() const override
+    {
+      return &between_surfaces;
+    }
+
+    const Vector *
     friction_force() const override
     {
       return has_friction ? &friction : nullptr;
@@ -112,27 +118,19 @@ namespace Ricochet
     }
 
     Vector
-    pressure_field(const Vector &solution,
-                   const Vector &contact_force,
-                   const double  time) override;
+    pressure_field(const ContactInstant &instant) override;
 
     ContactSummaries
-    summary(const Vector &solution,
-            const Vector &contact_force,
-            const double  time) override;
+    summary(const ContactInstant &instant) override;
 
   private:
-    /// What of @p contact_force is not between surfaces.
-    Vector
-    force_of_obstacles(const Vector &solution,
-                       const Vector &contact_force,
-                       const double  time);
-
     const std::unique_ptr<ContactOperator>  obstacles;
     const std::unique_ptr<PairContact<dim>> pairs;
     const MPI_Comm                          communicator;
     const bool                              has_friction;
-    Vector                                  force, friction;
+    Vector                                  force, between_surfaces, friction;
+    /// What obstacles did to the bodies in the step before (N).
+    Vector old_force_of_obstacles;
   };
 } // namespace Ricochet
 

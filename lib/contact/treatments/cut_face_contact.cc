@@ -93,12 +93,9 @@ namespace Ricochet
 
 
   ContactSummaries
-  CutFaceContact::summary(const Vector &solution,
-                          const Vector &contact_force,
-                          const double  time)
+  CutFaceContact::summary(const ContactInstant &instant)
   {
-    ContactSummaries summaries =
-      PointwiseContact::summary(solution, contact_force, time);
+    ContactSummaries summaries = PointwiseContact::summary(instant);
     for (const auto &[id, area] : slave_area)
       {
         const auto [entry, is_new] = summaries.emplace(id, ContactSummary());

@@ -68,9 +68,7 @@ namespace Ricochet
     /// Areas and mean pressures are those of the whole slave, mean gaps those of its
     /// cut faces.
     ContactSummaries
-    summary(const Vector &solution,
-            const Vector &contact_force,
-            const double  time) override;
+    summary(const ContactInstant &instant) override;
 
     const Couplings *
     couplings() override

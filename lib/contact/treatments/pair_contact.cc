@@ -855,30 +855,6 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  PairContact<dim>::reaction_at(const Vector &solution,
-                                const double  time,
-                                Vector       &result)
-  {
-    if (method.law)
-      return force_at(solution, time, result);
-    begin_instant(solution, time);
-    force = 0.;
-    for (PointState &state : states)
-      {
-        state.traction = 0.;
-        state.pressure =
-          state.candidate ? pair_of(state).multipliers(state.point)[0] : 0.;
-        add_force(state);
-      }
-    force.compress(VectorOperation::add);
-    clear_multipliers(force);
-    result = force;
-  }
-
-
-
-  template <int dim>
   double
   PairContact<dim>::potential(const Vector &solution, const double time)
   {
@@ -926,18 +902,16 @@ namespace Ricochet
 
   template <int dim>
   Vector
-  PairContact<dim>::pressure_field(const Vector &solution,
-                                   const Vector &contact_force,
-                                   const double  time)
+  PairContact<dim>::pressure_field(const ContactInstant &instant)
   {
-    begin_instant(solution, time);
-    Vector sums(contact_force), weights(contact_force);
+    begin_instant(instant.solution, instant.time);
+    Vector sums(instant.contact_force), weights(instant.contact_force);
     sums = weights = 0.;
     for (const PointState &state : states)
       {
         if (!state.candidate || pair_of(state).is_other_side(state.point))
           continue;
-        const double normal   = normal_force(state, contact_force);
+        const double normal   = normal_force(state, instant.contact_force);
         const Point &point    = point_of(state);
         const auto  &unknowns = pair_of(state).rows(state.point).unknowns;
         for (unsigned int k = 0; k < point.nodes.size(); ++k)
@@ -962,11 +936,9 @@ namespace Ricochet
 
   template <int dim>
   ContactSummaries
-  PairContact<dim>::summary(const Vector &solution,
-                            const Vector &contact_force,
-                            const double  time)
+  PairContact<dim>::summary(const ContactInstant &instant)
   {
-    begin_instant(solution, time);
+    begin_instant(instant.solution, instant.time);
     ContactSummaries my_sums;
     // Area of the points that are before a facet: only they have a gap.
     std::map<types::boundary_id, double> my_area;
@@ -978,7 +950,7 @@ namespace Ricochet
         ContactSummary &sums  = my_sums[point.boundary_id];
         if (state.candidate)
           {
-            const double normal = normal_force(state, contact_force);
+            const double normal = normal_force(state, instant.contact_force);
             ContactPoint numbers;
             numbers.weight = point.weight;
             sums.add(numbers, state.state.gap, normal, normal > 0.);

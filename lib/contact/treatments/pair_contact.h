@@ -139,12 +139,6 @@ namespace Ricochet
     void
     force_at(const Vector &solution, const double time, Vector &force) override;
 
-    /// The normal force that the multipliers of @p solution stand for, or force_at()
-    /// for laws: what the force at the end of a step is, but for its direction, which
-    /// is that of the instant.
-    void
-    reaction_at(const Vector &solution, const double time, Vector &force);
-
     double
     potential(const Vector &solution, const double time) override;
 
@@ -167,14 +161,10 @@ namespace Ricochet
     }
 
     Vector
-    pressure_field(const Vector &solution,
-                   const Vector &contact_force,
-                   const double  time) override;
+    pressure_field(const ContactInstant &instant) override;
 
     ContactSummaries
-    summary(const Vector &solution,
-            const Vector &contact_force,
-            const double  time) override;
+    summary(const ContactInstant &instant) override;
 
   private:
     enum class Status

@@ -478,41 +478,37 @@ namespace Ricochet
 
 
   Vector
-  PointwiseContact::pressure_field(const Vector &solution,
-                                   const Vector &contact_force,
-                                   const double  time)
+  PointwiseContact::pressure_field(const ContactInstant &instant)
   {
-    kinematics->begin_instant(time);
-    kinematics->evaluate(solution, state);
+    kinematics->begin_instant(instant.time);
+    kinematics->evaluate(instant.solution, state);
     std::vector<double> pressures(state.size());
     for (unsigned int p = 0; p < state.size(); ++p)
-      pressures[p] =
-        normal_force(p, contact_force) / evaluator.contact_points()[p].weight;
+      pressures[p] = normal_force(p, instant.contact_force) /
+        evaluator.contact_points()[p].weight;
     return evaluator.nodal_averages(pressures);
   }
 
 
 
   ContactSummaries
-  PointwiseContact::summary(const Vector &solution,
-                            const Vector &contact_force,
-                            const double  time)
+  PointwiseContact::summary(const ContactInstant &instant)
   {
     const ContactLawTraits traits = law->traits();
-    kinematics->begin_instant(time);
-    kinematics->evaluate(solution, state);
+    kinematics->begin_instant(instant.time);
+    kinematics->evaluate(instant.solution, state);
     ContactSummaries sums;
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         const ContactPoint &point = evaluator.contact_points()[p];
-        const double        force = normal_force(p, contact_force);
+        const double        force = normal_force(p, instant.contact_force);
         // Two-point laws are active over a step, the others at an instant.
         const bool is_active = traits.is_two_point && !traits.uses_stress
           ? force > 0.
           : law->branch(state[p], state[p], point.cell_diameter) != 0;
         sums[point.boundary_id].add(point, state[p].gap, force, is_active);
       }
-    add_stress_pressure(solution, stress_evaluator, stress_state, sums);
+    add_stress_pressure(instant.solution, stress_evaluator, stress_state, sums);
     return reduce_summaries(sums, evaluator.communicator);
   }
 } // namespace Ricochet

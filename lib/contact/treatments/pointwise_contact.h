@@ -148,14 +148,10 @@ namespace Ricochet
     }
 
     ContactSummaries
-    summary(const Vector &solution,
-            const Vector &contact_force,
-            const double  time) override;
+    summary(const ContactInstant &instant) override;
 
     Vector
-    pressure_field(const Vector &solution,
-                   const Vector &contact_force,
-                   const double  time) override;
+    pressure_field(const ContactInstant &instant) override;
 
   protected:
     /// The factor of contact in the residual of the stage.
