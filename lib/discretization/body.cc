@@ -9,6 +9,7 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -18,6 +19,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <string>
 
 namespace Ricochet
@@ -52,14 +55,46 @@ namespace Ricochet
     }
 
     template <int dim>
+    using Determinant = std::function<double(
+      const typename Triangulation<dim>::active_cell_iterator &)>;
+
+    /// The same with the geometry @p curved, over the points of @p rule and the
+    /// vertices.
+    template <int dim>
+    Determinant<dim>
+    smallest_determinant_in(const Mapping<dim>    &curved,
+                            const FESystem<dim>   &element,
+                            const Quadrature<dim> &rule)
+    {
+      std::vector<Point<dim>> points = rule.get_points();
+      for (const auto &point :
+           element.base_element(0).get_unit_support_points())
+        points.push_back(point);
+      const auto values =
+        std::make_shared<FEValues<dim>>(curved,
+                                        element,
+                                        Quadrature<dim>(points),
+                                        update_jacobians);
+      return [values](const auto &cell) {
+        values->reinit(cell);
+        double smallest = std::numeric_limits<double>::infinity();
+        for (const unsigned int q : values->quadrature_point_indices())
+          smallest = std::min(smallest,
+                              determinant(Tensor<2, dim>(values->jacobian(q))));
+        return smallest;
+      };
+    }
+
+    template <int dim>
     void
     refuse_inverted_cells(const Triangulation<dim> &triangulation,
+                          const Determinant<dim>   &smallest_determinant,
                           const MPI_Comm            communicator)
     {
       std::vector<double> worst;
       for (const auto &cell : triangulation.active_cell_iterators())
         if (cell->is_locally_owned() && worst.empty() &&
-            !(smallest_determinant<dim>(cell) > 0.))
+            !(smallest_determinant(cell) > 0.))
           for (unsigned int d = 0; d < dim; ++d)
             worst.push_back(cell->center()[d]);
       for (const auto &center : Utilities::MPI::all_gather(communicator, worst))
@@ -83,13 +118,15 @@ namespace Ricochet
                   const BoundaryIds        &contact_ids,
                   const MultiplierSpace     multipliers,
                   const MPI_Comm            communicator,
-                  const HeldComponents     &held)
+                  const HeldComponents     &held,
+                  const Mapping<dim>       *curved)
     : communicator(communicator)
     , displacement_dofs(triangulation)
     , multiplier_dofs(triangulation)
     , multipliers(multipliers)
     , clamped_ids(clamped_ids)
     , contact_ids(contact_ids)
+    , curved_geometry(curved != nullptr)
   {
     const unsigned int n_multipliers =
       multipliers == MultiplierSpace::linear_vector ? dim : 1;
@@ -119,7 +156,18 @@ namespace Ricochet
         "The mesh mixes cells of different kinds; Ricochet "
         "takes meshes of hypercubes only or simplices only.");
 
-    refuse_inverted_cells(triangulation, communicator);
+    refuse_inverted_cells<dim>(triangulation,
+                               smallest_determinant<dim>,
+                               communicator);
+    if (curved)
+      {
+        AssertThrow(degree == 2, ExcMessage("Curved cells are of degree 2."));
+        geometry = curved->clone();
+        refuse_inverted_cells<dim>(
+          triangulation,
+          smallest_determinant_in(*geometry, *displacement_element, *cell_rule),
+          communicator);
+      }
     displacement_dofs.distribute_dofs(*displacement_element);
     number_multipliers();
 

@@ -59,6 +59,8 @@ namespace Ricochet
      * @param contact boundary ids that can touch the obstacle.
      * @param held boundary ids of which some components of the displacement are
      * prescribed.
+     * @param curved the geometry of its cells (see curved_geometry.h), for a
+     * displacement of degree 2; null for cells with straight edges.
      */
     Body(const dealii::Triangulation<dim> &triangulation,
          const unsigned int                degree,
@@ -66,7 +68,8 @@ namespace Ricochet
          const BoundaryIds                &contact,
          const MultiplierSpace             multipliers,
          const MPI_Comm                    communicator,
-         const HeldComponents             &held = {});
+         const HeldComponents             &held   = {},
+         const dealii::Mapping<dim>       *curved = nullptr);
 
     /// System index of displacement DoF @p i of the DoFHandler.
     dealii::types::global_dof_index
@@ -174,6 +177,13 @@ namespace Ricochet
       return *geometry;
     }
 
+    /// Whether edges of cells are curved.
+    bool
+    is_curved() const
+    {
+      return curved_geometry;
+    }
+
     const dealii::Quadrature<dim> &
     cell_quadrature() const
     {
@@ -248,6 +258,7 @@ namespace Ricochet
     dealii::DoFHandler<dim>                      multiplier_dofs;
     const MultiplierSpace                        multipliers;
     const BoundaryIds                            clamped_ids, contact_ids;
+    const bool                                   curved_geometry;
 
     // First displacement DoF of each rank, and by how much the multipliers of
     // lower ranks shift it.

@@ -321,7 +321,10 @@ namespace Ricochet
       part(cell->active_cell_index()) = body.part(cell, materials.size());
     if (materials.size() > 1)
       data_out.add_data_vector(part, "part");
-    data_out.build_patches(body.mapping(), body.dof_handler().get_fe().degree);
+    data_out.build_patches(body.mapping(),
+                           body.dof_handler().get_fe().degree,
+                           body.is_curved() ? DataOut<dim>::curved_inner_cells
+                                            : DataOut<dim>::curved_boundary);
 
     const std::string name =
       "solution/step-" + Utilities::int_to_string(step, 6) + ".vtu";

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <problems/ball_mesh.h>
-#include <problems/gmsh_file_check.h>
 #include <problems/gmsh_mesh.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_in.h>
 
 #include <gmsh.h>
 
 #include <algorithm>
-#include <fstream>
 
 namespace Ricochet
 {
@@ -33,29 +30,17 @@ namespace Ricochet
 
 
 
-  void
+  CellNodes<3>
   read_ball(const std::string &file_name, Triangulation<3> &triangulation)
   {
-    check_gmsh_file(file_name, 3);
-    try
-      {
-        std::ifstream file(file_name);
-        GridIn<3>     reader(triangulation);
-        reader.read_msh(file);
-      }
-    catch (const std::exception &)
-      {
-        // What is known to go wrong was looked for before.
-        throw InputError("The mesh file '" + file_name +
-                         "' cannot be made a mesh of: its cells do not fit "
-                         "together.");
-      }
-    const auto ids = triangulation.get_boundary_ids();
+    CellNodes<3> nodes = read_gmsh_mesh(file_name, triangulation);
+    const auto   ids   = triangulation.get_boundary_ids();
     if (std::find(ids.begin(), ids.end(), BallBoundary::lower_half) ==
         ids.end())
       throw InputError("The mesh '" + file_name +
                        "' has no physical surface 1, which must be the part of "
                        "the boundary that can touch the foundation.");
+    return nodes;
   }
 
 
@@ -64,7 +49,8 @@ namespace Ricochet
   make_ball_of_tetrahedra(const Point<3>   &center,
                           const double      radius,
                           const double      mesh_size,
-                          Triangulation<3> &triangulation)
+                          Triangulation<3> &triangulation,
+                          CellNodes<3>     *curved)
   {
     mesh_by_gmsh(
       [&]() {
@@ -72,7 +58,8 @@ namespace Ricochet
         gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
         gmsh::model::occ::addSphere(center[0], center[1], center[2], radius);
       },
-      triangulation);
+      triangulation,
+      curved);
     mark_halves(center[2], triangulation);
   }
 

@@ -2,6 +2,8 @@
 #ifndef ricochet_problems_ball_mesh_h
 #define ricochet_problems_ball_mesh_h
 
+#include <discretization/curved_geometry.h>
+
 #include <deal.II/grid/tria.h>
 
 #include <string>
@@ -19,23 +21,27 @@ namespace Ricochet
    * Read a mesh of tetrahedra or hexahedra from a file of Gmsh. Its physical
    * surface 1 must be the lower half of the boundary.
    *
+   * @return the nodes of its cells if they are of second order, otherwise nothing.
    * @throws InputError naming the file, when it cannot be read, is not a mesh in
    * three dimensions, or has no boundary 1.
    */
-  void
+  CellNodes<3>
   read_ball(const std::string        &file_name,
             dealii::Triangulation<3> &triangulation);
 
   /**
    * Tetrahedra of a ball by Gmsh's API, with elements of about @p mesh_size (m).
    *
+   * @param curved gets the nodes of cells of second order, those of the surface being
+   * on the sphere; null for cells with straight edges.
    * @throws InputError when Gmsh fails.
    */
   void
   make_ball_of_tetrahedra(const dealii::Point<3>   &center,
                           const double              radius,
                           const double              mesh_size,
-                          dealii::Triangulation<3> &triangulation);
+                          dealii::Triangulation<3> &triangulation,
+                          CellNodes<3>             *curved = nullptr);
 
   /// Hexahedra of a ball, refined until their edges on the surface are at most
   /// @p mesh_size (m). A distributed triangulation is refined in parts.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <problems/gmsh_element_types.h>
 #include <problems/gmsh_file_check.h>
 
 #include <algorithm>
@@ -311,47 +312,6 @@ namespace Ricochet
 
 
 
-    /// A kind of element of Gmsh.
-    struct ElementType
-    {
-      int          number;
-      const char  *name;
-      unsigned int dim;
-      unsigned int n_nodes;
-      /// Its faces by its nodes, in two dimensions its edges.
-      std::vector<std::vector<unsigned int>> faces;
-    };
-
-
-
-    /// The types that can be read.
-    const ElementType *
-    find_type(const int number)
-    {
-      static const std::array<ElementType, 6> types{
-        {{15, "point", 0, 1, {}},
-         {1, "line", 1, 2, {}},
-         {2, "triangle", 2, 3, {{0, 1}, {1, 2}, {2, 0}}},
-         {3, "quadrilateral", 2, 4, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
-         {4, "tetrahedron", 3, 4, {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}},
-         {5,
-          "hexahedron",
-          3,
-          8,
-          {{0, 1, 2, 3},
-           {4, 5, 6, 7},
-           {0, 1, 5, 4},
-           {1, 2, 6, 5},
-           {2, 3, 7, 6},
-           {3, 0, 4, 7}}}}};
-      for (const ElementType &type : types)
-        if (type.number == number)
-          return &type;
-      return nullptr;
-    }
-
-
-
     struct Node
     {
       int                   number;
@@ -363,12 +323,13 @@ namespace Ricochet
 
     struct Element
     {
-      const ElementType *type;
-      int                number;
-      int                physical_group;
-      std::size_t        line;
-      /// Places in Mesh::nodes.
-      std::array<unsigned int, 8> nodes;
+      const GmshElementType *type;
+      int                    number;
+      int                    physical_group;
+      std::size_t            line;
+      /// Places in Mesh::nodes: its vertices, and its nodes after them.
+      std::array<unsigned int, 8>  nodes;
+      std::array<unsigned int, 19> more_nodes;
     };
 
 
@@ -667,17 +628,17 @@ namespace Ricochet
 
 
 
-    const ElementType &
+    const GmshElementType &
     read_type(MeshFile &file, const unsigned int dim)
     {
-      const int          number = file.integer("the type of an element", 1);
-      const ElementType *type   = find_type(number);
+      const int              number = file.integer("the type of an element", 1);
+      const GmshElementType *type   = find_gmsh_element_type(number);
       if (type == nullptr)
         file.fail(
           "the type " + std::to_string(number) +
           " of an element cannot be read; only points (15), lines (1), "
-          "triangles (2), quadrilaterals (3), tetrahedra (4) and hexahedra (5) "
-          "of first order can.");
+          "triangles (2), quadrilaterals (3), tetrahedra (4), hexahedra (5) and "
+          "those of second order (8 to 12) can.");
       if (type->dim > dim)
         file.fail("a " + std::string(type->name) +
                   " cannot be in a mesh of dimension " + std::to_string(dim) +
@@ -716,6 +677,11 @@ namespace Ricochet
                           Element                 &element)
     {
       element.nodes.fill(no_node);
+      element.more_nodes.fill(no_node);
+      const unsigned int n_vertices = element.type->n_vertices;
+      const auto         has = [](const auto &list, const unsigned int node) {
+        return std::find(list.begin(), list.end(), node) != list.end();
+      };
       for (unsigned int v = 0; v < element.type->n_nodes; ++v)
         {
           if (file.rest_of_line().empty())
@@ -727,11 +693,13 @@ namespace Ricochet
           if (!node)
             file.fail(describe(element) + " has the node " +
                       std::to_string(number) + ", which does not exist.");
-          const auto end = element.nodes.begin() + v;
-          if (std::find(element.nodes.begin(), end, *node) != end)
+          if (has(element.nodes, *node) || has(element.more_nodes, *node))
             file.fail(describe(element) + " has the node " +
                       std::to_string(number) + " twice.");
-          element.nodes[v] = *node;
+          if (v < n_vertices)
+            element.nodes[v] = *node;
+          else
+            element.more_nodes[v - n_vertices] = *node;
         }
       file.end_line("the last node of an element");
     }
@@ -995,14 +963,14 @@ namespace Ricochet
 
     /// The signed volume of a cell (in 2D, its area) whose first node is 0.
     double
-    volume(const ElementType &type, const std::array<Vector3, 8> &x)
+    volume(const GmshElementType &type, const std::array<Vector3, 8> &x)
     {
-      if (type.n_nodes == 8)
+      if (type.n_vertices == 8)
         return volume_of_hexahedron(x);
       if (type.dim == 3)
         return determinant(x[1], x[2], x[3]) / 6.;
       double twice_the_area = 0.;
-      for (unsigned int v = 2; v < type.n_nodes; ++v)
+      for (unsigned int v = 2; v < type.n_vertices; ++v)
         twice_the_area += x[v - 1][0] * x[v][1] - x[v - 1][1] * x[v][0];
       return twice_the_area / 2.;
     }
@@ -1016,7 +984,7 @@ namespace Ricochet
     {
       std::array<Vector3, 8> x{};
       double                 size = 0.;
-      for (unsigned int v = 0; v < cell.type->n_nodes; ++v)
+      for (unsigned int v = 0; v < cell.type->n_vertices; ++v)
         for (unsigned int d = 0; d < mesh.dim; ++d)
           {
             x[v][d] =
@@ -1259,6 +1227,68 @@ namespace Ricochet
 
 
 
+    /// The node of an element that is between some of its vertices.
+    struct Between : Key<4>
+    {
+      unsigned int   node;
+      const Element *of;
+    };
+
+
+
+    /// Elements that share an edge or a face share the node on it, which is no
+    /// vertex, and on no other.
+    void
+    check_nodes_between(const MeshFile &file, const Mesh &mesh)
+    {
+      std::vector<Between> all;
+      std::vector<bool>    is_vertex(mesh.nodes.size(), false);
+      for (const auto *const list : {&mesh.cells, &mesh.faces, &mesh.lines})
+        for (const Element &element : *list)
+          {
+            const auto &type = *element.type;
+            for (unsigned int v = 0; v < type.n_vertices; ++v)
+              is_vertex[element.nodes[v]] = true;
+            for (std::size_t k = 0; k < type.places.size(); ++k)
+              {
+                Between between;
+                between.nodes.fill(no_node);
+                for (std::size_t v = 0; v < type.places[k].size(); ++v)
+                  between.nodes[v] = element.nodes[type.places[k][v]];
+                std::sort(between.nodes.begin(), between.nodes.end());
+                between.element = all.size();
+                between.node    = element.more_nodes[k];
+                between.of      = &element;
+                all.push_back(between);
+              }
+          }
+      const auto fail = [&](const Between &a, const std::string &what) {
+        file.fail(a.of->line,
+                  describe(*a.of) + " has the node " +
+                    std::to_string(mesh.nodes[a.node].number) +
+                    " between its vertices, " + what);
+      };
+      std::sort(all.begin(), all.end());
+      for (std::size_t k = 0; k < all.size(); ++k)
+        {
+          if (is_vertex[all[k].node])
+            fail(all[k], "which is the vertex of another.");
+          if (k > 0 && all[k].nodes == all[k - 1].nodes &&
+              all[k].node != all[k - 1].node)
+            fail(all[k],
+                 "but " + in_line(*all[k - 1].of) + " has another one there.");
+        }
+      std::sort(all.begin(), all.end(), [](const Between &a, const Between &b) {
+        return std::tie(a.node, a.element) < std::tie(b.node, b.element);
+      });
+      for (std::size_t k = 1; k < all.size(); ++k)
+        if (all[k].node == all[k - 1].node && all[k].nodes != all[k - 1].nodes)
+          fail(all[k],
+               "which " + in_line(*all[k - 1].of) + " has somewhere else.");
+    }
+
+
+
     /// A line in 3D, and where it was met.
     struct Line : Key<2>
     {
@@ -1326,7 +1356,7 @@ namespace Ricochet
 
 
 
-  void
+  unsigned int
   check_gmsh_file(const std::string &file_name, const unsigned int dim)
   {
     MeshFile   file(file_name);
@@ -1338,5 +1368,7 @@ namespace Ricochet
     const std::vector<Face> inner = separate_inner_faces(file, mesh, boundary);
     check_boundary_elements(file, mesh, inner, boundary);
     check_lines(file, mesh, boundary);
+    check_nodes_between(file, mesh);
+    return mesh.cells.front().type->order;
   }
 } // namespace Ricochet

@@ -8,8 +8,8 @@ namespace Ricochet
 {
   /**
    * Check that @p file_name is a whole ASCII mesh of Gmsh (format 2.2 or 4.1)
-   * that deal.II can read as a mesh of dimension @p dim, which is 2 or 3.
-   * deal.II's reader trusts its input: damaged files make it crash, hang, or
+   * that can be read as a mesh of dimension @p dim, which is 2 or 3: by deal.II when
+   * its elements are of first order, by Gmsh when they are of second. deal.II's reader trusts its input: damaged files make it crash, hang, or
    * fail without a word on where. It should see only files that pass here.
    *
    * A file passes with
@@ -18,8 +18,9 @@ namespace Ricochet
    *   whole and with what their counts promise; others may only follow these;
    * - one entry per line, as Gmsh writes it;
    * - nodes with unique numbers and finite coordinates;
-   * - elements of first order that have nodes of the file, no node twice, and
-   *   at most one physical group, whose number is not negative;
+   * - elements of first or second order that have nodes of the file, no node twice,
+   *   and at most one physical group, whose number is not negative; those that
+   *   share an edge or a face share the node on it;
    * - cells of one shape: triangles or quadrilaterals in 2D, tetrahedra or
    *   hexahedra in 3D, each once, with a volume that is not zero, and no face
    *   in more than two of them;
@@ -30,9 +31,10 @@ namespace Ricochet
    * too, which deal.II turns around. Time is that of sorting the elements, and
    * memory a small multiple of the file's size, whatever the file says.
    *
+   * @return the order of the cells, 1 or 2.
    * @throws InputError with the file, the line and the reason.
    */
-  void
+  unsigned int
   check_gmsh_file(const std::string &file_name, const unsigned int dim);
 } // namespace Ricochet
 

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <problems/gmsh_element_types.h>
+#include <problems/gmsh_file_check.h>
 #include <problems/gmsh_mesh.h>
+
+#include <deal.II/grid/grid_in.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <gmsh.h>
 
+#include <algorithm>
+#include <fstream>
 #include <map>
+#include <utility>
 
 namespace Ricochet
 {
@@ -28,64 +36,246 @@ namespace Ricochet
         gmsh::finalize();
       }
     };
+
+
+
+    /// Elements of one dimension, with their nodes by Gmsh's tags.
+    struct Elements
+    {
+      const GmshElementType   *type;
+      int                      physical_group;
+      std::vector<std::size_t> nodes;
+    };
+
+
+
+    /// The elements of dimension @p dim of Gmsh's model.
+    std::vector<Elements>
+    get_elements(const int dim)
+    {
+      std::vector<Elements> all;
+      gmsh::vectorpair      entities;
+      gmsh::model::getEntities(entities, dim);
+      for (const auto &[entity_dim, tag] : entities)
+        {
+          std::vector<int> groups, types;
+          gmsh::model::getPhysicalGroupsForEntity(entity_dim, tag, groups);
+          std::vector<std::vector<std::size_t>> elements, nodes;
+          gmsh::model::mesh::getElements(types,
+                                         elements,
+                                         nodes,
+                                         entity_dim,
+                                         tag);
+          for (unsigned int k = 0; k < types.size(); ++k)
+            all.push_back({find_gmsh_element_type(types[k]),
+                           groups.empty() ? 0 : groups.front(),
+                           nodes[k]});
+        }
+      return all;
+    }
+
+
+
+    /// The positions of nodes by Gmsh's tags (m).
+    template <int dim>
+    std::map<std::size_t, Point<dim>>
+    get_positions()
+    {
+      std::vector<std::size_t> tags;
+      std::vector<double>      coordinates, parametric;
+      gmsh::model::mesh::getNodes(tags, coordinates, parametric);
+      std::map<std::size_t, Point<dim>> positions;
+      for (std::size_t k = 0; k < tags.size(); ++k)
+        for (unsigned int d = 0; d < dim; ++d)
+          positions[tags[k]][d] = coordinates[3 * k + d];
+      return positions;
+    }
+
+
+
+    /// What deal.II makes a mesh of.
+    template <int dim>
+    struct Description
+    {
+      std::vector<Point<dim>>    points;
+      std::vector<CellData<dim>> cells;
+      SubCellData                boundary;
+      /// Empty for cells of first order.
+      NodesBetween<dim> between;
+    };
+
+
+
+    /// The place of vertex @p v of an element of Gmsh in deal.II's order.
+    template <int dim>
+    unsigned int
+    place_of_vertex(const GmshElementType &type, const unsigned int v)
+    {
+      return type.n_vertices == (1U << dim) && dim > 1
+        ? GeometryInfo<dim>::ucd_to_deal[v]
+        : v;
+    }
+
+
+
+    /// The mesh of Gmsh's model.
+    template <int dim>
+    Description<dim>
+    describe_model()
+    {
+      const std::map<std::size_t, Point<dim>> positions = get_positions<dim>();
+      Description<dim>                        mesh;
+      // Nodes that are vertices of no cell stay out.
+      std::map<std::size_t, unsigned int> number;
+      const auto sorted = [&](std::vector<unsigned int> vertices) {
+        std::sort(vertices.begin(), vertices.end());
+        return vertices;
+      };
+      for (const Elements &elements : get_elements(dim))
+        {
+          const GmshElementType &type = *elements.type;
+          for (std::size_t begin = 0; begin < elements.nodes.size();
+               begin += type.n_nodes)
+            {
+              CellData<dim> cell(type.n_vertices);
+              cell.material_id = elements.physical_group;
+              std::vector<unsigned int> vertices;
+              for (unsigned int v = 0; v < type.n_vertices; ++v)
+                {
+                  const std::size_t tag = elements.nodes[begin + v];
+                  const auto [entry, is_new] =
+                    number.emplace(tag, mesh.points.size());
+                  if (is_new)
+                    mesh.points.push_back(positions.at(tag));
+                  vertices.push_back(entry->second);
+                  cell.vertices[place_of_vertex<dim>(type, v)] = entry->second;
+                }
+              mesh.cells.push_back(cell);
+              if (type.order == 1)
+                continue;
+              unsigned int node = type.n_vertices;
+              for (const auto &place : type.places)
+                {
+                  std::vector<unsigned int> around;
+                  for (const unsigned int v : place)
+                    around.push_back(vertices[v]);
+                  mesh.between[sorted(around)] =
+                    positions.at(elements.nodes[begin + node++]);
+                }
+              if (node < type.n_nodes)
+                mesh.between[sorted(vertices)] =
+                  positions.at(elements.nodes[begin + node]);
+            }
+        }
+      for (const Elements &elements : get_elements(dim - 1))
+        {
+          const GmshElementType &type = *elements.type;
+          for (std::size_t begin = 0;
+               elements.physical_group != 0 && begin < elements.nodes.size();
+               begin += type.n_nodes)
+            {
+              CellData<dim - 1> face(type.n_vertices);
+              face.boundary_id = elements.physical_group;
+              for (unsigned int v = 0; v < type.n_vertices; ++v)
+                face.vertices[place_of_vertex<dim - 1>(type, v)] =
+                  number.at(elements.nodes[begin + v]);
+              if constexpr (dim == 2)
+                mesh.boundary.boundary_lines.push_back(face);
+              else
+                mesh.boundary.boundary_quads.push_back(face);
+            }
+        }
+      return mesh;
+    }
+
+
+
+    /// What @p work does with Gmsh, whose errors are told as "Gmsh cannot @p do_what".
+    template <typename Result>
+    Result
+    with_gmsh(const std::string &do_what, const std::function<Result()> &work)
+    {
+      try
+        {
+          const GmshSession session;
+          return work();
+        }
+      catch (const std::exception &exception)
+        {
+          throw InputError("Gmsh cannot " + do_what + ": " + exception.what());
+        }
+      catch (const std::string &message)
+        {
+          throw InputError("Gmsh cannot " + do_what + ": " + message);
+        }
+    }
   } // namespace
 
 
 
   void
   mesh_by_gmsh(const std::function<void()> &describe,
-               Triangulation<3>            &triangulation)
+               Triangulation<3>            &triangulation,
+               CellNodes<3>                *curved)
   {
-    std::vector<Point<3>>               points;
-    std::vector<CellData<3>>            cells;
-    std::map<std::size_t, unsigned int> number;
+    const auto mesh = with_gmsh<Description<3>>("make the mesh", [&]() {
+      gmsh::model::add("body");
+      describe();
+      gmsh::model::occ::synchronize();
+      gmsh::model::mesh::generate(3);
+      if (curved)
+        gmsh::model::mesh::setOrder(2);
+      return describe_model<3>();
+    });
+    triangulation.create_triangulation(mesh.points, mesh.cells, mesh.boundary);
+    if (curved)
+      *curved = collect_cell_nodes(triangulation, mesh.between);
+  }
+
+
+
+  template <int dim>
+  CellNodes<dim>
+  read_gmsh_mesh(const std::string  &file_name,
+                 Triangulation<dim> &triangulation)
+  {
+    const bool       is_curved = check_gmsh_file(file_name, dim) == 2;
+    Description<dim> mesh;
+    if (is_curved)
+      mesh =
+        with_gmsh<Description<dim>>("read the mesh '" + file_name + "'", [&]() {
+          gmsh::open(file_name);
+          return describe_model<dim>();
+        });
     try
       {
-        const GmshSession session;
-        gmsh::model::add("body");
-        describe();
-        gmsh::model::occ::synchronize();
-        gmsh::model::mesh::generate(3);
-
-        std::vector<std::size_t> tags;
-        std::vector<double>      coordinates, parametric;
-        gmsh::model::mesh::getNodes(tags, coordinates, parametric);
-        std::map<std::size_t, std::size_t> place;
-        for (std::size_t k = 0; k < tags.size(); ++k)
-          place[tags[k]] = k;
-
-        constexpr int            tetrahedron = 4;
-        std::vector<std::size_t> elements, nodes;
-        gmsh::model::mesh::getElementsByType(tetrahedron, elements, nodes);
-        for (std::size_t e = 0; e < elements.size(); ++e)
+        if (!is_curved)
           {
-            CellData<3> cell(4);
-            for (unsigned int v = 0; v < 4; ++v)
-              {
-                // Nodes that no tetrahedron has stay out.
-                const auto [entry, is_new] =
-                  number.emplace(nodes[4 * e + v], points.size());
-                if (is_new)
-                  {
-                    const std::size_t k = 3 * place.at(entry->first);
-                    points.emplace_back(coordinates[k],
-                                        coordinates[k + 1],
-                                        coordinates[k + 2]);
-                  }
-                cell.vertices[v] = entry->second;
-              }
-            cells.push_back(cell);
+            std::ifstream file(file_name);
+            GridIn<dim>   reader(triangulation);
+            reader.read_msh(file);
+            return {};
           }
+        GridTools::invert_cells_with_negative_measure(mesh.points, mesh.cells);
+        if (mesh.cells.front().vertices.size() == (1U << dim))
+          GridTools::consistently_order_cells(mesh.cells);
+        triangulation.create_triangulation(mesh.points,
+                                           mesh.cells,
+                                           mesh.boundary);
       }
-    catch (const std::exception &exception)
+    catch (const std::exception &)
       {
-        throw InputError(std::string("Gmsh cannot make the mesh: ") +
-                         exception.what());
+        // What is known to go wrong was looked for before.
+        throw InputError("The mesh file '" + file_name +
+                         "' cannot be made a mesh of: its cells do not fit "
+                         "together.");
       }
-    catch (const std::string &message)
-      {
-        throw InputError("Gmsh cannot make the mesh: " + message);
-      }
-    triangulation.create_triangulation(points, cells, SubCellData());
+    return collect_cell_nodes(triangulation, mesh.between);
   }
+
+
+  template CellNodes<2>
+  read_gmsh_mesh(const std::string &, Triangulation<2> &);
+  template CellNodes<3>
+  read_gmsh_mesh(const std::string &, Triangulation<3> &);
 } // namespace Ricochet

@@ -307,7 +307,8 @@ namespace Ricochet
            setup.pairs.empty() ? multiplier_space(parameters.contact)
                                : pair_multiplier_space(parameters.contact),
            communicator,
-           held_components(setup))
+           held_components(setup),
+           setup.geometry.get())
     , bulk(make_bulk(body, materials_of(setup)))
     , consistent_mass(assemble_mass_matrix(body, densities_of(setup)))
     , redistributed_mass(

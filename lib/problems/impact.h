@@ -63,6 +63,9 @@ namespace Ricochet
     std::map<dealii::types::boundary_id,
              std::function<dealii::Tensor<1, dim>(const double time)>>
       tractions = {};
+    /// The geometry of curved cells (see curved_geometry.h), with degree 2; null for
+    /// cells with straight edges.
+    std::shared_ptr<const dealii::Mapping<dim>> geometry = {};
   };
 
   /**

@@ -12,6 +12,7 @@ from common import *
 
 COARSE = ["Mesh/Mesh size=14", "Time/Final time=9"] + NO_FIELDS
 MESH = ROOT / "meshes" / "sphere_h4.msh"
+CURVED_MESH = ROOT / "meshes" / "sphere_h4_curved.msh"
 
 MULTIGRID = "Linear solver/Type=multigrid"
 OBLIQUE = ["Contact/Friction coefficient=0.3",
@@ -35,6 +36,10 @@ TREATMENTS = [
      "Mesh/Degree=1"] + OBLIQUE,
     ["Contact/Treatment=Signorini active set", "Time/Scheme=midpoint",
      "Mesh/Degree=1", MULTIGRID],
+    ["Contact/Treatment=Nitsche-hybrid", "Time/Scheme=midpoint",
+     "Mesh/Curved cells=true"],
+    ["Contact/Treatment=proximal augmented Lagrangian", "Mesh/Cells=hexahedra",
+     "Mesh/Curved cells=true"],
     ["Contact/Treatment=Nitsche", "Time/Mass=redistributed",
      "Time/Scheme=TR-BDF2", "Mesh/Mesh size=5"],
 ]
@@ -75,6 +80,8 @@ class Sphere(ProgramTest):
                            ["Mesh/Cells=hexahedra", "Mesh/Degree=1"],
                            ["Contact/Treatment=proximal augmented Lagrangian"],
                            [MULTIGRID],
+                           ["Mesh/Curved cells=true"],
+                           ["Mesh/Curved cells=true", "Mesh/Cells=hexahedra"],
                            ["Contact/Treatment=improved normal compliance",
                             "Time/Scheme=midpoint", "Mesh/Degree=1"] + OBLIQUE,
                            ["Time/Mass=redistributed", "Mesh/Mesh size=5"]):
@@ -105,7 +112,7 @@ class Sphere(ProgramTest):
 
     def test_resumed_on_one_rank(self):
         # Multigrid on a mesh that it takes apart into several levels.
-        for type, mesh in (("automatic", []),
+        for type, mesh in (("automatic", ["Mesh/Curved cells=true"]),
                            ("multigrid", ["Mesh/Mesh size=4.5"])):
             parameters = COARSE + mesh + ["Output/Checkpoint every=100",
                                           f"Linear solver/Type={type}"]
@@ -119,14 +126,37 @@ class Sphere(ProgramTest):
             if is_debug_build():
                 break
 
+    def test_hard_sphere_on_curved_cells(self):
+        """A run of another tool (GetFEM) on the same mesh with the same steps has its
+        largest force of 7.4e4 at 6.9 and touches from 6.35 to 7.5; with straight edges
+        that is 6.68e4, and Hertz' is 6.4e4."""
+        if is_debug_build():
+            self.skipTest("takes long with assertions")
+        ledger = self.run_program(
+            "sphere", NO_FIELDS + ["Time/Final time=8"],
+            prm=ROOT / "parameter_files" / "sphere" / "figure_17_curved.prm")
+        force, time = ledger["contact_force_foundation"], ledger["time"]
+        largest = max(force)
+        touching = [t for t, f in zip(time, force) if f > 0.]
+        self.assertLess(abs(largest / 7.4e4 - 1.), .02)
+        self.assertLess(abs(time[force.index(largest)] - 6.9), .051)
+        self.assertLess(abs(touching[0] - 6.35), .051)
+        self.assertLess(abs(touching[-1] - 7.5), .101)
+        self.assertLess(max(map(abs, ledger["balance_residual"])), 1e-10)
+
     def test_combinations_that_are_refused(self):
         for parameters, words in (
+                (["Mesh/Degree=1", "Mesh/Curved cells=true"],
+                 "Curved cells = true takes Mesh/Degree = 2"),
+                ([f"Mesh/File={CURVED_MESH}", "Mesh/Degree=1"],
+                 "elements of second order, which take Mesh/Degree = 2"),
                 ([MULTIGRID, "Contact/Treatment=proximal augmented Lagrangian"],
                  "Multigrid cannot solve for multipliers"),
                 ([MULTIGRID, "Linear solver/Factorisation=KLU"],
                  "Multigrid factors nothing")):
             with self.subTest(words):
-                code, _, error = self.attempt("sphere", COARSE + parameters)
+                size = COARSE[:1] if f"Mesh/File={CURVED_MESH}" not in parameters else []
+                code, _, error = self.attempt("sphere", size + COARSE[1:] + parameters)
                 self.assertEqual(code, 1)
                 self.assertIn(words, " ".join(error.split()))
 

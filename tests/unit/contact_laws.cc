@@ -20,6 +20,8 @@
 using namespace Ricochet;
 using AD = Sacado::Fad::DFad<double>;
 
+BOOST_AUTO_TEST_SUITE(contact_laws)
+
 namespace
 {
   constexpr double cell_diameter = .25;
@@ -114,7 +116,6 @@ namespace
 } // namespace
 
 
-BOOST_AUTO_TEST_SUITE(contact_laws)
 
 BOOST_AUTO_TEST_CASE(tangents_are_derivatives)
 {

@@ -29,6 +29,8 @@ using namespace Ricochet;
 using dealii::Point;
 using dealii::Tensor;
 
+BOOST_AUTO_TEST_SUITE(cut_faces)
+
 namespace
 {
   const LinearElastic soft{1., 1.}, stiff{20., 10.};
@@ -247,7 +249,6 @@ namespace
   }
 } // namespace
 
-BOOST_AUTO_TEST_SUITE(cut_faces)
 
 BOOST_AUTO_TEST_CASE(nitsche_is_an_interface_form)
 {

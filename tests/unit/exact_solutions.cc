@@ -13,6 +13,8 @@
 
 using namespace Ricochet;
 
+BOOST_AUTO_TEST_SUITE(exact_solutions)
+
 namespace
 {
   BarCharacteristics
@@ -76,7 +78,6 @@ namespace
 } // namespace
 
 
-BOOST_AUTO_TEST_SUITE(exact_solutions)
 
 BOOST_AUTO_TEST_CASE(sd_has_the_values_of_the_benchmark)
 {

@@ -15,6 +15,8 @@
 
 using namespace Ricochet;
 
+BOOST_AUTO_TEST_SUITE(facet_chain)
+
 namespace
 {
   using Position  = std::array<double, 2>;
@@ -135,7 +137,6 @@ namespace
   }
 } // namespace
 
-BOOST_AUTO_TEST_SUITE(facet_chain)
 
 BOOST_AUTO_TEST_CASE(rows_are_exact_before_one_facet)
 {

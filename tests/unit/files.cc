@@ -16,6 +16,8 @@
 using namespace Ricochet;
 namespace fs = std::filesystem;
 
+BOOST_AUTO_TEST_SUITE(files)
+
 namespace
 {
   /// A folder of its own for a test.
@@ -44,7 +46,6 @@ namespace
 } // namespace
 
 
-BOOST_AUTO_TEST_SUITE(files)
 
 BOOST_AUTO_TEST_CASE(written_atomically)
 {

@@ -5,6 +5,7 @@
 
 #include <base/exceptions.h>
 #include <problems/gmsh_file_check.h>
+#include <problems/gmsh_mesh.h>
 
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/tria.h>
@@ -19,6 +20,8 @@
 #include <vector>
 
 using namespace Ricochet;
+
+BOOST_AUTO_TEST_SUITE(gmsh_file_check)
 
 namespace
 {
@@ -49,7 +52,37 @@ $Elements
 $EndElements
 )";
 
-  /// The same in format 4.1.
+  /// The same with elements of second order.
+  const std::string second_order = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+14
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+9 1 1 1e0
+11 .5 0 0
+12 .5 .5 0
+13 0 .5 0
+14 0 0 .5
+15 0 .5 .5
+16 .5 0 .5
+17 .5 1 .5
+18 1 .5 .5
+19 .5 .5 1
+$EndNodes
+$Elements
+4
+2 8 2 0 1 1 2 11
+3 9 2 1 2 1 3 2 13 12 11
+4 11 2 10 1 1 2 3 4 11 12 13 14 15 16
+5 11 2 10 1 9 3 2 4 17 12 18 19 16 15
+$EndElements
+)";
+
+  /// The same as the first in format 4.1.
   const std::string format_4 = R"($MeshFormat
 4.1 0 8
 $EndMeshFormat
@@ -232,9 +265,6 @@ $EndElements
 } // namespace
 
 
-
-BOOST_AUTO_TEST_SUITE(gmsh_file_check)
-
 BOOST_AUTO_TEST_CASE(whole_files)
 {
   for (const std::string &text : {format_2, format_4, hexahedra})
@@ -244,6 +274,108 @@ BOOST_AUTO_TEST_CASE(whole_files)
     }
   BOOST_TEST(verdict(triangles, 2) == "passes");
   BOOST_TEST(n_cells_read<2>(triangles) == 2);
+}
+
+// By Gmsh itself. Cells have the nodes of their edges where they should be, also those
+// that are turned around; a quadrilateral and a hexahedron have all of theirs.
+BOOST_AUTO_TEST_CASE(whole_files_of_second_order)
+{
+  const std::string quadrilateral = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+9
+1 0 0 0
+2 2 0 0
+3 2 2 0
+4 0 2 0
+5 1 -.1 0
+6 2.2 1 0
+7 1 2.3 0
+8 -.4 1 0
+9 1.05 1.07 0
+$EndNodes
+$Elements
+2
+1 8 2 7 1 1 2 5
+2 10 2 3 1 1 2 3 4 5 6 7 8 9
+$EndElements
+)";
+  BOOST_TEST(verdict(second_order) == "passes");
+  BOOST_TEST(verdict(quadrilateral, 2) == "passes");
+  for (const std::string &text : {second_order,
+                                  replace(second_order,
+                                          "1 2 3 4 11 12 13 14 15 16",
+                                          "1 3 2 4 13 12 11 14 16 15")})
+    {
+      const TemporaryFile      file(text);
+      dealii::Triangulation<3> mesh;
+      const CellNodes<3>       nodes = read_gmsh_mesh(file.name(), mesh);
+      BOOST_TEST_REQUIRE(nodes.size() == 2U);
+      unsigned int n_marked = 0;
+      for (const auto &cell : mesh.active_cell_iterators())
+        {
+          const auto &own = nodes[cell->active_cell_index()];
+          BOOST_TEST_REQUIRE(own.size() == 10U);
+          BOOST_TEST(cell->material_id() == 10U);
+          for (const unsigned int l : cell->line_indices())
+            BOOST_TEST(own[4 + l].distance(cell->line(l)->center()) < 1e-14);
+          for (const auto &face : cell->face_iterators())
+            n_marked += face->boundary_id() == 1;
+        }
+      BOOST_TEST(n_marked == 1U);
+    }
+  const TemporaryFile      file(quadrilateral);
+  dealii::Triangulation<2> mesh;
+  const CellNodes<2>       nodes = read_gmsh_mesh(file.name(), mesh);
+  BOOST_TEST_REQUIRE(nodes.size() == 1U);
+  const auto cell = mesh.begin_active();
+  BOOST_TEST_REQUIRE(nodes[0].size() == 9U);
+  for (const unsigned int l : cell->line_indices())
+    {
+      const dealii::Tensor<1, 2> from_edge =
+        nodes[0][4 + l] - cell->line(l)->center();
+      const dealii::Point<2> edge = cell->line(l)->center();
+      const double           off  = edge[1] == 0. ? .1
+                   : edge[0] == 2.                ? .2
+                   : edge[1] == 2.                ? .3
+                                                  : .4;
+      BOOST_CHECK_CLOSE(from_edge.norm(), off, 1e-10);
+      BOOST_TEST((cell->line(l)->boundary_id() == 7) == (off == .1));
+    }
+  BOOST_TEST(nodes[0][8].distance(dealii::Point<2>(1.05, 1.07)) < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(damaged_nodes_of_second_order)
+{
+  check_damages(
+    second_order,
+    {{"17 12 18 19 16 15",
+      "17 12 18 19 15 16",
+      "26: the element 5, a tetrahedron of second order, has the node 15 between "
+      "its vertices, but the element 4 (line 25) has another one there."},
+     {"17 12 18 19 16 15",
+      "17 14 18 19 16 15",
+      "26: the element 5, a tetrahedron of second order, has the node 14 between "
+      "its vertices, but the element 4 (line 25) has another one there."},
+     {"17 12 18 19 16 15",
+      "14 12 18 19 16 15",
+      "26: the element 5, a tetrahedron of second order, has the node 14 between "
+      "its vertices, which the element 4 (line 25) has somewhere else."},
+     {"11 12 13 14 15 16",
+      "11 12 13 9 15 16",
+      "25: the element 4, a tetrahedron of second order, has the node 9 between its "
+      "vertices, which is the vertex of another."},
+     {"11 12 13 14 15 16",
+      "11 12 13 14 15",
+      "25: the element 4, a tetrahedron of second order, has only 9 of 10 nodes."},
+     {"11 12 13 14 15 16",
+      "11 12 13 14 15 4",
+      "25: the element 4, a tetrahedron of second order, has the node 4 twice."},
+     {"5 11 2 10 1 9 3 2 4 17 12 18 19 16 15",
+      "5 4 2 10 1 9 3 2 4",
+      "26: the element 5, a tetrahedron, is in one mesh with a tetrahedron of second "
+      "order (line 25); the cells must all be of one shape."}});
 }
 
 BOOST_AUTO_TEST_CASE(harmless_variants)
@@ -381,10 +513,10 @@ BOOST_AUTO_TEST_CASE(damaged_elements)
   check_damages(
     format_2,
     {{"1 15 2",
-      "1 11 2",
-      "19: the type 11 of an element cannot be read; only points (15), lines "
-      "(1), triangles (2), quadrilaterals (3), tetrahedra (4) and hexahedra "
-      "(5) of first order can."},
+      "1 16 2",
+      "19: the type 16 of an element cannot be read; only points (15), lines "
+      "(1), triangles (2), quadrilaterals (3), tetrahedra (4), hexahedra "
+      "(5) and those of second order (8 to 12) can."},
      {"1 2 3 4\n",
       "1 2 3\n",
       "22: the element 4, a tetrahedron, has only 3 of 4 nodes."},

@@ -17,6 +17,8 @@
 using namespace Ricochet;
 using dealii::VectorOperation;
 
+BOOST_AUTO_TEST_SUITE(hyperelastic_bulk)
+
 namespace
 {
   template <int dim>
@@ -149,7 +151,6 @@ namespace
 } // namespace
 
 
-BOOST_AUTO_TEST_SUITE(hyperelastic_bulk)
 
 BOOST_AUTO_TEST_CASE(in_2d)
 {

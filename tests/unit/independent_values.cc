@@ -38,6 +38,8 @@ using dealii::Point;
 using dealii::SymmetricTensor;
 using dealii::Tensor;
 
+BOOST_AUTO_TEST_SUITE(independent_values)
+
 namespace
 {
   // Per cent, as BOOST_CHECK_CLOSE counts: a relative 1e-11.
@@ -263,9 +265,6 @@ namespace
                       round_off);
   }
 } // namespace
-
-
-BOOST_AUTO_TEST_SUITE(independent_values)
 
 
 // ### Materials

@@ -21,6 +21,8 @@
 using namespace Ricochet;
 using dealii::VectorOperation;
 
+BOOST_AUTO_TEST_SUITE(linear_solver)
+
 namespace
 {
   const LinearElastic material{1.5, 1.};
@@ -210,7 +212,6 @@ namespace
 } // namespace
 
 
-BOOST_AUTO_TEST_SUITE(linear_solver)
 
 BOOST_AUTO_TEST_CASE(corrected_solutions_solve)
 {

@@ -16,6 +16,8 @@
 
 using namespace Ricochet;
 
+BOOST_AUTO_TEST_SUITE(mass_redistribution)
+
 namespace
 {
   template <int dim>
@@ -94,7 +96,6 @@ namespace
 } // namespace
 
 
-BOOST_AUTO_TEST_SUITE(mass_redistribution)
 
 BOOST_AUTO_TEST_CASE(moments_in_1d)
 {

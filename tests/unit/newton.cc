@@ -13,6 +13,8 @@
 
 using namespace Ricochet;
 
+BOOST_AUTO_TEST_SUITE(newton)
+
 namespace
 {
   /// Solve f(x) = 0 in each entry of a vector.
@@ -55,7 +57,6 @@ namespace
 } // namespace
 
 
-BOOST_AUTO_TEST_SUITE(newton)
 
 BOOST_AUTO_TEST_CASE(converges_quadratically)
 {

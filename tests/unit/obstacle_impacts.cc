@@ -23,6 +23,8 @@ using namespace Ricochet;
 using dealii::Point;
 using dealii::Tensor;
 
+BOOST_AUTO_TEST_SUITE(obstacle_impacts)
+
 namespace
 {
   struct Target
@@ -135,7 +137,6 @@ namespace
 } // namespace
 
 
-BOOST_AUTO_TEST_SUITE(obstacle_impacts)
 
 BOOST_AUTO_TEST_CASE(energy_and_angular_momentum_are_kept)
 {

@@ -19,6 +19,8 @@
 using namespace Ricochet;
 using dealii::Tensor;
 
+BOOST_AUTO_TEST_SUITE(obstacles)
+
 namespace
 {
   std::mt19937 generator(1);
@@ -121,7 +123,6 @@ namespace
 } // namespace
 
 
-BOOST_AUTO_TEST_SUITE(obstacles)
 
 BOOST_AUTO_TEST_CASE(gaps_are_distances)
 {

@@ -22,6 +22,8 @@ using namespace Ricochet;
 using dealii::Point;
 using dealii::Tensor;
 
+BOOST_AUTO_TEST_SUITE(pair_contact)
+
 namespace
 {
   Material<2>
@@ -171,7 +173,6 @@ namespace
   constexpr unsigned int n_steps   = 25;
 } // namespace
 
-BOOST_AUTO_TEST_SUITE(pair_contact)
 
 BOOST_AUTO_TEST_CASE(balances_close_and_momenta_are_kept)
 {

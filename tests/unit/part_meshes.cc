@@ -21,6 +21,8 @@ using dealii::Tensor;
 using dealii::Triangulation;
 using dealii::numbers::PI;
 
+BOOST_AUTO_TEST_SUITE(part_meshes)
+
 namespace
 {
   using Cell = Triangulation<2>::active_cell_iterator;
@@ -159,7 +161,6 @@ namespace
 } // namespace
 
 
-BOOST_AUTO_TEST_SUITE(part_meshes)
 
 BOOST_AUTO_TEST_CASE(ringed_disks_by_hand)
 {

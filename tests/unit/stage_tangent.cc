@@ -30,6 +30,8 @@
 using namespace Ricochet;
 using dealii::VectorOperation;
 
+BOOST_AUTO_TEST_SUITE(stage_tangent)
+
 namespace
 {
   const LinearElastic material{1.5, 1.};
@@ -178,7 +180,6 @@ namespace
 } // namespace
 
 
-BOOST_AUTO_TEST_SUITE(stage_tangent)
 
 BOOST_AUTO_TEST_CASE(in_1d)
 {

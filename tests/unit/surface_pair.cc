@@ -21,6 +21,8 @@
 using namespace Ricochet;
 using dealii::Point;
 
+BOOST_AUTO_TEST_SUITE(surface_pair)
+
 namespace
 {
   using Pair = SurfacePair<2>;
@@ -132,7 +134,6 @@ namespace
   }
 } // namespace
 
-BOOST_AUTO_TEST_SUITE(surface_pair)
 
 BOOST_AUTO_TEST_CASE(rows_are_exact)
 {
