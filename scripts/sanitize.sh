@@ -38,6 +38,9 @@ run hyperelastic_ring --set "Mesh/Nodes around=32" --set "Mesh/Nodes across=3" \
 run sphere --set "Mesh/Mesh size=10" --set "Time/Final time=8" --set "Time/Time step=1"
 run sphere --set "Mesh/File=meshes/sphere_h4.msh" --set "Mesh/Degree=1" \
   --set "Time/Final time=2" --set "Linear solver/Type=multigrid"
+run colliding_spheres --set "Spheres/Mesh size of the left sphere=0.8" \
+  --set "Spheres/Mesh size of the right sphere=0.9" --set "Spheres/Speed=2" \
+  --set "Contact/Friction coefficient=0.3" --set "Time/Final time=0.06"
 run colliding_disks --set "Disks/Rings of the left disk=4" \
   --set "Disks/Rings of the right disk=3" --set "Disks/Offset=1" \
   --set "Time/Final time=0.1" --set "Contact/Treatment=improved normal compliance" \

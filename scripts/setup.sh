@@ -27,12 +27,18 @@ install_packages()
     apt-get install -y -qq --no-install-recommends $missing >/dev/null
 }
 
-# build NAME [OPTION...]: configure and build in build/name. NAME is the build type,
+# The folder of build NAME.
+folder_of()
+{
+  echo "build/$(echo "$1" | tr '[:upper:]' '[:lower:]')"
+}
+
+# configure NAME [OPTION...]: prepare the build in build/name. NAME is the build type,
 # Release or Debug, or any other with the options of CMake after it.
-build()
+configure()
 {
   local folder type="$1"
-  folder="build/$(echo "$1" | tr '[:upper:]' '[:lower:]')"
+  folder="$(folder_of "$1")"
   shift
   [ "$#" -eq 0 ] || type="Release"
   # A new folder is for a build from scratch; one that exists keeps its options.
@@ -42,7 +48,31 @@ build()
     -DPython3_EXECUTABLE=/usr/bin/python3 >"/tmp/ricochet-cmake-$$.log" ||
     { cat "/tmp/ricochet-cmake-$$.log"; exit 1; }
   rm -f "/tmp/ricochet-cmake-$$.log"
-  ninja -C "$folder"
+}
+
+# build NAME [OPTION...]: configure and build.
+build()
+{
+  configure "$@"
+  ninja -C "$(folder_of "$1")"
+}
+
+# Configure and build several at the same time, which share the cores: what has to be
+# done one thing after the other in each leaves none of them idle.
+build_all()
+{
+  local name pids="" jobs
+  jobs=$((($(nproc) + $# - 1) / $#))
+  for name in "$@"; do
+    configure "$name"
+  done
+  for name in "$@"; do
+    ninja -C "$(folder_of "$name")" -j "$jobs" &
+    pids="$pids $!"
+  done
+  for name in $pids; do
+    wait "$name"
+  done
 }
 
 # One thread per process; Open MPI as root and with more ranks than cores.

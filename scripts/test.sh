@@ -26,8 +26,7 @@ if [ "${1:-}" = "--quick" ]; then
   exit
 fi
 
-build Debug
-build Release
+build_all Debug Release
 ctest --test-dir build/debug --output-on-failure -j 2
 ctest --test-dir build/release --output-on-failure -j 2
 

@@ -102,7 +102,8 @@ namespace Ricochet
             touches_owned_rows =
               touches_owned_rows || body.owned_indices().is_element(index);
           }
-        if (!touches_owned_rows)
+        // A cell may have no row of the rank that it belongs to; its energy counts.
+        if (!touches_owned_rows && !cell->is_locally_owned())
           continue;
 
         ++n_cells;

@@ -73,12 +73,14 @@ namespace Ricochet
                         [&momenta_of, c](const State &state) {
                           return momenta_of.linear(state.velocity)[c];
                         });
-      if (dim == 2)
-        loop.add_column("angular_momentum" + suffix,
+      for (unsigned int c = dim == 2 ? 2 : 0; c < 3; ++c)
+        loop.add_column("angular_momentum" +
+                          (dim == 2 ? "" : std::string("_") + "xyz"[c]) +
+                          suffix,
                         "kg m^2/s",
-                        [&momenta_of](const State &state) {
+                        [&momenta_of, c](const State &state) {
                           return momenta_of.angular(state.solution,
-                                                    state.velocity)[2];
+                                                    state.velocity)[c];
                         });
     };
     for (unsigned int p = 0; p < names.size(); ++p)
@@ -109,4 +111,5 @@ namespace Ricochet
 
 
   template class PartColumns<2>;
+  template class PartColumns<3>;
 } // namespace Ricochet

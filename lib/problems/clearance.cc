@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
+#include <contact/surfaces/closest_point.h>
 #include <contact/surfaces/contact_surface.h>
 #include <problems/clearance.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -155,6 +157,34 @@ namespace Ricochet
         }
       return std::abs(angle) > numbers::PI ? distance : -distance;
     }
+
+    double
+    depth_inside(const Point<3>                                      &x,
+                 const ContactSurface<3>                             &surface,
+                 const std::vector<const ContactSurface<3>::Facet *> &facets)
+    {
+      // The solid angle of the whole boundary is 4 pi inside; that of a triangle by
+      // A. van Oosterom and J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126.
+      double angle = 0., distance = std::numeric_limits<double>::max();
+      for (const auto *facet : facets)
+        {
+          std::array<Tensor<1, 3>, 3> r;
+          for (unsigned int v = 0; v < 3; ++v)
+            r[v] = surface.nodes[facet->nodes[v]].reference_position - x;
+          const std::array<double, 3> l = {
+            {r[0].norm(), r[1].norm(), r[2].norm()}};
+          angle += 2. *
+            std::atan2(cross_product_3d(r[0], r[1]) * r[2],
+                       l[0] * l[1] * l[2] + (r[0] * r[1]) * l[2] +
+                         (r[1] * r[2]) * l[0] + (r[2] * r[0]) * l[1]);
+          const auto shares =
+            closest_in_triangle(Tensor<1, 3>(), r[0], r[1], r[2]);
+          distance = std::min(
+            distance,
+            (shares[0] * r[0] + shares[1] * r[1] + shares[2] * r[2]).norm());
+        }
+      return std::abs(angle) > 2. * numbers::PI ? distance : -distance;
+    }
   } // namespace
 
 
@@ -173,8 +203,17 @@ namespace Ricochet
     const ContactSurface<dim> surface(body, all_boundaries);
     using Facet = typename ContactSurface<dim>::Facet;
     std::map<types::material_id, std::vector<const Facet *>> boundary_of_part;
+    std::map<types::material_id, std::vector<Point<dim>>>    nodes_of_part;
     for (const Facet &facet : surface.facets)
-      boundary_of_part[facet.part].push_back(&facet);
+      {
+        boundary_of_part[facet.part].push_back(&facet);
+        for (const unsigned int node : facet.nodes)
+          nodes_of_part[facet.part].push_back(
+            surface.nodes[node].reference_position);
+      }
+    std::map<types::material_id, BoundingBox<dim>> box_of_part;
+    for (const auto &[part, nodes] : nodes_of_part)
+      box_of_part.emplace(part, BoundingBox<dim>(nodes));
 
     for (const ContactPair &pair : pairs)
       for (const Facet &facet : surface.facets)
@@ -186,6 +225,8 @@ namespace Ricochet
                 if (part == facet.part)
                   continue;
                 const Point<dim> &x = surface.nodes[node].reference_position;
+                if (!box_of_part.at(part).point_inside(x))
+                  continue;
                 // Nodes may touch; a little is round-off.
                 const double depth = depth_inside(x, surface, boundary);
                 if (!(depth > 1e-6 * facet.cell_diameter))
@@ -206,6 +247,8 @@ namespace Ricochet
   check_clearance(const Body<1> &, const std::vector<ContactPair> &);
   template void
   check_clearance(const Body<2> &, const std::vector<ContactPair> &);
+  template void
+  check_clearance(const Body<3> &, const std::vector<ContactPair> &);
   template void
   check_clearance(const Body<1> &, const Obstacles &);
   template void

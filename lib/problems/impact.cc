@@ -241,30 +241,24 @@ namespace Ricochet
                              setup.pairs.front().is_self);
       if (parameters.contact.coupling == "cut faces")
         return make_contact_on_cut_faces(parameters, body, setup);
-      if constexpr (dim < 3)
-        {
-          auto between =
-            make_pair_contact(parameters.contact, body, setup.pairs);
-          if (setup.obstacles.empty())
-            return between;
-          // Multipliers are where surfaces touch each other.
-          if (body.has_multipliers())
-            for (const auto &obstacle : setup.obstacles)
-              if (std::none_of(setup.pairs.begin(),
-                               setup.pairs.end(),
-                               [&](const ContactPair &pair) {
-                                 return pair.slave.count(obstacle.first) > 0;
-                               }))
-                throw InputError(
-                  "With constraints between surfaces a boundary that can touch a "
-                  "rigid obstacle has to be a slave, too; the boundary " +
-                  std::to_string(obstacle.first) + " is not.");
-          return std::make_unique<ContactSum<dim>>(with_obstacles(),
-                                                   std::move(between),
-                                                   body.communicator);
-        }
-      else
-        throw InputError("Contact between bodies is there in 1D and 2D only.");
+      auto between = make_pair_contact(parameters.contact, body, setup.pairs);
+      if (setup.obstacles.empty())
+        return between;
+      // Multipliers are where surfaces touch each other.
+      if (body.has_multipliers())
+        for (const auto &obstacle : setup.obstacles)
+          if (std::none_of(setup.pairs.begin(),
+                           setup.pairs.end(),
+                           [&](const ContactPair &pair) {
+                             return pair.slave.count(obstacle.first) > 0;
+                           }))
+            throw InputError(
+              "With constraints between surfaces a boundary that can touch a "
+              "rigid obstacle has to be a slave, too; the boundary " +
+              std::to_string(obstacle.first) + " is not.");
+      return std::make_unique<ContactSum<dim>>(with_obstacles(),
+                                               std::move(between),
+                                               body.communicator);
     }
 
     /// What @p setup adds to the external loads, but for the weight.
@@ -452,8 +446,7 @@ namespace Ricochet
   Impact<dim>::state_with(const Vector &velocity)
   {
     check_clearance(body, obstacles);
-    if constexpr (dim < 3)
-      check_clearance(body, pairs);
+    check_clearance(body, pairs);
     return system.initial_state(uniform(Tensor<1, dim>()),
                                 velocity,
                                 /* time */ 0.);

@@ -382,4 +382,49 @@ namespace Ricochet
       }
     builder.create(triangulation);
   }
+
+
+
+  template <int dim>
+  void
+  join_parts(const std::vector<const Triangulation<dim> *> &bodies,
+             Triangulation<dim>                            &triangulation)
+  {
+    std::vector<Point<dim>>    points;
+    std::vector<CellData<dim>> cells;
+    SubCellData                boundary;
+    for (unsigned int p = 0; p < bodies.size(); ++p)
+      {
+        const unsigned int first = points.size();
+        const auto        &own   = bodies[p]->get_vertices();
+        points.insert(points.end(), own.begin(), own.end());
+        for (const auto &cell : bodies[p]->active_cell_iterators())
+          {
+            CellData<dim> data(cell->n_vertices());
+            data.material_id = p;
+            for (const unsigned int v : cell->vertex_indices())
+              data.vertices[v] = first + cell->vertex_index(v);
+            cells.push_back(data);
+            for (const auto &face : cell->face_iterators())
+              if (face->at_boundary() && face->boundary_id() != 0)
+                {
+                  CellData<dim - 1> face_data(face->n_vertices());
+                  face_data.boundary_id = face->boundary_id();
+                  for (const unsigned int v : face->vertex_indices())
+                    face_data.vertices[v] = first + face->vertex_index(v);
+                  if constexpr (dim == 2)
+                    boundary.boundary_lines.push_back(face_data);
+                  else
+                    boundary.boundary_quads.push_back(face_data);
+                }
+          }
+      }
+    triangulation.create_triangulation(points, cells, boundary);
+  }
+
+
+  template void
+  join_parts(const std::vector<const Triangulation<2> *> &, Triangulation<2> &);
+  template void
+  join_parts(const std::vector<const Triangulation<3> *> &, Triangulation<3> &);
 } // namespace Ricochet

@@ -48,6 +48,16 @@ namespace Ricochet
   make_ringed_disks(const std::vector<RingedDisk> &disks,
                     dealii::Triangulation<2>      &triangulation);
 
+  /**
+   * Bodies that are meshed already, side by side. Part p is @p bodies[p]; its boundary
+   * ids stay what they are, its vertices come after those of the parts before. Meshes
+   * must not be refined.
+   */
+  template <int dim>
+  void
+  join_parts(const std::vector<const dealii::Triangulation<dim> *> &bodies,
+             dealii::Triangulation<dim> &triangulation);
+
   /// A stent below the wall of an artery, with lengths in mm: see
   /// make_stent_artery().
   struct StentArteryGeometry

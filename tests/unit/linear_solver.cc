@@ -220,7 +220,7 @@ BOOST_AUTO_TEST_CASE(corrected_solutions_solve)
   for (const std::string factorisation : {"automatic", "KLU", "MUMPS"})
     {
       parameters.factorisation = factorisation;
-      for (const Treatment &treatment : all_treatments())
+      for (const Treatment &treatment : fewer_in_debug(all_treatments()))
         {
           // Other factorisations meet each kind of contact once.
           if (factorisation != "automatic" && !treatment.simplices)
@@ -233,7 +233,7 @@ BOOST_AUTO_TEST_CASE(corrected_solutions_solve)
         }
     }
   parameters.factorisation = "automatic";
-  for (const Treatment &treatment : all_treatments())
+  for (const Treatment &treatment : fewer_in_debug(all_treatments()))
     BOOST_CHECK_LE(check<3>(treatment, parameters, true, 1e-10), 2u);
 }
 
@@ -241,7 +241,7 @@ BOOST_AUTO_TEST_CASE(direct_solutions_solve)
 {
   LinearSolver::Parameters parameters;
   parameters.type = "direct";
-  for (const Treatment &treatment : all_treatments())
+  for (const Treatment &treatment : fewer_in_debug(all_treatments()))
     check<2>(treatment, parameters, true, 1e-10);
 }
 
@@ -252,7 +252,7 @@ BOOST_AUTO_TEST_CASE(nonlinear_tangents_are_solved)
   for (const std::string factorisation : {"automatic", "KLU"})
     {
       parameters.factorisation = factorisation;
-      for (const Treatment &treatment : all_treatments())
+      for (const Treatment &treatment : fewer_in_debug(all_treatments()))
         if (takes_nonlinear_bodies(treatment))
           check<2>(treatment, parameters, false, 1e-10);
     }
@@ -260,7 +260,7 @@ BOOST_AUTO_TEST_CASE(nonlinear_tangents_are_solved)
 
 BOOST_AUTO_TEST_CASE(multigrid_solves)
 {
-  for (const Treatment &treatment : all_treatments())
+  for (const Treatment &treatment : fewer_in_debug(all_treatments()))
     if (treatment.name != "proximal augmented Lagrangian" &&
         treatment.name != "Signorini multipliers")
       check_multigrid(treatment, true);
@@ -288,7 +288,7 @@ BOOST_AUTO_TEST_CASE(multigrid_solves_with_assembled_tangents)
 // number of ranks.
 BOOST_AUTO_TEST_CASE(multigrid_needs_few_iterations)
 {
-  for (const double stiffness : {0., 1., 100.})
+  for (const double stiffness : fewer_in_debug<double>({1., 0., 100.}))
     for (const bool simplices : {false, true})
       {
         std::vector<int> iterations;

@@ -9,6 +9,7 @@
 #include <deal.II/grid/grid_generator.h>
 
 #include <random>
+#include <vector>
 
 /// A unit cube above the plane x_dim = -gap, with the boundary id 1 on the face
 /// that looks at the plane and 2 on the opposite one. In parallel every rank
@@ -50,6 +51,22 @@ struct CubeAbovePlane
 
   dealii::parallel::shared::Triangulation<dim> triangulation;
 };
+
+/// With assertions every third of @p all, which take several times as long then:
+/// what they are about is in each of a kind. Without, all of them.
+template <typename T>
+std::vector<T>
+fewer_in_debug(const std::vector<T> &all)
+{
+#ifdef DEBUG
+  std::vector<T> some;
+  for (std::size_t k = 0; k < all.size(); k += 3)
+    some.push_back(all[k]);
+  return some;
+#else
+  return all;
+#endif
+}
 
 /// Fill the owned entries with numbers that depend on the index only, so that
 /// they are the same on any number of ranks.

@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(energy_and_angular_momentum_are_kept)
                                       "Ayyad-Barboteu two-step",
                                       "improved normal compliance",
                                       "Hauret-Le Tallec"})
-    for (const Target &target : targets())
+    for (const Target &target : fewer_in_debug(targets()))
       BOOST_TEST_CONTEXT(treatment << ", " << target.name)
       {
         Throw            cube(target.shape, treatment, 0.);
@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(forces_at_the_end_of_a_step_dissipate)
 {
   for (const std::string treatment :
        {"penalty", "standard normal compliance", "Signorini active set"})
-    for (const Target &target : targets())
+    for (const Target &target : fewer_in_debug(targets()))
       BOOST_TEST_CONTEXT(treatment << ", " << target.name)
       {
         Throw        cube(target.shape, treatment, 0.);
@@ -199,7 +199,7 @@ BOOST_AUTO_TEST_CASE(friction_only_dissipates)
 {
   for (const std::string treatment :
        {"persistent contact", "improved normal compliance"})
-    for (const Target &target : targets())
+    for (const Target &target : fewer_in_debug(targets()))
       BOOST_TEST_CONTEXT(treatment << ", " << target.name)
       {
         Throw        cube(target.shape, treatment, .3);
@@ -228,7 +228,7 @@ BOOST_AUTO_TEST_CASE(work_of_moving_obstacles)
                            Tensor<1, 3>({.2, 0., 1.}));
   for (const std::string treatment :
        {"persistent contact", "improved normal compliance"})
-    for (const Target &target : targets())
+    for (const Target &target : fewer_in_debug(targets()))
       BOOST_TEST_CONTEXT(treatment << ", " << target.name)
       {
         std::vector<double> differences;
@@ -328,7 +328,7 @@ BOOST_AUTO_TEST_CASE(newton_converges_quadratically)
   for (const std::string treatment :
        {"persistent contact", "improved normal compliance", "penalty"})
     for (const double friction : {0., .3})
-      for (const Target &target : targets())
+      for (const Target &target : fewer_in_debug(targets()))
         BOOST_TEST_CONTEXT(treatment << ", " << target.name
                                      << ", mu = " << friction)
         {

@@ -164,10 +164,10 @@ BOOST_AUTO_TEST_CASE(rows_are_exact)
                   const auto   i      = rows.unknowns[k];
                   const double change = after(i) - before(i);
                   gap += rows.normal[k] * change;
-                  slip += rows.tangential[k] * change;
+                  slip += rows.tangential[0][k] * change;
                   const unsigned int c = strips.component_of(i);
                   sum[0][c] += rows.normal[k];
-                  sum[1][c] += rows.tangential[k];
+                  sum[1][c] += rows.tangential[0][k];
                 }
               // The other component of a node is its neighbour.
               for (unsigned int k = 0; k < rows.unknowns.size(); k += 2)
@@ -179,13 +179,13 @@ BOOST_AUTO_TEST_CASE(rows_are_exact)
                     strips.reference.at(j)[1] + .5 * (before(j) + after(j));
                   moment[0] += x * rows.normal[k + 1] - y * rows.normal[k];
                   moment[1] +=
-                    x * rows.tangential[k + 1] - y * rows.tangential[k];
+                    x * rows.tangential[0][k + 1] - y * rows.tangential[0][k];
                 }
               of_gap =
                 std::max({of_gap,
                           std::abs(gap - rows.gap_increment),
                           std::abs(gap - pair->new_gap(p) + pair->old_gap(p))});
-              of_slip = std::max(of_slip, std::abs(slip - rows.slip));
+              of_slip = std::max(of_slip, std::abs(slip - rows.slip[0]));
               for (const unsigned int r : {0U, 1U})
                 {
                   of_moments = std::max(of_moments, std::abs(moment[r]));
@@ -265,9 +265,9 @@ BOOST_AUTO_TEST_CASE(derivatives_are_quotients_of_differences)
             std::map<dealii::types::global_dof_index, double> force;
             for (unsigned int k = 0; k < rows.unknowns.size(); ++k)
               force[rows.unknowns[k]] +=
-                traction * rows.tangential[k] - pressure * rows.normal[k];
+                traction * rows.tangential[0][k] - pressure * rows.normal[k];
             gap  = pair->new_gap(p);
-            slip = rows.slip;
+            slip = rows.slip[0];
             return force;
           };
           pair->begin_step(start_at(before, zero));
@@ -281,14 +281,17 @@ BOOST_AUTO_TEST_CASE(derivatives_are_quotients_of_differences)
               pair->evaluate(after);
               const auto &rows = pair->rows(p);
               const auto &derivatives =
-                pair->derivatives(p, pressure, traction, Caution::none);
+                pair->derivatives(p,
+                                  pressure,
+                                  dealii::Tensor<1, 1>({traction}),
+                                  Caution::none);
               const unsigned int m         = rows.unknowns.size();
               double             along_gap = 0., along_slip = 0.;
               for (unsigned int b = 0; b < m; ++b)
                 {
                   along_gap += derivatives.gap[b] * direction(rows.unknowns[b]);
                   along_slip +=
-                    derivatives.slip[b] * direction(rows.unknowns[b]);
+                    derivatives.slip[0][b] * direction(rows.unknowns[b]);
                 }
               of_gap =
                 std::max(of_gap,

@@ -28,7 +28,7 @@ namespace Ricochet
   MortarPair::MortarPair(const Body<2>     &body,
                          const ContactPair &pair,
                          const Shape        shape)
-    : SurfacePair<2>(body, pair)
+    : PairBeforeChains<2>(body, pair)
     , shape(shape)
   {
     if (is_self)
@@ -453,7 +453,7 @@ namespace Ricochet
       {
         rows.unknowns.push_back(unknown);
         rows.normal.push_back(0.);
-        rows.tangential.push_back(0.);
+        rows.tangential[0].push_back(0.);
       }
     return place;
   }
@@ -469,9 +469,9 @@ namespace Ricochet
     up_to_date[p] = true;
     rows.unknowns.clear();
     rows.normal.clear();
-    rows.tangential.clear();
-    rows.gap_increment = rows.slip = 0.;
-    rows.direction                 = {};
+    rows.tangential[0].clear();
+    rows.gap_increment = rows.slip[0] = 0.;
+    rows.direction                    = {};
     for (const Index unknown :
          slave.nodes[own_points[p].nodes[0].first].unknowns)
       place_of(unknown, rows);
@@ -485,7 +485,7 @@ namespace Ricochet
             const double factor = point.weight / own_points[p].weight *
               psi(facet, support.end, point.s);
             rows.gap_increment += factor * own.gap_increment;
-            rows.slip += factor * own.slip;
+            rows.slip[0] += factor * own.slip;
             for_each_unknown(facet,
                              point,
                              [&](const Index        unknown,
@@ -495,7 +495,7 @@ namespace Ricochet
                                  place_of(unknown, rows);
                                rows.normal[place] +=
                                  factor * share * own.normal[coordinate];
-                               rows.tangential[place] +=
+                               rows.tangential[0][place] +=
                                  factor * share * own.tangential[coordinate];
                              });
             const double part =
@@ -515,14 +515,14 @@ namespace Ricochet
   const SurfacePair<2>::Derivatives &
   MortarPair::derivatives(const unsigned int p,
                           const double       pressure,
-                          const double       traction,
+                          const Tangential  &traction,
                           const Caution      caution) const
   {
     rows(p);
     Rows              &own = all_rows[p];
     const unsigned int m   = own.unknowns.size();
     result.gap.assign(m, 0.);
-    result.slip.assign(m, 0.);
+    result.slip[0].assign(m, 0.);
     result.forces.assign(m * m, 0.);
     for (const Support &support : supports[p])
       {
@@ -567,11 +567,12 @@ namespace Ricochet
                 const unsigned int i = coordinates[a];
                 result.gap[places[a]] +=
                   factor * factors[a] * all.new_gap.dx(i);
-                result.slip[places[a]] += factor * factors[a] * all.slip.dx(i);
+                result.slip[0][places[a]] +=
+                  factor * factors[a] * all.slip.dx(i);
                 for (unsigned int b = 0; b < places.size(); ++b)
                   result.forces[places[a] * m + places[b]] += factor *
                     factors[a] * factors[b] *
-                    (traction * all.tangential[i].dx(coordinates[b]) -
+                    (traction[0] * all.tangential[i].dx(coordinates[b]) -
                      pressure * all.normal[i].dx(coordinates[b]));
               }
           }

@@ -2,7 +2,7 @@
 #ifndef ricochet_contact_kinematics_mortar_pair_h
 #define ricochet_contact_kinematics_mortar_pair_h
 
-#include <contact/kinematics/surface_pair.h>
+#include <contact/kinematics/pair_before_chains.h>
 #include <contact/surfaces/facet_chain.h>
 
 namespace Ricochet
@@ -34,7 +34,7 @@ namespace Ricochet
    * finite deformation contact with consistent linearization, Int. J. Numer. Meth.
    * Engng 83 (2010); here without condensation.
    */
-  class MortarPair : public SurfacePair<2>
+  class MortarPair : public PairBeforeChains<2>
   {
   public:
     enum class Shape
@@ -61,7 +61,7 @@ namespace Ricochet
     const Derivatives &
     derivatives(const unsigned int p,
                 const double       pressure,
-                const double       traction,
+                const Tangential  &traction,
                 const Caution      caution) const override;
 
     std::vector<Index>

@@ -15,7 +15,7 @@ namespace Ricochet
   PointsBeforeFacets<dim>::PointsBeforeFacets(const Body<dim>   &body,
                                               const ContactPair &pair,
                                               const PointsIn     points_in)
-    : SurfacePair<dim>(body, pair)
+    : PairBeforeChains<dim>(body, pair)
   {
     if (points_in == PointsIn::quadrature_points)
       make_quadrature_points(body);
@@ -517,19 +517,19 @@ namespace Ricochet
     Rows &rows = step.rows;
     rows.unknowns.clear();
     rows.normal.clear();
-    rows.tangential.clear();
+    rows.tangential[0].clear();
     step.coordinate.clear();
     step.factor.clear();
     rows.gap_increment = chain_rows.gap_increment;
-    rows.slip          = chain_rows.slip;
+    rows.slip[0]       = chain_rows.slip;
     const auto add =
       [&](const auto &node, const unsigned int i, const double factor) {
         for (unsigned int c = 0; c < dim; ++c)
           {
             rows.unknowns.push_back(node.unknowns[c]);
             rows.normal.push_back(factor * chain_rows.normal[i * dim + c]);
-            rows.tangential.push_back(factor *
-                                      chain_rows.tangential[i * dim + c]);
+            rows.tangential[0].push_back(factor *
+                                         chain_rows.tangential[i * dim + c]);
             step.coordinate.push_back(i * dim + c);
             step.factor.push_back(factor);
           }
@@ -562,7 +562,7 @@ namespace Ricochet
   const typename SurfacePair<dim>::Derivatives &
   PointsBeforeFacets<dim>::derivatives(const unsigned int p,
                                        const double       pressure,
-                                       const double       traction,
+                                       const Tangential  &traction,
                                        const Caution      caution) const
   {
     update(p);
@@ -571,18 +571,18 @@ namespace Ricochet
     const Step        &step = steps[p];
     const unsigned int m    = step.coordinate.size();
     result.gap.resize(m);
-    result.slip.resize(m);
+    result.slip[0].resize(m);
     result.forces.resize(m * m);
     for (unsigned int a = 0; a < m; ++a)
       {
         const unsigned int i = step.coordinate[a];
         result.gap[a]        = step.factor[a] * all.new_gap.dx(i);
-        result.slip[a]       = step.factor[a] * all.slip.dx(i);
+        result.slip[0][a]    = step.factor[a] * all.slip.dx(i);
         for (unsigned int b = 0; b < m; ++b)
           {
             const unsigned int j     = step.coordinate[b];
             result.forces[a * m + b] = step.factor[a] * step.factor[b] *
-              (traction * all.tangential[i].dx(j) -
+              (traction[0] * all.tangential[i].dx(j) -
                pressure * all.normal[i].dx(j));
           }
       }

@@ -2,8 +2,10 @@
 #ifndef ricochet_contact_kinematics_points_before_facets_h
 #define ricochet_contact_kinematics_points_before_facets_h
 
-#include <contact/kinematics/surface_pair.h>
+#include <contact/kinematics/pair_before_chains.h>
 #include <contact/surfaces/facet_chain.h>
+
+#include <Sacado_Fad_SLFad.hpp>
 
 namespace Ricochet
 {
@@ -23,7 +25,7 @@ namespace Ricochet
    * beyond the concave vertex, and neither of them passes that.
    */
   template <int dim>
-  class PointsBeforeFacets : public SurfacePair<dim>
+  class PointsBeforeFacets : public PairBeforeChains<dim>
   {
   public:
     using typename SurfacePair<dim>::Derivatives;
@@ -31,6 +33,7 @@ namespace Ricochet
     using typename SurfacePair<dim>::Point;
     using typename SurfacePair<dim>::Position;
     using typename SurfacePair<dim>::Rows;
+    using typename SurfacePair<dim>::Tangential;
 
     enum class PointsIn
     {
@@ -57,7 +60,7 @@ namespace Ricochet
     const Derivatives &
     derivatives(const unsigned int p,
                 const double       pressure,
-                const double       traction,
+                const Tangential  &traction,
                 const Caution      caution) const override;
 
     void
@@ -93,8 +96,8 @@ namespace Ricochet
     }
 
   private:
-    using typename SurfacePair<dim>::Chain;
-    using typename SurfacePair<dim>::Facing;
+    using typename PairBeforeChains<dim>::Chain;
+    using typename PairBeforeChains<dim>::Facing;
     using typename SurfacePair<dim>::Gaps;
     using typename SurfacePair<dim>::Positions;
     using SurfacePair<dim>::gaps;
@@ -102,7 +105,7 @@ namespace Ricochet
     using SurfacePair<dim>::master;
     using SurfacePair<dim>::own_points;
     using SurfacePair<dim>::slave;
-    using SurfacePair<dim>::work;
+    using PairBeforeChains<dim>::work;
 
     /// At most a point and six nodes: a point that passes four vertices in a step.
     static constexpr unsigned int max_coordinates = 14;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <contact/kinematics/surface_pair.h>
-#include <contact/surfaces/facet_chain.h>
 #include <contact/surfaces/facet_search.h>
 
 #include <algorithm>
@@ -21,6 +20,8 @@ namespace Ricochet
     {
       for (const auto &node : surface.nodes)
         {
+          if (!node.mean_of.empty())
+            break;
           indices.add_indices(node.unknowns.begin(), node.unknowns.end());
           for (const auto index : node.multipliers)
             if (index != numbers::invalid_dof_index)
@@ -33,7 +34,9 @@ namespace Ricochet
     local_indices(const ContactSurface<dim> &surface, const Vector &ghosted)
     {
       std::vector<std::array<int, dim>> local(surface.nodes.size());
-      for (unsigned int n = 0; n < local.size(); ++n)
+      for (unsigned int n = 0;
+           n < local.size() && surface.nodes[n].mean_of.empty();
+           ++n)
         for (unsigned int c = 0; c < dim; ++c)
           local[n][c] = ghosted.trilinos_vector().Map().LID(
             static_cast<TrilinosWrappers::types::int_type>(
@@ -86,17 +89,25 @@ namespace Ricochet
   SurfacePair<dim>::make_nodal_points(const Body<dim> &body)
   {
     std::vector<Point> all(slave.nodes.size());
+    const auto         add =
+      [&](const unsigned int n, const unsigned int f, double share) {
+        all[n].facets.push_back(f);
+        all[n].weight += share * slave.facets[f].measure / dim;
+        all[n].cell_diameter =
+          std::max(all[n].cell_diameter, slave.facets[f].cell_diameter);
+        all[n].boundary_id = slave.facets[f].boundary_id;
+      };
     for (unsigned int f = 0; f < slave.facets.size(); ++f)
       for (const unsigned int n : slave.facets[f].nodes)
         {
-          all[n].facets.push_back(f);
-          all[n].weight += slave.facets[f].measure / dim;
-          all[n].cell_diameter =
-            std::max(all[n].cell_diameter, slave.facets[f].cell_diameter);
-          all[n].boundary_id = slave.facets[f].boundary_id;
+          const auto &mean_of = slave.nodes[n].mean_of;
+          if (mean_of.empty())
+            add(n, f, 1.);
+          for (const unsigned int of : mean_of)
+            add(of, f, 1. / mean_of.size());
         }
     for (unsigned int n = 0; n < all.size(); ++n)
-      if (is_mine(body, n))
+      if (slave.nodes[n].mean_of.empty() && is_mine(body, n))
         {
           all[n].nodes       = {{n, 1.}};
           all[n].multipliers = slave.nodes[n].multipliers;
@@ -122,10 +133,18 @@ namespace Ricochet
                          std::vector<Position>                   &x) {
       x.resize(index.size());
       for (unsigned int n = 0; n < x.size(); ++n)
-        for (unsigned int c = 0; c < dim; ++c)
-          x[n][c] = (start_x ? (*start_x)[n][c]
-                                  : surface.nodes[n].reference_position[c]) +
-            time * value[index[n][c]];
+        if (const auto &mean_of = surface.nodes[n].mean_of; !mean_of.empty())
+          {
+            x[n] = {};
+            for (const unsigned int of : mean_of)
+              for (unsigned int c = 0; c < dim; ++c)
+                x[n][c] += x[of][c] / mean_of.size();
+          }
+        else
+          for (unsigned int c = 0; c < dim; ++c)
+            x[n][c] = (start_x ? (*start_x)[n][c]
+                                    : surface.nodes[n].reference_position[c]) +
+              time * value[index[n][c]];
     };
     get(slave, slave_index, start ? &start->slave : nullptr, positions.slave);
     get(master,
@@ -175,110 +194,6 @@ namespace Ricochet
       for (unsigned int c = 0; c < dim; ++c)
         y[c] += weight * slave_x[node][c];
     return y;
-  }
-
-
-
-  template <int dim>
-  typename SurfacePair<dim>::Chain
-  SurfacePair<dim>::chain_around(const unsigned int f,
-                                 unsigned int      &place) const
-  {
-    unsigned int first = f;
-    for (unsigned int k = 0; k < 2; ++k)
-      if (const auto previous = master.facets[first].previous)
-        first = *previous;
-    // A closed surface of few facets is gone round more than once.
-    Chain chain;
-    chain.nodes.push_back(master.facets[first].nodes[0]);
-    std::optional<unsigned int> facet         = first;
-    unsigned int                n_behind_last = 0;
-    bool                        passed        = false;
-    while (facet && n_behind_last < 3)
-      {
-        if (!passed && *facet == f)
-          place = chain.facets.size();
-        chain.facets.push_back(*facet);
-        if constexpr (dim == 2)
-          chain.nodes.push_back(master.facets[*facet].nodes[1]);
-        passed = passed || *facet == f;
-        n_behind_last += passed ? 1 : 0;
-        facet = master.facets[*facet].next;
-      }
-    return chain;
-  }
-
-
-
-  template <int dim>
-  const std::vector<typename SurfacePair<dim>::Position> &
-  SurfacePair<dim>::gather(const Position              &y,
-                           const Chain                 &chain,
-                           const std::vector<Position> &master_x) const
-  {
-    work.assign(1, y);
-    for (const unsigned int node : chain.nodes)
-      work.push_back(master_x[node]);
-    return work;
-  }
-
-
-
-  template <int dim>
-  double
-  SurfacePair<dim>::gap_before(const std::vector<Position> &x,
-                               const Chain                 &chain,
-                               const unsigned int           facet) const
-  {
-    if constexpr (dim == 1)
-      return master.facets[chain.facets[facet]].normal[0] * (x[0][0] - x[1][0]);
-    else
-      return FacetChain<double>::gap(x, facet);
-  }
-
-
-
-  template <int dim>
-  unsigned int
-  SurfacePair<dim>::facet_before(const std::vector<Position> &x,
-                                 const unsigned int           facet) const
-  {
-    if constexpr (dim == 1)
-      return facet;
-    else
-      return FacetChain<double>::facet_before(x, facet);
-  }
-
-
-
-  template <int dim>
-  bool
-  SurfacePair<dim>::is_off(const std::vector<Position> &x,
-                           const Chain                 &chain,
-                           const unsigned int           facet) const
-  {
-    if constexpr (dim == 1)
-      return false;
-    else
-      {
-        const auto     &own = master.facets[chain.facets[facet]];
-        const Position &a = x[facet + 1], &b = x[facet + 2];
-        const double    length = std::hypot(b[0] - a[0], b[1] - a[1]);
-        const double    along  = ((b[0] - a[0]) * (x[0][0] - a[0]) +
-                              (b[1] - a[1]) * (x[0][1] - a[1])) /
-          length;
-        // Edges of bodies of the same size may meet, and what is pressed into a facet
-        // that turns is not off its end for that.
-        const double gap       = gap_before(x, chain, facet);
-        const double tolerance = 1e-6 * length + std::max(0., -gap);
-        if ((!own.previous && along < -tolerance) ||
-            (!own.next && along > length + tolerance))
-          return true;
-        // Past a vertex points may be as far as its bisector leads; what is farther
-        // off the ends of the facet than before it is beside it.
-        const double beside = std::max(-along, along - length);
-        return beside > 1.5 * std::abs(gap) + .5 * length;
-      }
   }
 
 
@@ -345,35 +260,7 @@ namespace Ricochet
 
 
 
-  template <int dim>
-  std::optional<typename SurfacePair<dim>::Facing>
-  SurfacePair<dim>::find_facet(const Position              &y,
-                               const Position              &normal,
-                               const FacetSearch<dim>      &search,
-                               const std::vector<Position> &master_x,
-                               const Point                 *self,
-                               const double largest_distance) const
-  {
-    const auto can_touch = [&](const unsigned int f) {
-      return !self || can_touch_itself(*self, f, y, normal, master_x);
-    };
-    const auto found = self
-      ? search.closest_facing(y, normal, can_touch, largest_distance)
-      : search.closest_facing(y, normal);
-    if (!found)
-      return {};
-    Facing       facing;
-    unsigned int place = 0;
-    facing.chain       = chain_around(*found, place);
-    gather(y, facing.chain, master_x);
-    facing.facet = facet_before(work, place);
-    if (is_off(work, facing.chain, facing.facet) ||
-        !can_touch(facing.chain.facets[facing.facet]))
-      return {};
-    return facing;
-  }
-
-
   template class SurfacePair<1>;
   template class SurfacePair<2>;
+  template class SurfacePair<3>;
 } // namespace Ricochet

@@ -4,18 +4,11 @@
 
 #include <contact/kinematics/contact_kinematics.h>
 #include <contact/surfaces/contact_pair.h>
+#include <contact/surfaces/caution.h>
 #include <contact/surfaces/contact_surface.h>
-#include <contact/surfaces/facet_chain.h>
-
-#include <Sacado_Fad_SLFad.hpp>
-
-#include <limits>
 
 namespace Ricochet
 {
-  template <int dim>
-  class FacetSearch;
-
   /**
    * The geometry of contact of the points of one surface (slave) with the facets of
    * another one (master), both of which move: in each point gap, its increment and
@@ -34,6 +27,12 @@ namespace Ricochet
   public:
     using Index    = dealii::types::global_dof_index;
     using Position = std::array<double, dim>;
+
+    /// Number of directions along a surface; one, which nothing moves along, on the
+    /// line.
+    static constexpr unsigned int n_tangents = dim == 3 ? 2 : 1;
+    /// Slip (m) or traction (Pa).
+    using Tangential = dealii::Tensor<1, n_tangents>;
 
     /// A point of the slave surface that this rank takes care of.
     struct Point
@@ -61,11 +60,12 @@ namespace Ricochet
       /// or of the first of its nodes.
       std::vector<Index> unknowns;
       /// D and T, 1.
-      std::vector<double> normal, tangential;
+      std::vector<double>                         normal;
+      std::array<std::vector<double>, n_tangents> tangential;
       /// D . change (m)
       double gap_increment = 0.;
       /// T . change (m)
-      double slip = 0.;
+      Tangential slip;
       /// Outward unit normal of the master.
       Position direction{};
     };
@@ -74,7 +74,8 @@ namespace Ricochet
     struct Derivatives
     {
       /// Of gap and slip, 1.
-      std::vector<double> gap, slip;
+      std::vector<double>                         gap;
+      std::array<std::vector<double>, n_tangents> slip;
       /// Of traction T - pressure D (Pa/m), row by row.
       std::vector<double> forces;
     };
@@ -179,7 +180,7 @@ namespace Ricochet
     virtual const Derivatives &
     derivatives(const unsigned int p,
                 const double       pressure,
-                const double       traction,
+                const Tangential  &traction,
                 const Caution      caution) const = 0;
 
     /// The unknowns of the rows and those that may join them in the course of a
@@ -215,26 +216,12 @@ namespace Ricochet
       std::vector<Position> slave, master;
     };
 
-    /// Facets that hang together, and their nodes.
-    struct Chain
-    {
-      std::vector<unsigned int> facets, nodes;
-    };
-
     /// What is known of a point over a step.
     struct Gaps
     {
       bool     is_before_facet = false;
       double   old_gap = 0., new_gap = 0., predicted_gap = 0.;
       Position multipliers{};
-    };
-
-    /// The facet before which a point is.
-    struct Facing
-    {
-      Chain chain;
-      /// Its place in the chain.
-      unsigned int facet = 0;
     };
 
     /// One point for each node of the slave that this rank owns.
@@ -268,51 +255,6 @@ namespace Ricochet
     Position
     position_of(const Point &point, const std::vector<Position> &slave_x) const;
 
-    /// The facet @p f of the master surface and two more on each side; @p place is
-    /// its number among them.
-    Chain
-    chain_around(const unsigned int f, unsigned int &place) const;
-
-    /// The position @p y and those of the nodes of @p chain, in #work.
-    const std::vector<Position> &
-    gather(const Position              &y,
-           const Chain                 &chain,
-           const std::vector<Position> &master_x) const;
-
-    /// The gap at positions from gather().
-    double
-    gap_before(const std::vector<Position> &x,
-               const Chain                 &chain,
-               const unsigned int           facet) const;
-
-    /// The facet of the chain before which the point is, beginning with @p facet.
-    unsigned int
-    facet_before(const std::vector<Position> &x,
-                 const unsigned int           facet) const;
-
-    /// Whether the point is beyond an open end of the surface, or beside it.
-    bool
-    is_off(const std::vector<Position> &x,
-           const Chain                 &chain,
-           const unsigned int           facet) const;
-
-    /// The facet before which the point @p y of the slave with the outward @p normal
-    /// is, of those that @p search knows, if there is one. The positions are in #work
-    /// then.
-    ///
-    /// @param self the point, where a surface is searched for contact with itself:
-    /// not before its own facets and their neighbours, nor before those on the far
-    /// side of the wall that it is on.
-    /// @param largest_distance of the facet (m).
-    std::optional<Facing>
-    find_facet(const Position              &y,
-               const Position              &normal,
-               const FacetSearch<dim>      &search,
-               const std::vector<Position> &master_x,
-               const Point                 *self = nullptr,
-               const double                 largest_distance =
-                 std::numeric_limits<double>::infinity()) const;
-
     /// Whether the @p point and facet @p f of one surface hang together.
     bool
     shares_node(const Point &point, const unsigned int f) const;
@@ -325,18 +267,10 @@ namespace Ricochet
                      const Position              &normal_of_point,
                      const std::vector<Position> &master_x) const;
 
-    /// How deep behind a facet contact reaches: not through a body (m).
-    double
-    largest_depth(const Facing &facing) const
-    {
-      return master.facets[facing.chain.facets[facing.facet]].measure;
-    }
-
-    const bool                    is_self;
-    ContactSurface<dim>           slave, master;
-    std::vector<Point>            own_points;
-    std::vector<Gaps>             gaps;
-    mutable std::vector<Position> work;
+    const bool          is_self;
+    ContactSurface<dim> slave, master;
+    std::vector<Point>  own_points;
+    std::vector<Gaps>   gaps;
 
   private:
     mutable Vector                    ghosted;

@@ -5,6 +5,7 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <boost/serialization/array.hpp>
+#include <boost/serialization/vector.hpp>
 
 #include <algorithm>
 #include <map>
@@ -36,7 +37,7 @@ namespace Ricochet
       };
 
       std::array<double, dim> middle, normal;
-      std::array<End, dim>    ends;
+      std::vector<End>        ends;
       double                  measure = 0., cell_diameter = 0.;
       unsigned int            boundary_id = 0, part = 0;
 
@@ -66,6 +67,25 @@ namespace Ricochet
       for (unsigned int c = 0; c < dim; ++c)
         array[c] = x[c];
       return array;
+    }
+
+    /// In an order that is anticlockwise from outside. Those of a quadrilateral come in
+    /// two rows.
+    void
+    turn_around(Message<3> &message)
+    {
+      auto &ends = message.ends;
+      if (ends.size() == 4)
+        std::swap(ends[2], ends[3]);
+      Tensor<1, 3> edge[2], normal;
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          edge[0][c] = ends[1].position[c] - ends[0].position[c];
+          edge[1][c] = ends.back().position[c] - ends[0].position[c];
+          normal[c]  = message.normal[c];
+        }
+      if (cross_product_3d(edge[0], edge[1]) * normal < 0.)
+        std::reverse(ends.begin(), ends.end());
     }
 
     /// The facets of owned cells.
@@ -99,7 +119,6 @@ namespace Ricochet
         message.cell_diameter = cell->diameter();
         message.boundary_id   = face->boundary_id();
         message.part          = cell->material_id();
-        unsigned int n_ends   = 0;
         for (const unsigned int v : cell->vertex_indices())
           {
             bool on_face = false;
@@ -108,8 +127,8 @@ namespace Ricochet
                 on_face || face->vertex_index(w) == cell->vertex_index(v);
             if (!on_face)
               continue;
-            typename Message<dim>::End &end = message.ends[n_ends++];
-            end.position                    = to_array<dim>(cell->vertex(v));
+            typename Message<dim>::End end;
+            end.position = to_array<dim>(cell->vertex(v));
             end.multipliers.fill(numbers::invalid_dof_index);
             for (unsigned int c = 0; c < dim; ++c)
               end.unknowns[c] = body.system_index(cell->vertex_dof_index(v, c));
@@ -122,6 +141,7 @@ namespace Ricochet
                   end.multipliers[c] = body.multiplier_system_index(
                     multiplier_cell->vertex_dof_index(v, c));
               }
+            message.ends.push_back(end);
           }
         // Outside on the left.
         if constexpr (dim == 2)
@@ -131,6 +151,8 @@ namespace Ricochet
                   message.normal[0] <
               0.)
             std::swap(message.ends[0], message.ends[1]);
+        if constexpr (dim == 3)
+          turn_around(message);
         messages.push_back(message);
       });
       return messages;
@@ -168,15 +190,15 @@ namespace Ricochet
       held.insert(list.begin(), list.end());
 
     std::map<types::global_dof_index, unsigned int> number_of_node;
+    std::vector<std::vector<unsigned int>>          nodes_of_messages;
     for (const Message<dim> &message : messages)
       {
-        Facet facet;
-        for (unsigned int v = 0; v < dim; ++v)
+        nodes_of_messages.emplace_back();
+        for (const auto &end : message.ends)
           {
-            const auto &end = message.ends[v];
             const auto [known, is_new] =
               number_of_node.emplace(end.unknowns[0], nodes.size());
-            facet.nodes[v] = known->second;
+            nodes_of_messages.back().push_back(known->second);
             if (!is_new)
               continue;
             Node node;
@@ -191,15 +213,65 @@ namespace Ricochet
                                        });
             nodes.push_back(node);
           }
+      }
+    for (unsigned int m = 0; m < messages.size(); ++m)
+      {
+        const Message<dim>              &message = messages[m];
+        const std::vector<unsigned int> &own     = nodes_of_messages[m];
+        Facet                            facet;
         for (unsigned int c = 0; c < dim; ++c)
           facet.normal[c] = message.normal[c];
         facet.boundary_id   = message.boundary_id;
         facet.part          = message.part;
         facet.measure       = message.measure;
         facet.cell_diameter = message.cell_diameter;
-        facets.push_back(facet);
+        if (own.size() == dim)
+          {
+            std::copy(own.begin(), own.end(), facet.nodes.begin());
+            facets.push_back(facet);
+          }
+        else if constexpr (dim == 3)
+          {
+            Node mean;
+            mean.unknowns.fill(numbers::invalid_dof_index);
+            mean.multipliers.fill(numbers::invalid_dof_index);
+            mean.mean_of = own;
+            mean.is_held = true;
+            for (const unsigned int n : own)
+              {
+                mean.reference_position +=
+                  nodes[n].reference_position / static_cast<double>(own.size());
+                mean.is_held = mean.is_held && nodes[n].is_held;
+              }
+            nodes.push_back(mean);
+            for (unsigned int v = 0; v < own.size(); ++v)
+              {
+                facet.nodes          = {{own[v],
+                                         own[(v + 1) % own.size()],
+                                         static_cast<unsigned int>(nodes.size() - 1)}};
+                const Point<dim>  &a = nodes[facet.nodes[0]].reference_position;
+                const Tensor<1, 3> area = .5 *
+                  cross_product_3d(Tensor<1, 3>(
+                                     nodes[facet.nodes[1]].reference_position -
+                                     a),
+                                   Tensor<1, 3>(mean.reference_position - a));
+                facet.measure = area.norm();
+                facet.normal  = area / area.norm();
+                facets.push_back(facet);
+              }
+          }
       }
+    connect_facets();
+  }
 
+
+
+  template <int dim>
+  void
+  ContactSurface<dim>::connect_facets()
+  {
+    const char *const branches =
+      "A surface of contact branches: more than two of its facets meet ";
     if constexpr (dim == 2)
       {
         std::vector<std::optional<unsigned int>> begins(nodes.size());
@@ -207,9 +279,7 @@ namespace Ricochet
           {
             std::optional<unsigned int> &begin = begins[facets[f].nodes[0]];
             if (begin)
-              throw InputError(
-                "A surface of contact branches: at a node more "
-                "than two of its facets meet.");
+              throw InputError(std::string(branches) + "at a node.");
             begin = f;
           }
         for (unsigned int f = 0; f < facets.size(); ++f)
@@ -219,9 +289,29 @@ namespace Ricochet
               facets[*next].previous = f;
             }
       }
+    if constexpr (dim == 3)
+      {
+        // An edge is seen from both sides in opposite directions.
+        std::map<std::pair<unsigned int, unsigned int>, unsigned int> edges;
+        for (unsigned int f = 0; f < facets.size(); ++f)
+          for (unsigned int e = 0; e < 3; ++e)
+            if (!edges
+                   .emplace(std::pair(facets[f].nodes[e],
+                                      facets[f].nodes[(e + 1) % 3]),
+                            f)
+                   .second)
+              throw InputError(std::string(branches) + "at an edge.");
+        for (Facet &facet : facets)
+          for (unsigned int e = 0; e < 3; ++e)
+            if (const auto other = edges.find(
+                  std::pair(facet.nodes[(e + 1) % 3], facet.nodes[e]));
+                other != edges.end())
+              facet.neighbours[e] = other->second;
+      }
   }
 
 
   template class ContactSurface<1>;
   template class ContactSurface<2>;
+  template class ContactSurface<3>;
 } // namespace Ricochet

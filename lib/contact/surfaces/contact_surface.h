@@ -17,7 +17,9 @@ namespace Ricochet
    * partner of a point may be on any rank.
    *
    * In the plane facets are segments from node 0 to node 1 with the outside on
-   * their left, in 1D single nodes.
+   * their left, in 1D single nodes. In space they are triangles, whose nodes are seen
+   * anticlockwise from outside; a quadrilateral is four of them around the mean of its
+   * nodes, which moves with them.
    */
   template <int dim>
   class ContactSurface
@@ -34,6 +36,8 @@ namespace Ricochet
       std::array<dealii::types::global_dof_index, dim> multipliers;
       /// All of the node's displacement is prescribed.
       bool is_held = false;
+      /// Not a node, but the mean of these; it has no unknowns of its own.
+      std::vector<unsigned int> mean_of;
     };
 
     struct Facet
@@ -45,12 +49,15 @@ namespace Ricochet
       dealii::types::boundary_id boundary_id = 0;
       /// Part of which body: the material id of its cell.
       dealii::types::material_id part = 0;
-      /// Length (m); 1 in 1D.
+      /// Length (m) or area (m^2); 1 in 1D.
       double measure = 1.;
       /// Of the cell behind it (m).
       double cell_diameter = 0.;
-      /// Facets before and behind it, at node 0 and node 1; none at an open end.
+      /// In the plane, the facets before and behind it, at node 0 and node 1; none at
+      /// an open end.
       std::optional<unsigned int> previous, next;
+      /// In space, those beyond its edges from node 0 to 1, 1 to 2 and 2 to 0.
+      std::array<std::optional<unsigned int>, 3> neighbours;
     };
 
     /// @throws InputError when the boundaries have no facet, for a degree other
@@ -58,8 +65,13 @@ namespace Ricochet
     ContactSurface(const Body<dim>                            &body,
                    const std::set<dealii::types::boundary_id> &boundaries);
 
+    /// Means come after all nodes.
     std::vector<Node>  nodes;
     std::vector<Facet> facets;
+
+  private:
+    void
+    connect_facets();
   };
 } // namespace Ricochet
 

@@ -2,6 +2,8 @@
 #ifndef ricochet_contact_surfaces_facet_chain_h
 #define ricochet_contact_surfaces_facet_chain_h
 
+#include <contact/surfaces/caution.h>
+
 #include <array>
 #include <cmath>
 #include <type_traits>
@@ -9,18 +11,6 @@
 
 namespace Ricochet
 {
-  /// Other derivatives of the part of the way behind a vertex, with which Newton's
-  /// method does not go to and fro over it.
-  enum class Caution
-  {
-    none,
-    /// None behind a convex vertex, which gives a pressed point a negative stiffness.
-    at_convex_vertices,
-    /// Behind a concave vertex, in which a point may come to rest, the secant instead
-    /// of the tangent, which falls off soon behind the vertex.
-    at_all_vertices
-  };
-
   /**
    * Contact of a point with a chain of straight facets in the plane, all of which
    * move: the gap, and the directions along which forces on the point and on the

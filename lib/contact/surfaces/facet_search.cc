@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/surfaces/closest_point.h>
 #include <contact/surfaces/facet_search.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -30,6 +31,20 @@ namespace Ricochet
     const auto &facet = surface.facets[f];
     if constexpr (dim == 1)
       return {{facet.normal[0]}};
+    else if constexpr (dim == 3)
+      {
+        const auto &a = positions[facet.nodes[0]],
+                   &b = positions[facet.nodes[1]],
+                   &c = positions[facet.nodes[2]];
+        std::array<double, dim> normal;
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            const unsigned int j = (i + 1) % 3, k = (i + 2) % 3;
+            normal[i] =
+              (b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]);
+          }
+        return normal;
+      }
     else
       {
         const auto &a = positions[facet.nodes[0]];
@@ -104,7 +119,34 @@ namespace Ricochet
           for (unsigned int c = 0; c < dim; ++c)
             r[c] -= along * e[c];
         }
+      if constexpr (dim == 3)
+        {
+          std::array<Tensor<1, 3>, 3> corners;
+          for (unsigned int v = 0; v < 3; ++v)
+            corners[v] = to_tensor(positions[surface.facets[f].nodes[v]]);
+          const Tensor<1, 3> point = to_tensor(y);
+          const auto         shares =
+            closest_in_triangle(point, corners[0], corners[1], corners[2]);
+          Tensor<1, 3> distance = point;
+          for (unsigned int v = 0; v < 3; ++v)
+            distance -= shares[v] * corners[v];
+          return distance.norm_square();
+        }
       return dot<dim>(r, r);
+    }
+
+    /// Of either side.
+    template <int dim>
+    double
+    distance_from_plane(const ContactSurface<dim>                  &surface,
+                        const std::vector<std::array<double, dim>> &positions,
+                        const unsigned int                          f,
+                        const std::array<double, dim>              &y)
+    {
+      const auto  normal = facet_normal<dim>(surface, positions, f);
+      const auto &a      = positions[surface.facets[f].nodes[0]];
+      return std::abs(dot<dim>(normal, y) - dot<dim>(normal, a)) /
+        std::sqrt(dot<dim>(normal, normal));
     }
   } // namespace
 
@@ -123,6 +165,7 @@ namespace Ricochet
     for (unsigned int c = 0; c < dim; ++c)
       point[c] = y[c];
     std::optional<unsigned int> best;
+    double                      farthest = 0.;
     double smallest = std::min(std::numeric_limits<double>::max(),
                                largest_distance * largest_distance);
     // Boxes come in the order of their distance, which is not larger than that of
@@ -140,19 +183,31 @@ namespace Ricochet
                                              0.});
             box_distance += outside * outside;
           }
-        if (box_distance > smallest * (1. + 1e-12))
+        if (box_distance > smallest * (1. + 1e-8))
           break;
         const unsigned int f = entry->second;
         if (!accept &&
             !(dot<dim>(facet_normal<dim>(surface, positions, f), normal) < 0.))
           continue;
         const double distance = squared_distance<dim>(surface, positions, f, y);
-        if (distance > smallest || (accept && !accept(f)))
+        // In space the facets around an edge or a vertex that is closest are equally
+        // far, but for round-off, which must not choose. The point is before the one
+        // from whose plane it is farthest: behind the planes of others it may be, in
+        // front of the body.
+        const double equal =
+          dim < 3 ? 0. : 1e-9 * smallest + 1e-18 * surface.facets[f].measure;
+        if (distance > smallest + equal || (accept && !accept(f)))
           continue;
-        if (!best || distance < smallest || f < *best)
+        const double from_plane =
+          dim < 3 ? 0. : distance_from_plane<dim>(surface, positions, f, y);
+        const double margin = 1e-6 * std::sqrt(distance);
+        if (!best || distance < smallest - equal ||
+            from_plane > farthest + margin ||
+            (f < *best && from_plane >= farthest - margin))
           {
             smallest = distance;
             best     = f;
+            farthest = from_plane;
           }
       }
     return best;
@@ -183,6 +238,7 @@ namespace Ricochet
 
   template class FacetSearch<1>;
   template class FacetSearch<2>;
+  template class FacetSearch<3>;
   template std::array<double, 1>
   facet_normal<1>(const ContactSurface<1> &,
                   const std::vector<std::array<double, 1>> &,
@@ -190,5 +246,9 @@ namespace Ricochet
   template std::array<double, 2>
   facet_normal<2>(const ContactSurface<2> &,
                   const std::vector<std::array<double, 2>> &,
+                  const unsigned int);
+  template std::array<double, 3>
+  facet_normal<3>(const ContactSurface<3> &,
+                  const std::vector<std::array<double, 3>> &,
                   const unsigned int);
 } // namespace Ricochet

@@ -47,7 +47,7 @@ namespace Ricochet
     std::unique_ptr<Tree>                       tree;
   };
 
-  /// Outward normal of facet @p f, as long as the facet.
+  /// Outward normal of facet @p f, as long as the facet; in space, twice its area.
   template <int dim>
   std::array<double, dim>
   facet_normal(const ContactSurface<dim>                  &surface,

@@ -294,4 +294,5 @@ namespace Ricochet
 
   template class ContactSum<1>;
   template class ContactSum<2>;
+  template class ContactSum<3>;
 } // namespace Ricochet

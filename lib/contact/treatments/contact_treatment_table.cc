@@ -666,6 +666,10 @@ namespace Ricochet
   make_pair_contact(const ContactParameters &,
                     const Body<2> &,
                     const std::vector<ContactPair> &);
+  template std::unique_ptr<PairContact<3>>
+  make_pair_contact(const ContactParameters &,
+                    const Body<3> &,
+                    const std::vector<ContactPair> &);
   template std::unique_ptr<ContactOperator>
   make_cut_face_contact(const ContactParameters &,
                         const SchemeTraits &,

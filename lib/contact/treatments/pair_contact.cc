@@ -2,6 +2,7 @@
 #include <base/exceptions.h>
 #include <contact/kinematics/mortar_pair.h>
 #include <contact/kinematics/points_before_facets.h>
+#include <contact/kinematics/points_before_triangles.h>
 #include <contact/treatments/active_set_signature.h>
 #include <contact/treatments/pair_contact.h>
 #include <contact/treatments/power_law_linearisation.h>
@@ -18,14 +19,15 @@ namespace Ricochet
   {
     constexpr auto no_index = numbers::invalid_dof_index;
 
+    /// In the plane, and on the line.
     template <int dim>
     std::unique_ptr<SurfacePair<dim>>
-    make_surface_pair(const Body<dim>   &body,
-                      const ContactPair &pair,
-                      const PairMethod  &method)
+    make_pair_before_chains(const Body<dim>   &body,
+                            const ContactPair &pair,
+                            const PairMethod  &method,
+                            const bool         nodal)
     {
-      using Points     = PointsBeforeFacets<dim>;
-      const bool nodal = !method.law || method.law->traits().nodal;
+      using Points = PointsBeforeFacets<dim>;
       if (method.coupling == PairCoupling::points)
         return std::make_unique<Points>(
           body,
@@ -49,11 +51,37 @@ namespace Ricochet
           "Contact/Coupling can only be 'points'.");
     }
 
-    /// A slip in the one direction that there is.
-    Tensor<1, 3>
-    along_surface(const double slip)
+    template <int dim>
+    std::unique_ptr<SurfacePair<dim>>
+    make_surface_pair(const Body<dim>   &body,
+                      const ContactPair &pair,
+                      const PairMethod  &method)
     {
-      return Tensor<1, 3>({slip, 0., 0.});
+      const bool nodal = !method.law || method.law->traits().nodal;
+      if constexpr (dim == 3)
+        {
+          using Points = PointsBeforeTriangles;
+          if (method.coupling != PairCoupling::points)
+            throw InputError("In space Contact/Coupling can only be 'points'.");
+          return std::make_unique<Points>(
+            body,
+            pair,
+            nodal ? Points::PointsIn::nodes
+                  : Points::PointsIn::quadrature_points);
+        }
+      else
+        return make_pair_before_chains(body, pair, method, nodal);
+    }
+
+    /// A slip in the directions that there are.
+    template <int n_tangents>
+    Tensor<1, 3>
+    along_surface(const Tensor<1, n_tangents> &slip)
+    {
+      Tensor<1, 3> result;
+      for (unsigned int d = 0; d < n_tangents; ++d)
+        result[d] = slip[d];
+      return result;
     }
   } // namespace
 
@@ -134,9 +162,11 @@ namespace Ricochet
         state.candidate         = pair.is_before_facet(p);
         state.accepted_status   = Status::open;
         state.old_state         = {};
-        const bool was_pressed  = !method.law && pair.multipliers(p)[0] > 0.;
         if (state.candidate)
           {
+            // Not by what Newton's method leaves of a pressure that is none.
+            const bool was_pressed = !method.law &&
+              pair.multipliers(p)[0] > stiffness(state) * pair.round_off(p);
             state.old_state.gap = pair.old_gap(p);
             // The predictor leads away from the surface where it is not flat, and
             // points that are pressed would be let go.
@@ -307,15 +337,21 @@ namespace Ricochet
     state.status = Status::slip;
     if (!has_exact_friction())
       return;
-    const double slip           = pair.rows(p).slip;
-    const double friction_trial = pair.multipliers(p)[1] + r * slip;
+    const Tangential slip           = pair.rows(p).slip;
+    const Tangential friction_trial = state.traction + r * slip;
+    const double     trial_size     = friction_trial.norm();
     const double limit = method.friction.coefficient * positive_part(pressure);
-    state.direction    = friction_trial < 0. ? -1. : 1.;
+    state.direction    = 0.;
+    if (trial_size > 0.)
+      state.direction = friction_trial / trial_size;
+    else
+      state.direction[0] = 1.;
+    state.ratio = n_tangents == 1 || trial_size == 0. ? 0. : limit / trial_size;
     // What only just closes has no pressure yet. It sticks if the way there was
     // within the cone of friction, unless that has led back to an open point.
-    const bool sticks = pressure > 0. ? std::abs(friction_trial) < limit
+    const bool sticks = pressure > 0. ? trial_size < limit
                                       : !sets_recur &&
-        std::abs(slip) <=
+        slip.norm() <=
           method.friction.coefficient * std::abs(pair.rows(p).gap_increment);
     if (sticks)
       state.status = Status::stick;
@@ -331,7 +367,8 @@ namespace Ricochet
     const Pair &pair = pair_of(state);
     state.pressure   = pair.multipliers(state.point)[0];
     if (has_exact_friction())
-      state.traction = pair.multipliers(state.point)[1];
+      for (unsigned int d = 0; d < n_tangents; ++d)
+        state.traction[d] = pair.multipliers(state.point)[d + 1];
     choose_status(state);
   }
 
@@ -381,7 +418,8 @@ namespace Ricochet
         const Pair        &pair  = pair_of(state);
         const unsigned int p     = state.point;
         state.status             = Status::open;
-        state.pressure = state.with_gap = state.traction = state.error = 0.;
+        state.pressure = state.with_gap = state.error = 0.;
+        state.traction                                = 0.;
         if (!state.candidate)
           continue;
         state.state.gap = pair.new_gap(p);
@@ -397,7 +435,8 @@ namespace Ricochet
                               state.pressure,
                               along_surface(pair.rows(p).slip),
                               point_of(state).cell_diameter);
-            state.traction = friction.traction(s)[0];
+            for (unsigned int d = 0; d < n_tangents; ++d)
+              state.traction[d] = friction.traction(s)[d];
             if (friction.sticks(s))
               state.status = Status::stick;
           }
@@ -428,7 +467,7 @@ namespace Ricochet
     const Point       &point = point_of(state);
     const Pair        &pair  = pair_of(state);
     const unsigned int p     = state.point;
-    if (state.pressure != 0. || state.traction != 0.)
+    if (state.pressure != 0. || state.traction.norm_square() != 0.)
       {
         const auto &rows = pair.rows(p);
         const auto  add  = [&](const double               factor,
@@ -440,8 +479,11 @@ namespace Ricochet
           vector.add(values.size(), rows.unknowns.data(), values.data());
         };
         add(-point.weight * state.pressure, rows.normal, force);
-        if (state.traction != 0.)
-          add(point.weight * state.traction, rows.tangential, friction_part);
+        for (unsigned int d = 0; d < n_tangents; ++d)
+          if (state.traction[d] != 0.)
+            add(point.weight * state.traction[d],
+                rows.tangential[d],
+                friction_part);
       }
     if (method.law)
       return;
@@ -455,12 +497,12 @@ namespace Ricochet
           double       equation   = -multiplier / r;
           if (c == 0 && state.status != Status::open)
             equation = -closing(state) - softness(state) * multiplier;
-          if (c == 1 && state.status == Status::stick)
-            equation = -pair.rows(p).slip;
-          if (c == 1 && state.status == Status::slip)
-            equation =
-              (method.friction.coefficient * state.pressure * state.direction -
-               multiplier) /
+          if (c > 0 && state.status == Status::stick)
+            equation = -pair.rows(p).slip[c - 1];
+          if (c > 0 && state.status == Status::slip)
+            equation = (method.friction.coefficient * state.pressure *
+                          state.direction[c - 1] -
+                        multiplier) /
               r;
           force(point.multipliers[c]) += point.weight * equation;
         }
@@ -490,12 +532,12 @@ namespace Ricochet
     for (const PointState &state : states)
       {
         const Point &point = point_of(state);
-        if ((state.pressure == 0. && state.traction == 0.) ||
+        if ((state.pressure == 0. && state.traction.norm_square() == 0.) ||
             (boundary_id && point.boundary_id != *boundary_id))
           continue;
         const auto &rows = pair_of(state).rows(state.point);
         work.normal -= point.weight * state.pressure * rows.gap_increment;
-        work.friction += point.weight * state.traction * rows.slip;
+        work.friction += point.weight * (state.traction * rows.slip);
       }
     return work;
   }
@@ -604,11 +646,20 @@ namespace Ricochet
               tangent.add(point.multipliers[c],
                           point.multipliers[c],
                           -weight * point.weight / r);
-            if (c == 1 && state.status == Status::slip)
-              tangent.add(point.multipliers[1],
-                          point.multipliers[0],
-                          weight * point.weight * method.friction.coefficient *
-                            state.direction / r);
+            if (c > 0 && state.status == Status::slip)
+              {
+                tangent.add(point.multipliers[c],
+                            point.multipliers[0],
+                            weight * point.weight *
+                              method.friction.coefficient *
+                              state.direction[c - 1] / r);
+                // How the direction turns with the multipliers.
+                for (unsigned int d = 0; n_tangents > 1 && d < n_tangents; ++d)
+                  tangent.add(point.multipliers[c],
+                              point.multipliers[d + 1],
+                              weight * point.weight * state.ratio / r *
+                                across(state, c - 1, d));
+              }
           }
     if (!in_contact)
       return;
@@ -625,15 +676,21 @@ namespace Ricochet
     const double       factor = weight * point.weight;
 
     // Pressure and traction along directions that turn, and how both change.
-    double with_slip = 0., with_pressure = 0.;
+    Tensor<2, n_tangents> with_slip;
+    Tangential            with_pressure;
     if (method.law && has_friction && state.pressure > 0.)
       {
         Tensor<2, 3> plane;
-        plane[0][0] = 1.;
+        for (unsigned int d = 0; d < n_tangents; ++d)
+          plane[d][d] = 1.;
         const auto of_friction =
           friction.derivatives(&state - states.data(), plane);
-        with_slip     = of_friction.with_slip[0][0];
-        with_pressure = of_friction.with_pressure[0];
+        for (unsigned int d = 0; d < n_tangents; ++d)
+          {
+            with_pressure[d] = of_friction.with_pressure[d];
+            for (unsigned int e = 0; e < n_tangents; ++e)
+              with_slip[d][e] = of_friction.with_slip[d][e];
+          }
       }
     values.resize(m);
     for (unsigned int a = 0; a < m; ++a)
@@ -642,10 +699,20 @@ namespace Ricochet
           {
             double entry = derivatives.forces[a * m + b];
             if (method.law)
-              entry += state.with_gap * rows.normal[a] * derivatives.gap[b] +
-                rows.tangential[a] *
-                  (with_slip * derivatives.slip[b] -
-                   with_pressure * state.with_gap * derivatives.gap[b]);
+              {
+                double change =
+                  state.with_gap * rows.normal[a] * derivatives.gap[b];
+                for (unsigned int d = 0; d < n_tangents; ++d)
+                  {
+                    double with_b = 0.;
+                    for (unsigned int e = 0; e < n_tangents; ++e)
+                      with_b += with_slip[d][e] * derivatives.slip[e][b];
+                    with_b -=
+                      with_pressure[d] * state.with_gap * derivatives.gap[b];
+                    change += rows.tangential[d][a] * with_b;
+                  }
+                entry += change;
+              }
             values[b] = factor * entry;
           }
         tangent.add(rows.unknowns[a],
@@ -675,11 +742,22 @@ namespace Ricochet
                       -factor * half * derivatives.gap[a]);
         if (has_exact_friction())
           {
-            tangent.add(i, point.multipliers[1], factor * rows.tangential[a]);
-            if (state.status == Status::stick)
-              tangent.add(point.multipliers[1],
-                          i,
-                          -factor * derivatives.slip[a]);
+            for (unsigned int d = 0; d < n_tangents; ++d)
+              {
+                const auto j = point.multipliers[d + 1];
+                tangent.add(i, j, factor * rows.tangential[d][a]);
+                if (state.status == Status::stick)
+                  tangent.add(j, i, -factor * derivatives.slip[d][a]);
+                // How the direction turns with the slip.
+                if (n_tangents > 1 && state.status == Status::slip)
+                  {
+                    double with_slip_of_a = 0.;
+                    for (unsigned int e = 0; e < n_tangents; ++e)
+                      with_slip_of_a +=
+                        across(state, d, e) * derivatives.slip[e][a];
+                    tangent.add(j, i, factor * state.ratio * with_slip_of_a);
+                  }
+              }
           }
       }
   }
@@ -974,4 +1052,5 @@ namespace Ricochet
 
   template class PairContact<1>;
   template class PairContact<2>;
+  template class PairContact<3>;
 } // namespace Ricochet

@@ -175,6 +175,9 @@ namespace Ricochet
       stick
     };
 
+    using Tangential = typename SurfacePair<dim>::Tangential;
+    static constexpr unsigned int n_tangents = SurfacePair<dim>::n_tangents;
+
     /// What is known of a point in the current iteration.
     struct PointState
     {
@@ -187,9 +190,10 @@ namespace Ricochet
       /// Pressure (Pa) in the residual, and its derivative (Pa/m) for laws.
       double pressure = 0., with_gap = 0.;
       /// Traction (Pa) along T.
-      double traction = 0.;
-      /// Sign of the slip.
-      double direction = 0.;
+      Tangential traction;
+      /// Direction of the slip, and by how much of its change the traction changes (1).
+      Tangential direction;
+      double     ratio = 0.;
       /// By how much the equations in use are not those of the state (Pa).
       double              error = 0.;
       ContactPointState<> old_state, state;
@@ -236,6 +240,13 @@ namespace Ricochet
     {
       return pair_of(state).is_double(state.point) ? 1e-9 / stiffness(state)
                                                    : 0.;
+    }
+
+    /// Entry of the projection on what is across the direction of slip.
+    static double
+    across(const PointState &state, const unsigned int d, const unsigned int e)
+    {
+      return (d == e ? 1. : 0.) - state.direction[d] * state.direction[e];
     }
 
     /// What the condition keeps at zero in the current pass (m).

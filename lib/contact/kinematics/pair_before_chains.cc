@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/kinematics/pair_before_chains.h>
+#include <contact/surfaces/facet_search.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Ricochet
+{
+  template <int dim>
+  typename PairBeforeChains<dim>::Chain
+  PairBeforeChains<dim>::chain_around(const unsigned int f,
+                                      unsigned int      &place) const
+  {
+    unsigned int first = f;
+    for (unsigned int k = 0; k < 2; ++k)
+      if (const auto previous = master.facets[first].previous)
+        first = *previous;
+    // A closed surface of few facets is gone round more than once.
+    Chain chain;
+    chain.nodes.push_back(master.facets[first].nodes[0]);
+    std::optional<unsigned int> facet         = first;
+    unsigned int                n_behind_last = 0;
+    bool                        passed        = false;
+    while (facet && n_behind_last < 3)
+      {
+        if (!passed && *facet == f)
+          place = chain.facets.size();
+        chain.facets.push_back(*facet);
+        if constexpr (dim == 2)
+          chain.nodes.push_back(master.facets[*facet].nodes[1]);
+        passed = passed || *facet == f;
+        n_behind_last += passed ? 1 : 0;
+        facet = master.facets[*facet].next;
+      }
+    return chain;
+  }
+
+
+
+  template <int dim>
+  const std::vector<typename PairBeforeChains<dim>::Position> &
+  PairBeforeChains<dim>::gather(const Position              &y,
+                                const Chain                 &chain,
+                                const std::vector<Position> &master_x) const
+  {
+    work.assign(1, y);
+    for (const unsigned int node : chain.nodes)
+      work.push_back(master_x[node]);
+    return work;
+  }
+
+
+
+  template <int dim>
+  double
+  PairBeforeChains<dim>::gap_before(const std::vector<Position> &x,
+                                    const Chain                 &chain,
+                                    const unsigned int           facet) const
+  {
+    if constexpr (dim == 1)
+      return master.facets[chain.facets[facet]].normal[0] * (x[0][0] - x[1][0]);
+    else
+      return FacetChain<double>::gap(x, facet);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  PairBeforeChains<dim>::facet_before(const std::vector<Position> &x,
+                                      const unsigned int           facet) const
+  {
+    if constexpr (dim == 1)
+      return facet;
+    else
+      return FacetChain<double>::facet_before(x, facet);
+  }
+
+
+
+  template <int dim>
+  bool
+  PairBeforeChains<dim>::is_off(const std::vector<Position> &x,
+                                const Chain                 &chain,
+                                const unsigned int           facet) const
+  {
+    if constexpr (dim == 1)
+      return false;
+    else
+      {
+        const auto     &own = master.facets[chain.facets[facet]];
+        const Position &a = x[facet + 1], &b = x[facet + 2];
+        const double    length = std::hypot(b[0] - a[0], b[1] - a[1]);
+        const double    along  = ((b[0] - a[0]) * (x[0][0] - a[0]) +
+                              (b[1] - a[1]) * (x[0][1] - a[1])) /
+          length;
+        // Edges of bodies of the same size may meet, and what is pressed into a facet
+        // that turns is not off its end for that.
+        const double gap       = gap_before(x, chain, facet);
+        const double tolerance = 1e-6 * length + std::max(0., -gap);
+        if ((!own.previous && along < -tolerance) ||
+            (!own.next && along > length + tolerance))
+          return true;
+        // Past a vertex points may be as far as its bisector leads; what is farther
+        // off the ends of the facet than before it is beside it.
+        const double beside = std::max(-along, along - length);
+        return beside > 1.5 * std::abs(gap) + .5 * length;
+      }
+  }
+
+
+
+  template <int dim>
+  std::optional<typename PairBeforeChains<dim>::Facing>
+  PairBeforeChains<dim>::find_facet(const Position              &y,
+                                    const Position              &normal,
+                                    const FacetSearch<dim>      &search,
+                                    const std::vector<Position> &master_x,
+                                    const Point                 *self,
+                                    const double largest_distance) const
+  {
+    const auto can_touch = [&](const unsigned int f) {
+      return !self || this->can_touch_itself(*self, f, y, normal, master_x);
+    };
+    const auto found = self
+      ? search.closest_facing(y, normal, can_touch, largest_distance)
+      : search.closest_facing(y, normal);
+    if (!found)
+      return {};
+    Facing       facing;
+    unsigned int place = 0;
+    facing.chain       = chain_around(*found, place);
+    gather(y, facing.chain, master_x);
+    facing.facet = facet_before(work, place);
+    if (is_off(work, facing.chain, facing.facet) ||
+        !can_touch(facing.chain.facets[facing.facet]))
+      return {};
+    return facing;
+  }
+
+
+  template class PairBeforeChains<1>;
+  template class PairBeforeChains<2>;
+} // namespace Ricochet

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_kinematics_pair_before_chains_h
+#define ricochet_contact_kinematics_pair_before_chains_h
+
+#include <contact/kinematics/surface_pair.h>
+#include <contact/surfaces/facet_chain.h>
+
+#include <limits>
+#include <optional>
+
+namespace Ricochet
+{
+  template <int dim>
+  class FacetSearch;
+
+  /// Surfaces in the plane, whose facets follow each other like the links of a chain,
+  /// and in 1D, where they are points.
+  template <int dim>
+  class PairBeforeChains : public SurfacePair<dim>
+  {
+  public:
+    using typename SurfacePair<dim>::Point;
+    using typename SurfacePair<dim>::Position;
+    using SurfacePair<dim>::SurfacePair;
+
+  protected:
+    using SurfacePair<dim>::master;
+
+    /// Facets that hang together, and their nodes.
+    struct Chain
+    {
+      std::vector<unsigned int> facets, nodes;
+    };
+
+    /// The facet before which a point is.
+    struct Facing
+    {
+      Chain chain;
+      /// Its place in the chain.
+      unsigned int facet = 0;
+    };
+
+    /// The facet @p f of the master surface and two more on each side; @p place is
+    /// its number among them.
+    Chain
+    chain_around(const unsigned int f, unsigned int &place) const;
+
+    /// The position @p y and those of the nodes of @p chain, in #work.
+    const std::vector<Position> &
+    gather(const Position              &y,
+           const Chain                 &chain,
+           const std::vector<Position> &master_x) const;
+
+    /// The gap at positions from gather().
+    double
+    gap_before(const std::vector<Position> &x,
+               const Chain                 &chain,
+               const unsigned int           facet) const;
+
+    /// The facet of the chain before which the point is, beginning with @p facet.
+    unsigned int
+    facet_before(const std::vector<Position> &x,
+                 const unsigned int           facet) const;
+
+    /// Whether the point is beyond an open end of the surface, or beside it.
+    bool
+    is_off(const std::vector<Position> &x,
+           const Chain                 &chain,
+           const unsigned int           facet) const;
+
+    /// The facet before which the point @p y of the slave with the outward @p normal
+    /// is, of those that @p search knows, if there is one. The positions are in #work
+    /// then.
+    ///
+    /// @param self the point, where a surface is searched for contact with itself:
+    /// not before its own facets and their neighbours, nor before those on the far
+    /// side of the wall that it is on.
+    /// @param largest_distance of the facet (m).
+    std::optional<Facing>
+    find_facet(const Position              &y,
+               const Position              &normal,
+               const FacetSearch<dim>      &search,
+               const std::vector<Position> &master_x,
+               const Point                 *self = nullptr,
+               const double                 largest_distance =
+                 std::numeric_limits<double>::infinity()) const;
+
+    /// How deep behind a facet contact reaches: not through a body (m).
+    double
+    largest_depth(const Facing &facing) const
+    {
+      return master.facets[facing.chain.facets[facing.facet]].measure;
+    }
+
+    mutable std::vector<Position> work;
+  };
+} // namespace Ricochet
+
+#endif

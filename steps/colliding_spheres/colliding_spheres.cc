@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// # Colliding spheres
+//
+// Two elastic balls fly at each other in space, and may spin,
+//
+//     rho u_tt - div P(F) = 0                   in both balls,
+//     gap >= 0, p >= 0, p gap = 0 or its like   between their surfaces,
+//     |t| <= mu p, t along the slip             (Coulomb),
+//
+// with the first Piola-Kirchhoff stress P. No force comes from outside: linear and
+// angular momentum of both together, all six numbers, are kept whatever the method, and
+// energy by the methods that are made for it.
+//
+// Contact is formulated in the nodes y of one surface, the slave. Each of them is
+// before a triangle (a, b, c) of the other one, and its gap is the distance from the
+// triangle's plane,
+//
+//     g = det(b - a, c - a, y - a) / |(b - a) x (c - a)|.
+//
+// Over a step from x_0 to x_1 the pressure p acts along a row D on the coordinates of
+// all four points with D . (x_1 - x_0) = g_1 - g_0: what the pressure does to both
+// bodies is then p times the increment of the gap, to the last digit. D is made of
+// functions that no motion of all four points together changes, whence its sum and its
+// moment are zero: lib/contact/surfaces/point_before_triangle.h. So one step of this
+// program is, with the midpoint scheme,
+//
+//     M (v_1 - v_0)/dt + F_int(u_0, u_1) = sum over points p D - t_1 T_1 - t_2 T_2,
+//
+// where F_int is the discrete gradient of the stored energy
+// (lib/materials/gonzalez.h), and p and t follow from gap, increment and slip by the
+// treatment that the parameter file asks for.
+//
+// With persistent contact energy is kept to round-off; but a node that has come d
+// deep in the step in which it touches stays there. What a collision at the speed v
+// takes from the motion of the centres is what goes on in vibrations: for elastic
+// spheres that is little when the contact lasts much longer than waves need to cross
+// them (Hertz).
+//
+// Run it as
+//
+//     colliding_spheres parameter_files/colliding_spheres/default.prm
+//     colliding_spheres parameter_files/colliding_spheres/oblique_spin.prm
+//     mpirun -n 2 colliding_spheres --set "Spheres/Offset=0.5"
+//     colliding_spheres --print-parameters
+
+#include <base/exceptions.h>
+#include <base/program.h>
+#include <discretization/distributed_mesh.h>
+#include <materials/material_parameters.h>
+#include <output/part_columns.h>
+#include <output/vtu_series.h>
+#include <problems/ball_mesh.h>
+#include <problems/impact.h>
+#include <problems/part_meshes.h>
+
+#include <deal.II/base/function.h>
+#include <deal.II/grid/grid_generator.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace dealii;
+using namespace Ricochet;
+
+class CollidingSpheres
+{
+public:
+  CollidingSpheres();
+
+  void
+  add_parameters(ParameterHandler &prm);
+
+  void
+  validate() const;
+
+  std::vector<UnusedParameter>
+  unused_parameters() const;
+
+  void
+  run(RunFolder &folder);
+
+private:
+  /// Where the middles of the spheres are at the start (m).
+  Point<3>
+  centre(const unsigned int sphere) const;
+
+  void
+  make_whole_mesh(Triangulation<3> &mesh) const;
+
+  /// The velocity of a ball that flies and spins, at the point x (m/s).
+  Tensor<1, 3>
+  initial_velocity(const Point<3> &x) const;
+
+  void
+  report(const Impact<3>      &collision,
+         const PartColumns<3> &parts,
+         const State          &begin,
+         const State          &end,
+         const EnergyLedger   &ledger,
+         RunFolder            &folder) const;
+
+  ImpactParameters   impact;
+  MaterialParameters material;
+  double             radius = 1., distance = 2.02, offset = 0., speed = 1.;
+  Tensor<1, 3>       spin[2];
+  double             mesh_size[2] = {.35, .4};
+  std::string        cell_shape   = "tetrahedra";
+  std::string        slave        = "left";
+};
+
+
+
+// ### Data
+CollidingSpheres::CollidingSpheres()
+{
+  material.law           = "neo-Hookean";
+  material.plane_state   = "plane strain";
+  material.density       = 1000.;
+  material.young_modulus = 1e6;
+  material.poisson_ratio = .3;
+
+  impact.time.final_time   = .26;
+  impact.time.time_step    = 4e-3;
+  impact.time.fields_every = 5;
+  impact.scheme.name       = "midpoint";
+
+  impact.contact.treatment              = "persistent contact";
+  impact.contact.compliance_coefficient = 1e8;
+  impact.contact.tangential_compliance  = 1e5;
+  impact.contact.augmentation           = 1e6;
+  impact.contact.penalty_epsilon_0      = 1e-7;
+}
+
+
+
+void
+CollidingSpheres::add_parameters(ParameterHandler &prm)
+{
+  impact.add_parameters(prm);
+  material.add_parameters(prm);
+  prm.enter_subsection("Spheres");
+  prm.add_parameter("Radius",
+                    radius,
+                    "Radius of both spheres (m).",
+                    Patterns::Double(1e-30));
+  prm.add_parameter("Distance",
+                    distance,
+                    "Distance of their middles at the start (m).",
+                    Patterns::Double(1e-30));
+  prm.add_parameter(
+    "Offset",
+    offset,
+    "Distance of the parallels to x on which they fly (m), the right "
+    "one towards y: 0 for head-on.",
+    Patterns::Double(0.));
+  prm.add_parameter("Speed", speed, "Speed of each, towards the other (m/s).");
+  prm.add_parameter("Spin of the left sphere",
+                    spin[0],
+                    "Its angular velocity at the start (rad/s).");
+  prm.add_parameter("Spin of the right sphere",
+                    spin[1],
+                    "The same for the other sphere.");
+  prm.add_parameter("Cells",
+                    cell_shape,
+                    "Shape of the cells.",
+                    Patterns::Selection("tetrahedra|hexahedra"));
+  prm.add_parameter(
+    "Mesh size of the left sphere",
+    mesh_size[0],
+    "Length of an element (m); of hexahedra the longest edge at the "
+    "surface is no longer.",
+    Patterns::Double(1e-30));
+  prm.add_parameter("Mesh size of the right sphere",
+                    mesh_size[1],
+                    "The same for the other sphere.",
+                    Patterns::Double(1e-30));
+  prm.add_parameter("Slave",
+                    slave,
+                    "The sphere in whose nodes contact is formulated.",
+                    Patterns::Selection("left|right"));
+  prm.leave_subsection();
+}
+
+
+
+void
+CollidingSpheres::validate() const
+{
+  check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
+  material.validate(3, impact.scheme.name);
+  impact.validate(material.law == "linear elastic",
+                  material.viscosity != "none" && material.viscosity_eta > 0.);
+  if (!(offset < distance))
+    throw InputError("Spheres/Offset = " + to_text(offset) +
+                     " m must be smaller than Spheres/Distance = " +
+                     to_text(distance) + " m.");
+  if (!(distance >= 2. * radius))
+    throw InputError("Spheres/Distance = " + to_text(distance) +
+                     " m must be two radii at least: the spheres overlap.");
+  if (material.law == "linear elastic" &&
+      (spin[0].norm() > 0. || spin[1].norm() > 0.))
+    throw InputError(
+      "Linear elastic bodies cannot turn: a sphere that spins "
+      "takes another Material/Law.");
+  double n_unknowns = 0.;
+  for (const double h : mesh_size)
+    n_unknowns += 4. / 3. * numbers::PI * std::pow(radius / h, 3) * 3.6;
+  impact.check_size(n_unknowns, 3);
+}
+
+
+
+std::vector<UnusedParameter>
+CollidingSpheres::unused_parameters() const
+{
+  std::vector<UnusedParameter> unused = impact.unused_parameters();
+  const auto                   own    = material.unused_parameters();
+  unused.insert(unused.end(), own.begin(), own.end());
+  return unused;
+}
+
+
+
+// ### Mesh
+//
+// The first rank makes both balls, puts them side by side into one mesh, which knows
+// them by their material id, and hands out the parts. No two bodies share a node, so
+// that the mesh is one in name only.
+Point<3>
+CollidingSpheres::centre(const unsigned int sphere) const
+{
+  const double side = sphere == 0 ? -.5 : .5;
+  return Point<3>(side * std::sqrt(distance * distance - offset * offset),
+                  side * offset,
+                  0.);
+}
+
+
+
+void
+CollidingSpheres::make_whole_mesh(Triangulation<3> &mesh) const
+{
+  Triangulation<3> balls[2];
+  for (unsigned int sphere = 0; sphere < 2; ++sphere)
+    {
+      Triangulation<3> ball;
+      if (cell_shape == "tetrahedra")
+        make_ball_of_tetrahedra(centre(sphere),
+                                radius,
+                                mesh_size[sphere],
+                                balls[sphere]);
+      else
+        {
+          make_ball_of_hexahedra(centre(sphere),
+                                 radius,
+                                 mesh_size[sphere],
+                                 ball);
+          GridGenerator::flatten_triangulation(ball, balls[sphere]);
+        }
+      // All of its surface can touch the other.
+      for (const auto &cell : balls[sphere].active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary())
+            face->set_boundary_id(sphere + 1);
+    }
+  join_parts<3>({&balls[0], &balls[1]}, mesh);
+}
+
+
+
+// ### The run
+Tensor<1, 3>
+CollidingSpheres::initial_velocity(const Point<3> &x) const
+{
+  const unsigned int sphere =
+    x.distance(centre(0)) < x.distance(centre(1)) ? 0 : 1;
+  return Tensor<1, 3>({sphere == 0 ? speed : -speed, 0., 0.}) +
+    cross_product_3d(spin[sphere], x - centre(sphere));
+}
+
+
+
+void
+CollidingSpheres::run(RunFolder &folder)
+{
+  const auto mesh =
+    distribute_mesh<3>([&](Triangulation<3> &whole) { make_whole_mesh(whole); },
+                       folder.communicator);
+
+  // Two parts in one mesh, and the surfaces that may touch.
+  const Material<3> elastic = material.make<3>();
+  ImpactSetup<3>    setup{elastic};
+  setup.parts.push_back({"left", elastic, material.density});
+  setup.parts.push_back({"right", elastic, material.density});
+  const types::boundary_id slave_id = slave == "left" ? 1 : 2;
+  setup.pairs = {{"spheres", {slave_id}, {3U - slave_id}}};
+  Impact<3> collision(impact, *mesh, setup, folder.communicator);
+  folder.log(std::to_string(mesh->n_global_active_cells()) + " cells, " +
+             std::to_string(collision.body.owned_indices().size()) +
+             " unknowns, " + material.law + ", " + impact.contact.treatment +
+             ", mu = " + to_text(impact.contact.friction_coefficient));
+
+  std::vector<std::function<double(const Point<3> &)>> velocity;
+  for (unsigned int c = 0; c < 3; ++c)
+    velocity.emplace_back(
+      [this, c](const Point<3> &x) { return initial_velocity(x)[c]; });
+  const State initial_state =
+    collision.state_in_motion(FunctionFromFunctionObjects<3>(velocity));
+
+  // Energy, work and momenta of each sphere and of both, beside what every program
+  // writes.
+  TimeLoop             loop(impact.time,
+                folder,
+                collision.system,
+                *collision.scheme,
+                {{slave_id, "spheres"}});
+  const PartColumns<3> parts(collision.body,
+                             *collision.bulk,
+                             collision.system.mass_matrix(),
+                             elastic.linear.has_value(),
+                             {"left", "right"});
+  parts.add_to(loop);
+
+  VtuSeries<3> fields(collision.body,
+                      {elastic, elastic},
+                      *collision.contact,
+                      collision.obstacles,
+                      folder);
+  loop.write_fields = [&](const State &state, const unsigned int step) {
+    fields.write(state, step);
+  };
+
+  const State end = loop.run(initial_state);
+  report(collision, parts, initial_state, end, loop.energy_ledger(), folder);
+}
+
+
+
+// ### What came out
+void
+CollidingSpheres::report(const Impact<3>      &collision,
+                         const PartColumns<3> &parts,
+                         const State          &begin,
+                         const State          &end,
+                         const EnergyLedger   &ledger,
+                         RunFolder            &folder) const
+{
+  const auto print = [&](const std::string &name, const double value) {
+    char line[80];
+    std::snprintf(line, sizeof(line), "%-32s %16.8e", name.c_str(), value);
+    folder.log(line);
+  };
+  const auto translation = collision.uniform(Tensor<1, 3>({1., 0., 0.}));
+  const auto velocity    = [&](const unsigned int sphere, const State &state) {
+    const Momenta<3> &momenta = parts.momenta(sphere);
+    return momenta.linear(state.velocity) / momenta.linear(translation)[0];
+  };
+  const std::string names[2] = {"left", "right"};
+  for (unsigned int sphere = 0; sphere < 2; ++sphere)
+    for (unsigned int c = 0; c < 3; ++c)
+      print(std::string("velocity_") + "xyz"[c] + "_" + names[sphere],
+            velocity(sphere, end)[c]);
+
+  // Along the line of the centres when the spheres first touch.
+  const double       along = std::sqrt(4. * radius * radius - offset * offset);
+  const Tensor<1, 3> line  = Tensor<1, 3>({along, offset, 0.}) / (2. * radius);
+  print("restitution",
+        -((velocity(1, end) - velocity(0, end)) * line) /
+          ((velocity(1, begin) - velocity(0, begin)) * line));
+  const std::vector<double> &first  = ledger.rows().front();
+  const std::vector<double> &last   = ledger.rows().back();
+  const auto                 column = [&](const std::string &name) {
+    return ledger.column_number(name);
+  };
+  print("energy_left_over", last[column("energy")] / first[column("energy")]);
+  for (const std::string name : {"momentum_x",
+                                 "momentum_y",
+                                 "momentum_z",
+                                 "angular_momentum_x",
+                                 "angular_momentum_y",
+                                 "angular_momentum_z"})
+    print("drift_" + name, last[column(name)] - first[column(name)]);
+  double penetration = 0., force = 0.;
+  for (const auto &row : ledger.rows())
+    {
+      penetration = std::max(penetration, row[column("penetration_spheres")]);
+      force       = std::max(force, row[column("contact_force_spheres")]);
+    }
+  print("penetration", penetration);
+  print("largest_force", force);
+}
+
+
+
+int
+main(int argc, char **argv)
+{
+  CollidingSpheres program;
+  return run_program(argc,
+                     argv,
+                     {"colliding_spheres",
+                      "Two elastic spheres collide in space.",
+                      [&](ParameterHandler &prm) {
+                        program.add_parameters(prm);
+                      },
+                      [&]() { program.validate(); },
+                      [&](RunFolder &folder) { program.run(folder); },
+                      [&]() { return program.unused_parameters(); }});
+}

@@ -1,0 +1,615 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Contact between bodies in space. The rows of a point before a triangle, at random
+// states: their product with the change of the positions is the change of the gap and
+// the slip, their sums and moments are zero, their derivatives are quotients of
+// differences. Then two balls that meet off their centres: balances, momenta, friction,
+// tangents, ranks.
+
+#include "meshes.h"
+
+#include <base/exceptions.h>
+#include <contact/surfaces/contact_surface.h>
+#include <contact/surfaces/point_before_triangle.h>
+#include <discretization/distributed_mesh.h>
+#include <materials/laws/neo_hookean.h>
+#include <output/momenta.h>
+#include <problems/ball_mesh.h>
+#include <problems/impact.h>
+#include <problems/part_meshes.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <Sacado_Fad_SLFad.hpp>
+
+#include <random>
+
+using namespace Ricochet;
+using dealii::Point;
+using dealii::Tensor;
+using dealii::Triangulation;
+
+BOOST_AUTO_TEST_SUITE(contact_in_space)
+
+namespace
+{
+  using AD       = Sacado::Fad::SLFad<double, 12>;
+  using Rows     = PointBeforeTriangle<double>::Rows;
+  using Position = std::array<std::array<double, 3>, 4>;
+
+  std::mt19937 generator(42);
+
+  double
+  random_number(const double size)
+  {
+    return std::uniform_real_distribution<double>(-size, size)(generator);
+  }
+
+  Position
+  random_triangle()
+  {
+    Position x{};
+    x[2][0] = x[3][1] = 1.;
+    x[0]              = {{.3, .3, random_number(.2)}};
+    for (auto &point : x)
+      for (double &c : point)
+        c += random_number(.1);
+    return x;
+  }
+
+  Position
+  moved(const Position &x, const double size)
+  {
+    Position y = x;
+    for (auto &point : y)
+      for (double &c : point)
+        c += random_number(size);
+    return y;
+  }
+
+  /// Turned about an axis by any angle.
+  Position
+  turned(const Position &x)
+  {
+    Tensor<1, 3> axis;
+    for (unsigned int c = 0; c < 3; ++c)
+      axis[c] = random_number(1.);
+    axis /= axis.norm();
+    const double angle = random_number(3.), s = std::sin(angle),
+                 c1 = std::cos(angle);
+    Position y      = x;
+    for (auto &point : y)
+      {
+        const Tensor<1, 3> p({point[0], point[1], point[2]});
+        const Tensor<1, 3> q = c1 * p + s * cross_product_3d(axis, p) +
+          (1. - c1) * (axis * p) * axis;
+        for (unsigned int c = 0; c < 3; ++c)
+          point[c] = q[c];
+      }
+    return y;
+  }
+
+  double
+  times_change(const PointBeforeTriangle<double>::Row &row,
+               const Position                         &a,
+               const Position                         &b)
+  {
+    double sum = 0.;
+    for (unsigned int p = 0; p < 4; ++p)
+      for (unsigned int c = 0; c < 3; ++c)
+        sum += row[3 * p + c] * (b[p][c] - a[p][c]);
+    return sum;
+  }
+
+  /// The coordinates of the point in the triangle's plane, by deal.II's vectors.
+  std::array<double, 2>
+  coordinates(const Position &x)
+  {
+    std::array<Tensor<1, 3>, 4> p;
+    for (unsigned int i = 0; i < 4; ++i)
+      p[i] = Tensor<1, 3>({x[i][0], x[i][1], x[i][2]});
+    const Tensor<1, 3> e1 = p[2] - p[1], e2 = p[3] - p[1], r = p[0] - p[1];
+    const Tensor<1, 3> n = cross_product_3d(e1, e2);
+    return {{(cross_product_3d(r, e2) * n) / n.norm_square(),
+             (cross_product_3d(e1, r) * n) / n.norm_square()}};
+  }
+
+  double
+  gap(const Position &x)
+  {
+    std::array<Tensor<1, 3>, 4> p;
+    for (unsigned int i = 0; i < 4; ++i)
+      p[i] = Tensor<1, 3>({x[i][0], x[i][1], x[i][2]});
+    const Tensor<1, 3> n = cross_product_3d(p[2] - p[1], p[3] - p[1]);
+    return (n / n.norm()) * (p[0] - p[1]);
+  }
+
+  /// Sum and moment about the middle of the step.
+  double
+  sum_and_moment(const PointBeforeTriangle<double>::Row &row,
+                 const Position                         &a,
+                 const Position                         &b)
+  {
+    Tensor<1, 3> sum, moment;
+    for (unsigned int p = 0; p < 4; ++p)
+      {
+        Tensor<1, 3> force, x;
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            force[c] = row[3 * p + c];
+            x[c]     = .5 * (a[p][c] + b[p][c]);
+          }
+        sum += force;
+        moment += cross_product_3d(x, force);
+      }
+    return sum.norm() + moment.norm();
+  }
+
+  void
+  check_rows(const Position &a, const Position &b)
+  {
+    Rows rows;
+    PointBeforeTriangle<double>::evaluate(a, b, rows);
+    BOOST_CHECK_SMALL(times_change(rows.normal, a, b) - (gap(b) - gap(a)),
+                      4e-14);
+    BOOST_CHECK_SMALL(rows.gap_increment - (gap(b) - gap(a)), 4e-14);
+    BOOST_CHECK_SMALL(rows.new_gap - gap(b), 4e-14);
+    BOOST_CHECK_SMALL(sum_and_moment(rows.normal, a, b), 4e-14);
+    // The slip is that of the coordinates, measured in the middle of the step.
+    const auto   from = coordinates(a), to = coordinates(b);
+    Tensor<1, 3> along;
+    for (unsigned int c = 0; c < 3; ++c)
+      along[c] = .5 *
+        ((to[0] - from[0]) * (a[2][c] - a[1][c] + b[2][c] - b[1][c]) +
+         (to[1] - from[1]) * (a[3][c] - a[1][c] + b[3][c] - b[1][c]));
+    BOOST_CHECK_SMALL(std::hypot(rows.slip[0], rows.slip[1]) - along.norm(),
+                      4e-14);
+    for (unsigned int d = 0; d < 2; ++d)
+      {
+        BOOST_CHECK_SMALL(times_change(rows.tangential[d], a, b) - rows.slip[d],
+                          4e-14);
+        BOOST_CHECK_SMALL(sum_and_moment(rows.tangential[d], a, b), 1e-13);
+        for (const double entry : rows.tangential[d])
+          BOOST_CHECK_LT(std::abs(entry), 20.);
+      }
+    for (const double entry : rows.normal)
+      BOOST_CHECK_LT(std::abs(entry), 20.);
+  }
+} // namespace
+
+
+
+BOOST_AUTO_TEST_CASE(rows_are_exact)
+{
+  for (const double size : {1e-6, 1e-3, .1, .2})
+    for (unsigned int k = 0; k < 200; ++k)
+      {
+        const Position a = random_triangle();
+        check_rows(a, moved(a, size));
+        if (size < .1)
+          check_rows(a, moved(turned(a), size));
+      }
+}
+
+
+
+// The point passes through the triangle, which turns and hardly changes its shape: all
+// products q_ij come back to where they were.
+BOOST_AUTO_TEST_CASE(rows_are_bounded_through_mirror_images)
+{
+  for (const double strain : {0., 1e-12, 1e-8, 1e-4, 1e-2})
+    for (unsigned int k = 0; k < 100; ++k)
+      {
+        const Position a = random_triangle();
+        Position       b = a;
+        Tensor<1, 3>   e1, e2;
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            e1[c] = a[2][c] - a[1][c];
+            e2[c] = a[3][c] - a[1][c];
+          }
+        const Tensor<1, 3> n =
+          cross_product_3d(e1, e2) / cross_product_3d(e1, e2).norm();
+        for (unsigned int c = 0; c < 3; ++c)
+          b[0][c] -= 2. * gap(a) * n[c];
+        b = moved(b, strain);
+        // By less than a right angle: otherwise the middle of the step is too small.
+        Position c = turned(b);
+        while (coordinates(c)[0] != coordinates(c)[0])
+          c = turned(b);
+        Position middle;
+        for (unsigned int p = 0; p < 4; ++p)
+          for (unsigned int d = 0; d < 3; ++d)
+            middle[p][d] = .5 * (a[p][d] + c[p][d]);
+        Tensor<1, 3> m1, m2;
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            m1[d] = middle[2][d] - middle[1][d];
+            m2[d] = middle[3][d] - middle[1][d];
+          }
+        if (cross_product_3d(m1, m2).norm() > .4)
+          check_rows(a, c);
+      }
+}
+
+
+
+BOOST_AUTO_TEST_CASE(derivatives_of_rows)
+{
+  for (unsigned int k = 0; k < 20; ++k)
+    {
+      const Position                   a = random_triangle(), b = moved(a, .1);
+      std::array<std::array<AD, 3>, 4> x;
+      PointBeforeTriangle<AD>::Rows    exact;
+      for (unsigned int p = 0; p < 4; ++p)
+        for (unsigned int c = 0; c < 3; ++c)
+          x[p][c] = AD(12, 3 * p + c, b[p][c]);
+      PointBeforeTriangle<AD>::evaluate(a, x, exact);
+      const double h = 1e-6;
+      for (unsigned int j = 0; j < 12; ++j)
+        {
+          Position plus = b, minus = b;
+          plus[j / 3][j % 3] += h;
+          minus[j / 3][j % 3] -= h;
+          Rows up, down;
+          PointBeforeTriangle<double>::evaluate(a, plus, up);
+          PointBeforeTriangle<double>::evaluate(a, minus, down);
+          const auto check =
+            [&](const double u, const double d, const AD &value) {
+              BOOST_CHECK_SMALL((u - d) / (2. * h) - value.dx(j), 1e-7);
+            };
+          check(up.new_gap, down.new_gap, exact.new_gap);
+          for (unsigned int d = 0; d < 2; ++d)
+            check(up.slip[d], down.slip[d], exact.slip[d]);
+          for (unsigned int i = 0; i < 12; ++i)
+            {
+              check(up.normal[i], down.normal[i], exact.normal[i]);
+              check(up.tangential[0][i],
+                    down.tangential[0][i],
+                    exact.tangential[0][i]);
+              check(up.tangential[1][i],
+                    down.tangential[1][i],
+                    exact.tangential[1][i]);
+            }
+        }
+    }
+}
+
+
+
+namespace
+{
+  const std::vector<std::string> treatments = {"persistent contact",
+                                               "Ayyad-Barboteu two-step",
+                                               "improved normal compliance",
+                                               "Hauret-Le Tallec",
+                                               "Signorini active set",
+                                               "standard normal compliance",
+                                               "penalty"};
+
+  Material<3>
+  rubber(const double stiffness)
+  {
+    return {std::make_shared<Hyperelastic<3>>(
+              std::make_shared<HyperelasticLawImplementation<NeoHookean>>(
+                NeoHookean{stiffness, stiffness}),
+              PlaneState::plane_strain),
+            Viscosity{}};
+  }
+
+  /// Two balls of radius 1, of tetrahedra and of hexahedra or both alike, that meet off
+  /// their centres. Their meshes do not match.
+  struct Collision
+  {
+    Collision(const std::string &treatment,
+              const double       friction,
+              const bool         tetrahedra,
+              const bool         linear = false)
+    {
+      const double   offset = linear ? 0. : .5;
+      const double   along  = std::sqrt(2.02 * 2.02 - offset * offset);
+      const Point<3> left(-.5 * along, -.5 * offset, .1),
+        right(.5 * along, .5 * offset, -.1);
+      mesh = distribute_mesh<3>(
+        [&](Triangulation<3> &whole) {
+          Triangulation<3> bodies[2];
+          if (tetrahedra)
+            {
+              make_ball_of_tetrahedra(left, 1., .8, bodies[0]);
+              make_ball_of_tetrahedra(right, 1., .7, bodies[1]);
+            }
+          else
+            {
+              make_ball_of_hexahedra(left, 1., 1.2, bodies[0]);
+              dealii::GridGenerator::hyper_ball(bodies[1], right, 1.);
+            }
+          Triangulation<3> parts[2];
+          for (unsigned int p = 0; p < 2; ++p)
+            {
+              bodies[p].set_all_manifold_ids(dealii::numbers::flat_manifold_id);
+              if (!tetrahedra && p == 1)
+                bodies[p].refine_global(1);
+              if (tetrahedra)
+                parts[p].copy_triangulation(bodies[p]);
+              else
+                dealii::GridGenerator::flatten_triangulation(bodies[p],
+                                                             parts[p]);
+              for (const auto &cell : parts[p].active_cell_iterators())
+                for (const auto &face : cell->face_iterators())
+                  if (face->at_boundary())
+                    face->set_boundary_id(p + 1);
+            }
+          join_parts<3>({&parts[0], &parts[1]}, whole);
+        },
+        MPI_COMM_WORLD);
+      parameters.contact.treatment              = treatment;
+      parameters.scheme.name                    = "midpoint";
+      parameters.contact.compliance_coefficient = 2e4;
+      parameters.contact.compliance_exponent    = 2.;
+      parameters.contact.penalty_epsilon_0      = 1e-4;
+      parameters.contact.augmentation           = 500.;
+      parameters.contact.friction_coefficient   = friction;
+      parameters.contact.tangential_compliance  = 300.;
+      parameters.newton.reuse_tangent_below     = 0.;
+      const Material<3> soft  = linear ? Material<3>(LinearElastic{200., 200.})
+                                       : rubber(200.),
+                        stiff = linear ? Material<3>(LinearElastic{300., 300.})
+                                       : rubber(300.);
+      ImpactSetup<3> setup{soft};
+      setup.parts.push_back({"left", soft, 1.});
+      setup.parts.push_back({"right", stiff, 2.});
+      setup.pairs = {{"balls", {1}, {2}}};
+      impact =
+        std::make_unique<Impact<3>>(parameters, *mesh, setup, MPI_COMM_WORLD);
+      state = impact->state_in_motion(dealii::FunctionFromFunctionObjects<3>(
+        {[=](const Point<3> &x) {
+           return x.distance(left) < x.distance(right) ? 1. : -1.;
+         },
+         [](const Point<3> &) { return 0.; },
+         [](const Point<3> &) { return 0.; }}));
+    }
+
+    double
+    mechanical_energy() const
+    {
+      return impact->system.kinetic_energy(state.velocity) +
+        impact->bulk->energy(state.solution);
+    }
+
+    StepReport
+    step(const double time_step)
+    {
+      State            next;
+      const StepReport report =
+        impact->scheme->step(impact->system, state, time_step, next);
+      next.time = state.time + time_step;
+      touched   = touched || next.contact_force.l2_norm() > 0.;
+      state     = next;
+      return report;
+    }
+
+    std::unique_ptr<Triangulation<3>> mesh;
+    ImpactParameters                  parameters;
+    std::unique_ptr<Impact<3>>        impact;
+    State                             state;
+    bool                              touched = false;
+  };
+
+  constexpr double       time_step = .02;
+  constexpr unsigned int n_steps   = 15;
+} // namespace
+
+
+
+// The surface of a box has no open edge, of whatever cells.
+BOOST_AUTO_TEST_CASE(surfaces_hang_together)
+{
+  for (const bool simplices : {false, true})
+    {
+      Triangulation<3> box, tetrahedra;
+      dealii::GridGenerator::subdivided_hyper_rectangle(box,
+                                                        {2, 3, 2},
+                                                        Point<3>(),
+                                                        Point<3>(2., 3., 4.));
+      dealii::GridGenerator::convert_hypercube_to_simplex_mesh(box, tetrahedra);
+      const auto mesh = distribute_mesh<3>(
+        [&](Triangulation<3> &whole) {
+          whole.copy_triangulation(simplices ? tetrahedra : box);
+        },
+        MPI_COMM_WORLD);
+      const Body<3>           body(*mesh,
+                         1,
+                         {},
+                         {0},
+                         MultiplierSpace::none,
+                         MPI_COMM_WORLD);
+      const ContactSurface<3> surface(body, {0});
+      double                  area = 0.;
+      Tensor<1, 3>            vector_area;
+      for (const auto &facet : surface.facets)
+        {
+          area += facet.measure;
+          vector_area += facet.measure * facet.normal;
+          for (const auto &neighbour : facet.neighbours)
+            BOOST_CHECK(neighbour.has_value());
+          // Anticlockwise from outside.
+          std::array<Point<3>, 3> x;
+          for (unsigned int v = 0; v < 3; ++v)
+            x[v] = surface.nodes[facet.nodes[v]].reference_position;
+          const Tensor<1, 3> n = cross_product_3d(Tensor<1, 3>(x[1] - x[0]),
+                                                  Tensor<1, 3>(x[2] - x[0]));
+          BOOST_CHECK_SMALL((.5 * n - facet.measure * facet.normal).norm(),
+                            1e-12);
+        }
+      BOOST_CHECK_CLOSE(area, 2. * (6. + 8. + 12.), 1e-10);
+      BOOST_CHECK_SMALL(vector_area.norm(), 1e-12);
+    }
+}
+
+
+
+BOOST_AUTO_TEST_CASE(balances_close_and_momenta_are_kept)
+{
+  for (const bool tetrahedra : {true, false})
+    for (const std::string &treatment : fewer_in_debug(treatments))
+      for (const double friction : {0., .3})
+        {
+          if (friction > 0. && (treatment == "penalty" || !tetrahedra))
+            continue;
+          BOOST_TEST_CONTEXT(treatment
+                             << ", mu = " << friction << ", "
+                             << (tetrahedra ? "tetrahedra" : "hexahedra"))
+          {
+            Collision        balls(treatment, friction, tetrahedra);
+            const Momenta<3> momenta(balls.impact->body,
+                                     balls.impact->system.mass_matrix(),
+                                     /* small strains */ false);
+            const Momenta<3> left(balls.impact->body,
+                                  balls.impact->system.mass_matrix(),
+                                  false,
+                                  2,
+                                  0);
+            const double     first  = balls.mechanical_energy();
+            const auto       linear = momenta.linear(balls.state.velocity);
+            const auto       angular =
+              momenta.angular(balls.state.solution, balls.state.velocity);
+            const auto left_before = left.linear(balls.state.velocity);
+            double     old = first, friction_work = 0., most = first;
+            for (unsigned int n = 0; n < n_steps; ++n)
+              {
+                const StepReport report = balls.step(time_step);
+                const double     now    = balls.mechanical_energy();
+                BOOST_CHECK_SMALL((now - old + report.contact_work +
+                                   report.friction_work) /
+                                    first,
+                                  1e-11);
+                BOOST_CHECK_GE(report.friction_work, -1e-12 * first);
+                friction_work += report.friction_work;
+                most = std::max(most, now + friction_work);
+                if (treatment == "persistent contact" ||
+                    treatment == "Ayyad-Barboteu two-step")
+                  BOOST_CHECK_SMALL((now + friction_work - first) / first,
+                                    1e-9);
+                if (treatment == "Signorini active set")
+                  BOOST_CHECK_LE(now + report.friction_work,
+                                 old + 1e-11 * first);
+                old = now;
+              }
+            BOOST_TEST_MESSAGE(treatment << ", mu = " << friction << ": energy "
+                                         << old / first << ", most "
+                                         << most / first << ", friction "
+                                         << friction_work / first);
+            BOOST_CHECK(balls.touched);
+            if (friction > 0.)
+              BOOST_CHECK_GT(friction_work, 1e-4 * first);
+            BOOST_CHECK_SMALL(
+              (momenta.linear(balls.state.velocity) - linear).norm(),
+              1e-10);
+            BOOST_CHECK_SMALL((momenta.angular(balls.state.solution,
+                                               balls.state.velocity) -
+                               angular)
+                                .norm(),
+                              1e-10);
+            BOOST_CHECK_GT(
+              (left.linear(balls.state.velocity) - left_before).norm(),
+              .2);
+          }
+        }
+}
+
+
+
+BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
+{
+  for (const bool tetrahedra : {true, false})
+    for (const std::string &treatment : fewer_in_debug(treatments))
+      for (const double friction : {0., .3})
+        {
+          if (friction > 0. && treatment == "penalty")
+            continue;
+          BOOST_TEST_CONTEXT(treatment << ", mu = " << friction)
+          {
+            Collision balls(treatment, friction, tetrahedra);
+            while (balls.state.contact_force.l2_norm() < 1.)
+              balls.step(time_step);
+            ContactOperator &contact = *balls.impact->contact;
+            const Body<3>   &body    = balls.impact->body;
+            Vector           solution(balls.state.solution);
+            Vector           noise(solution), direction(solution);
+            randomise(noise, 1e-3, 1);
+            randomise(direction, 1., 2);
+            solution.add(time_step, balls.state.velocity);
+            solution += noise;
+            const auto parts = body.parts_of_unknowns(2);
+            Vector along = balls.impact->uniform(Tensor<1, 3>({.01, 0., 0.}));
+            for (unsigned int i = 0; i < parts.size(); ++i)
+              if (parts[i] == 0)
+                solution.trilinos_vector()[0][i] +=
+                  along.trilinos_vector()[0][i];
+            contact.begin_stage({balls.state.solution,
+                                 balls.state.contact_force,
+                                 balls.state.mean_velocity,
+                                 time_step,
+                                 balls.state.time + time_step},
+                                1.);
+            Matrix body_matrix, matrix;
+            body_matrix.reinit(body.sparsity_pattern());
+            Vector residual(solution), product(solution), difference(solution);
+            residual = 0.;
+            contact.complete_residual(solution, residual);
+            UnitedPattern united;
+            united.update(body.sparsity_pattern(), *contact.couplings());
+            united.embed(body_matrix, matrix);
+            contact.complete_tangent(matrix);
+            matrix.vmult(product, direction);
+            const double h  = 1e-7;
+            const auto   at = [&](const double length) {
+              Vector point(solution), result(solution);
+              point.add(length, direction);
+              result = 0.;
+              contact.complete_residual(point, result);
+              return result;
+            };
+            difference = at(h);
+            difference -= at(-h);
+            difference *= .5 / h;
+            BOOST_CHECK_GT(product.l2_norm(), 1.);
+            difference -= product;
+            BOOST_CHECK_SMALL(difference.l2_norm() / product.l2_norm(), 1e-6);
+          }
+        }
+}
+
+
+
+BOOST_AUTO_TEST_CASE(linear_bodies_and_overlaps)
+{
+  Collision    balls("persistent contact", 0., true, /* linear */ true);
+  const double first = balls.mechanical_energy();
+  for (unsigned int n = 0; n < n_steps; ++n)
+    {
+      balls.step(time_step);
+      BOOST_CHECK_SMALL(balls.mechanical_energy() / first - 1., 1e-10);
+    }
+  BOOST_CHECK(balls.touched);
+
+  // One inside of the other.
+  const auto mesh = distribute_mesh<3>(
+    [&](Triangulation<3> &whole) {
+      Triangulation<3> parts[2];
+      make_ball_of_tetrahedra(Point<3>(), 1., .8, parts[0]);
+      make_ball_of_tetrahedra(Point<3>(1.5, 0., 0.), 1., .7, parts[1]);
+      join_parts<3>({&parts[0], &parts[1]}, whole);
+    },
+    MPI_COMM_WORLD);
+  const Material<3> soft(LinearElastic{200., 200.});
+  ImpactSetup<3>    setup{soft};
+  setup.parts.push_back({"left", soft, 1.});
+  setup.parts.push_back({"right", soft, 1.});
+  setup.pairs = {{"balls", {1}, {2}}};
+  BOOST_CHECK_THROW(Impact<3>(balls.parameters, *mesh, setup, MPI_COMM_WORLD)
+                      .state_in_flight(Tensor<1, 3>()),
+                    InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
