@@ -57,24 +57,6 @@ build()
   ninja -C "$(folder_of "$1")"
 }
 
-# Configure and build several at the same time, which share the cores: what has to be
-# done one thing after the other in each leaves none of them idle.
-build_all()
-{
-  local name pids="" jobs
-  jobs=$((($(nproc) + $# - 1) / $#))
-  for name in "$@"; do
-    configure "$name"
-  done
-  for name in "$@"; do
-    ninja -C "$(folder_of "$name")" -j "$jobs" &
-    pids="$pids $!"
-  done
-  for name in $pids; do
-    wait "$name"
-  done
-}
-
 # One thread per process; Open MPI as root and with more ranks than cores.
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

@@ -26,7 +26,8 @@ if [ "${1:-}" = "--quick" ]; then
   exit
 fi
 
-build_all Debug Release
+build Debug
+build Release
 ctest --test-dir build/debug --output-on-failure -j 2
 ctest --test-dir build/release --output-on-failure -j 2
 

@@ -235,7 +235,7 @@ class CutFaces(BodiesTest):
 
     def test_balance_and_momenta(self):
         runs = [(case, "colliding_disks", self.parameters(*case[:3]))
-                for case in self.CASES]
+                for case in self.CASES[::3 if is_debug_build() else 1]]
         for (treatment, theta, scheme, kept), ledger in self.run_many(runs):
             with self.subTest(f"{treatment} {theta} {scheme}"):
                 self.assertGreater(max(ledger["contact_force_disks"]), 1e4)
@@ -524,6 +524,11 @@ class RestartAndRanks(BodiesTest):
 
 
 class BadBodies(ProgramTest):
+
+    def setUp(self):
+        super().setUp()
+        if is_debug_build():
+            self.skipTest("is refused before anything is computed")
 
     def refuse(self, program, messages, *parameters):
         code, out, err = self.attempt(program, parameters)

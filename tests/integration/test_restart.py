@@ -29,13 +29,16 @@ class Restart(ProgramTest):
 
     def test_in_flight_at_impact_and_in_contact(self):
         stops = [.05, 1., 1.05, 1.5, 2.1]
-        for program, treatment, scheme, mass in (
+        cases = (
                 ("bar_sd", "Nitsche", "CN", "consistent"),
                 ("bar_sd", "Nitsche", "TR-BDF2", "redistributed"),
                 ("bar_sd", "Signorini active set", "HHT 0.05", "consistent"),
                 ("bar_ss", "proximal augmented Lagrangian", "TR-BDF2",
                  "consistent"),
-                ("bar_ss", "Nitsche-hybrid", "midpoint", "redistributed")):
+                ("bar_ss", "Nitsche-hybrid", "midpoint", "redistributed"))
+        if is_debug_build():
+            cases, stops = cases[1::2], stops[1:4:2]
+        for program, treatment, scheme, mass in cases:
             with self.subTest(f"{program} {treatment} {scheme} {mass}"):
                 self.stop_and_resume(program, SCHEMES[scheme] +
                                      [f"Contact/Treatment={treatment}",
@@ -51,7 +54,7 @@ class Restart(ProgramTest):
                                   "Contact/Treatment=proximal augmented "
                                   "Lagrangian"]
         whole = self.run_program("bar_ss", parameters + ["Time/Final time=3"])
-        for first, second in ((1, 2), (2, 1), (2, 3)):
+        for first, second in ((2, 3),) if is_debug_build() else ((1, 2), (2, 1), (2, 3)):
             with self.subTest(f"{first} and {second} ranks"):
                 parts = self.folder / f"{first}{second}"
                 self.run_program("bar_ss", parameters + ["Time/Final time=1.5"],

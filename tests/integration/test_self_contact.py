@@ -51,6 +51,10 @@ def setUpModule():
     global shared_folder, ledgers
     shared_folder, ledgers = pathlib.Path(tempfile.mkdtemp(prefix="ricochet-")), {}
     unittest.addModuleCleanup(shutil.rmtree, shared_folder, ignore_errors=True)
+    if is_debug_build():
+        # A condition on the velocity, and one on the gap.
+        for name in ("Ayyad-Barboteu two-step", "improved normal compliance"):
+            del TREATMENTS[name]
 
 
 class SelfContactTest(ProgramTest):
@@ -130,6 +134,7 @@ class Conservation(SelfContactTest):
     def test_energy_comes_back(self):
         """What improved normal compliance stores is there again whenever no point is
         active, and it stores a lot between the circles."""
+        self.long_run()
         ledger = self.shared_run("improved normal compliance")
         scale = ledger["energy"][0]
         stored = [m - e for m, e in zip(ledger["modified_energy"],
@@ -209,7 +214,7 @@ class Nodes(SelfContactTest):
     def test_conditions_on_the_velocity(self):
         """Nodes are as deep as they come in the step in which they touch: at most by
         the way of two nodes towards each other."""
-        for name in KEEP_ENERGY:
+        for name in set(KEEP_ENERGY) & set(TREATMENTS):
             with self.subTest(name):
                 deepest = max(self.depths(self.shared_run(name)))
                 fastest = 0.
@@ -224,6 +229,7 @@ class Nodes(SelfContactTest):
     def test_compliance(self):
         """The springs of the deepest nodes, c d^2 / 2 on the length of a side, hold no
         more than all of them."""
+        self.long_run()
         ledger = self.shared_run("improved normal compliance")
         depths = self.depths(ledger)
         self.assertGreater(max(depths), 1e-3)
@@ -405,6 +411,11 @@ class RestartAndRanks(SelfContactTest):
 
 
 class BadInput(ProgramTest):
+
+    def setUp(self):
+        super().setUp()
+        if is_debug_build():
+            self.skipTest("is refused before anything is computed")
 
     def refuse(self, messages, *parameters):
         code, out, error = self.attempt("hyperelastic_ring", [SELF, *parameters])

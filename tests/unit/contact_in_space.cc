@@ -18,6 +18,8 @@
 #include <problems/impact.h>
 #include <problems/part_meshes.h>
 
+#include <deal.II/grid/grid_tools.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include <Sacado_Fad_SLFad.hpp>
@@ -578,6 +580,120 @@ BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
             BOOST_CHECK_SMALL(difference.l2_norm() / product.l2_norm(), 1e-6);
           }
         }
+}
+
+
+
+// Cubes that meet with what is no face before a point: face on face with nodes on
+// nodes or not, edge on face, edge across edge, corner on corner, and facets of very
+// different size. With persistent contact nothing fails, and no energy comes from
+// anywhere; points are as deep as they come in a step. What points do not see, edges
+// that cross, goes on until nodes do. (Signorini's condition gains energy where nodes
+// meet nodes: see the README.)
+BOOST_AUTO_TEST_CASE(degenerate_configurations)
+{
+  struct Configuration
+  {
+    std::string name;
+    /// Cells along the edges of the left and the right cube.
+    unsigned int left, right;
+    /// Angles about y and z by which they are turned.
+    double left_y, left_z, right_y, right_z;
+    /// The right one is beside the left one by that much.
+    double offset;
+  };
+  const double quarter                            = .25 * dealii::numbers::PI,
+               corner                             = std::atan(std::sqrt(.5));
+  const std::vector<Configuration> configurations = {
+    {"face on face, nodes on nodes", 2, 2, 0., 0., 0., 0., 0.},
+    {"face on face", 2, 3, 0., 0., 0., 0., .23},
+    {"edge on face", 2, 2, 0., 0., 0., quarter, 0.},
+    {"edge across edge", 2, 2, quarter, 0., 0., quarter, 0.},
+    {"corner on corner", 2, 2, corner, quarter, corner, quarter, 0.},
+    {"large and small facets", 1, 6, 0., 0., .1, .1, .1}};
+  const std::string treatment = "persistent contact";
+  for (const Configuration &one : fewer_in_debug(configurations))
+    BOOST_TEST_CONTEXT(treatment << ", " << one.name)
+    {
+      const auto mesh = distribute_mesh<3>(
+        [&](Triangulation<3> &whole) {
+          Triangulation<3> parts[2];
+          double           reach[2];
+          for (unsigned int p = 0; p < 2; ++p)
+            {
+              dealii::GridGenerator::subdivided_hyper_cube(parts[p],
+                                                           p == 0 ? one.left
+                                                                  : one.right,
+                                                           -.5,
+                                                           .5);
+              dealii::GridTools::rotate(Tensor<1, 3>({0., 0., 1.}),
+                                        p == 0 ? one.left_z : one.right_z,
+                                        parts[p]);
+              dealii::GridTools::rotate(Tensor<1, 3>({0., 1., 0.}),
+                                        p == 0 ? one.left_y : one.right_y,
+                                        parts[p]);
+              reach[p] = 0.;
+              for (const auto &x : parts[p].get_vertices())
+                reach[p] = std::max(reach[p], p == 0 ? x[0] : -x[0]);
+              for (const auto &cell : parts[p].active_cell_iterators())
+                for (const auto &face : cell->face_iterators())
+                  if (face->at_boundary())
+                    face->set_boundary_id(p + 1);
+            }
+          dealii::GridTools::shift(Tensor<1, 3>({-reach[0] - .01, 0., 0.}),
+                                   parts[0]);
+          dealii::GridTools::shift(
+            Tensor<1, 3>({reach[1] + .01, one.offset, .5 * one.offset}),
+            parts[1]);
+          join_parts<3>({&parts[0], &parts[1]}, whole);
+        },
+        MPI_COMM_WORLD);
+      ImpactParameters parameters;
+      parameters.contact.treatment    = treatment;
+      parameters.scheme.name          = "midpoint";
+      parameters.contact.augmentation = 500.;
+      const Material<3> soft          = rubber(200.);
+      ImpactSetup<3>    setup{soft};
+      setup.parts.push_back({"left", soft, 1.});
+      setup.parts.push_back({"right", soft, 1.});
+      setup.pairs = {{"cubes", {1}, {2}}};
+      Impact<3> impact(parameters, *mesh, setup, MPI_COMM_WORLD);
+      State     state =
+        impact.state_in_motion(dealii::FunctionFromFunctionObjects<3>(
+          {[](const Point<3> &x) { return x[0] < 0. ? 1. : -1.; },
+           [](const Point<3> &) { return 0.; },
+           [](const Point<3> &) { return 0.; }}));
+      const auto energy = [&]() {
+        return impact.system.kinetic_energy(state.velocity) +
+          impact.bulk->energy(state.solution);
+      };
+      const double first = energy();
+      double       old = first, deepest = 0.;
+      bool         touched = false;
+      for (unsigned int n = 0; n < 30; ++n)
+        {
+          State next;
+          impact.scheme->step(impact.system, state, .01, next);
+          next.time        = state.time + .01;
+          state            = next;
+          touched          = touched || state.contact_force.l2_norm() > 0.;
+          const double now = energy();
+          BOOST_CHECK_LE(now, old + 1e-10 * first);
+          if (treatment == "persistent contact")
+            BOOST_CHECK_SMALL(now / first - 1., 1e-10);
+          old = now;
+          deepest =
+            std::max(deepest,
+                     impact.contact
+                       ->summary({state.solution, state.contact_force, 0.})
+                       .at(1)
+                       .max_penetration);
+        }
+      BOOST_TEST_MESSAGE(treatment << ", " << one.name << ": energy "
+                                   << old / first << ", deepest " << deepest);
+      BOOST_CHECK(touched);
+      BOOST_CHECK_LT(deepest, .2);
+    }
 }
 
 
