@@ -67,8 +67,6 @@ namespace Ricochet
   CoarseSpace
   Body<dim>::coarse_space() const
   {
-    AssertThrow(!has_multipliers(),
-                ExcMessage("There is no coarse space for multipliers."));
     CoarseSpace space;
     if (displacement_element->degree == 1)
       {
@@ -76,6 +74,8 @@ namespace Ricochet
           rigid_body_modes(*geometry, displacement_dofs, communicator);
         return space;
       }
+    AssertThrow(!has_multipliers(),
+                ExcMessage("There is no coarse space for multipliers."));
 
     // The multipliers' element is scalar, of degree 1 and on the same cells.
     const FESystem<dim> element(*multiplier_element, dim);

@@ -26,6 +26,23 @@ namespace Ricochet
                                     ? BallBoundary::lower_half
                                     : BallBoundary::upper_half);
     }
+
+    void
+    refine_around(const FinePlace &fine, const double mesh_size)
+    {
+      namespace field             = gmsh::model::mesh::field;
+      const int        tag        = field::add("Ball");
+      constexpr double n_elements = 12., growth = .3;
+      field::setNumber(tag, "XCenter", fine.place[0]);
+      field::setNumber(tag, "YCenter", fine.place[1]);
+      field::setNumber(tag, "ZCenter", fine.place[2]);
+      field::setNumber(tag, "Radius", n_elements * fine.mesh_size);
+      field::setNumber(tag, "Thickness", (mesh_size - fine.mesh_size) / growth);
+      field::setNumber(tag, "VIn", fine.mesh_size);
+      field::setNumber(tag, "VOut", mesh_size);
+      field::setAsBackgroundMesh(tag);
+      gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
+    }
   } // namespace
 
 
@@ -46,17 +63,21 @@ namespace Ricochet
 
 
   void
-  make_ball_of_tetrahedra(const Point<3>   &center,
-                          const double      radius,
-                          const double      mesh_size,
-                          Triangulation<3> &triangulation,
-                          CellNodes<3>     *curved)
+  make_ball_of_tetrahedra(const Point<3>                 &center,
+                          const double                    radius,
+                          const double                    mesh_size,
+                          Triangulation<3>               &triangulation,
+                          CellNodes<3>                   *curved,
+                          const std::optional<FinePlace> &fine)
   {
     mesh_by_gmsh(
       [&]() {
-        gmsh::option::setNumber("Mesh.MeshSizeMin", mesh_size);
+        gmsh::option::setNumber("Mesh.MeshSizeMin",
+                                fine ? fine->mesh_size : mesh_size);
         gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
         gmsh::model::occ::addSphere(center[0], center[1], center[2], radius);
+        if (fine)
+          refine_around(*fine, mesh_size);
       },
       triangulation,
       curved);

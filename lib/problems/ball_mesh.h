@@ -6,6 +6,7 @@
 
 #include <deal.II/grid/tria.h>
 
+#include <optional>
 #include <string>
 
 namespace Ricochet
@@ -29,6 +30,15 @@ namespace Ricochet
   read_ball(const std::string        &file_name,
             dealii::Triangulation<3> &triangulation);
 
+  /// Where elements are smaller than elsewhere: around a place, over a dozen of them;
+  /// from there on each is at most a third longer than the one before.
+  struct FinePlace
+  {
+    dealii::Point<3> place;
+    /// m
+    double mesh_size;
+  };
+
   /**
    * Tetrahedra of a ball by Gmsh's API, with elements of about @p mesh_size (m).
    *
@@ -37,11 +47,12 @@ namespace Ricochet
    * @throws InputError when Gmsh fails.
    */
   void
-  make_ball_of_tetrahedra(const dealii::Point<3>   &center,
-                          const double              radius,
-                          const double              mesh_size,
-                          dealii::Triangulation<3> &triangulation,
-                          CellNodes<3>             *curved = nullptr);
+  make_ball_of_tetrahedra(const dealii::Point<3>         &center,
+                          const double                    radius,
+                          const double                    mesh_size,
+                          dealii::Triangulation<3>       &triangulation,
+                          CellNodes<3>                   *curved = nullptr,
+                          const std::optional<FinePlace> &fine   = {});
 
   /// Hexahedra of a ball, refined until their edges on the surface are at most
   /// @p mesh_size (m). A distributed triangulation is refined in parts.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <solvers/corrected_solver.h>
+#include <solvers/coupled_multigrid.h>
 #include <solvers/direct_solver.h>
 #include <solvers/krylov_solver.h>
 #include <solvers/linear_solver.h>
@@ -33,16 +34,21 @@ namespace Ricochet
         std::to_string(n_ranks) + "; choose automatic, KLU or MUMPS.");
     if (contact.couplings_change)
       {
-        if (type == "corrected" || type == "multigrid")
+        if (type == "corrected")
           throw InputError(
             "Contact between bodies couples unknowns that the bodies do not "
-            "couple: choose Linear solver/Type = direct or automatic instead of " +
-            type + ".");
+            "couple: choose Linear solver/Type = direct, multigrid or automatic "
+            "instead of corrected.");
         if (parameters.factorisation == "CHOLMOD")
           throw InputError(
             "CHOLMOD factors symmetric matrices only: with contact between "
             "bodies choose KLU, MUMPS or automatic.");
-        type = "direct";
+        // Factorisations of small bodies are faster, but not by much.
+        if (type == "automatic")
+          type = dim == 3 && parameters.factorisation == "automatic" &&
+              n_unknowns > 5000
+            ? "multigrid"
+            : "direct";
       }
     if (type == "automatic")
       {
@@ -60,7 +66,8 @@ namespace Ricochet
             n_unknowns > (n_ranks > 1 ? 10000 : 50000))
           type = "multigrid";
       }
-    if (type == "multigrid" && contact.has_multipliers)
+    if (type == "multigrid" && contact.has_multipliers &&
+        !contact.couplings_change)
       throw InputError(
         "Multigrid cannot solve for multipliers. With Linear solver/Type = "
         "multigrid choose a treatment without: Nitsche, Nitsche-hybrid, "
@@ -70,7 +77,9 @@ namespace Ricochet
         "Multigrid factors nothing: with Linear solver/Type = multigrid leave "
         "Linear solver/Factorisation at automatic.");
 
-    if (type == "multigrid")
+    if (type == "multigrid" && contact.couplings_change)
+      ways.push_back(std::make_unique<CoupledMultigrid>(coarse_space()));
+    else if (type == "multigrid")
       ways.push_back(std::make_unique<MultigridSolver>(contact,
                                                        linear_body,
                                                        clamped,
@@ -104,10 +113,12 @@ namespace Ricochet
       "few. corrected: factor the body only and treat contact as a correction "
       "of low rank; for nonlinear materials factor the body's tangent (with "
       "CHOLMOD its symmetric part), with GMRES for the rest. multigrid: from "
-      "degree 2 to degree 1 and on by aggregation, not for treatments with multipliers. automatic: "
+      "degree 2 to degree 1 and on by aggregation, not for treatments with multipliers "
+      "of one body; between bodies by aggregation, with or without. automatic: "
       "corrected above 1000 unknowns for linear bodies, above 5000 for "
       "nonlinear ones if CHOLMOD can be used; multigrid for linear bodies in 3D "
-      "above 50000 unknowns, or 10000 on several ranks.",
+      "above 50000 unknowns, or 10000 on several ranks, and for contact between "
+      "bodies in 3D above 5000 unknowns; otherwise direct.",
       Patterns::Selection("automatic|direct|corrected|multigrid"));
     parameters.add_parameter(
       "Factorisation",

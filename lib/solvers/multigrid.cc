@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <solvers/aggregation_parameters.h>
 #include <solvers/multigrid.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
-
-#include <Teuchos_ParameterList.hpp>
-#include <ml_epetra_utils.h>
-#include <ml_MultiLevelPreconditioner.h>
-#include <ml_utils.h>
 
 #include <cmath>
 
@@ -138,12 +134,8 @@ namespace Ricochet
     : space(std::move(coarse_space))
     , is_symmetric(is_symmetric)
     , has_smoother(space.prolongation.m() > 0)
+    , modes(values_of_modes(space))
   {
-    for (const Vector &mode : space.rigid_body_modes)
-      {
-        const double *values = mode.trilinos_vector()[0];
-        modes.insert(modes.end(), values, values + mode.locally_owned_size());
-      }
     if (has_smoother)
       {
         coarse_residual.reinit(space.rigid_body_modes[0]);
@@ -234,28 +226,8 @@ namespace Ricochet
         initialize_smoother();
       }
 
-    const unsigned int     n_modes = space.rigid_body_modes.size();
-    Teuchos::ParameterList list;
-    ML_Epetra::SetDefaults("SA", list);
-    list.set("ML output", 0);
-    // Smoothed aggregates need as many iterations here, more memory, and twice
-    // the time to be set up.
-    list.set("aggregation: damping factor", 0.);
-    // The unknowns of a node stand together: dim translations, and in all
-    // dim (dim + 1) / 2 modes.
-    list.set("PDE equations", n_modes == 6 ? 3 : n_modes == 3 ? 2 : 1);
-    list.set("null space: type", "pre-computed");
-    list.set("null space: dimension", static_cast<int>(n_modes));
-    list.set("null space: vectors", modes.data());
-    list.set("aggregation: type", "Uncoupled");
-    list.set("smoother: type", "Chebyshev");
-    list.set("smoother: sweeps", 2);
-    list.set("coarse: type", "Amesos-KLU");
-    list.set("coarse: max size", 1000);
-    // ML starts its own estimates of eigenvalues from random vectors; a resumed
-    // run shall have the same.
-    ML_set_random_seed(1 +
-                       Utilities::MPI::this_mpi_process(tangent->communicator));
+    auto list = aggregation_parameters(space, modes);
+    seed_aggregation(Utilities::MPI::this_mpi_process(tangent->communicator));
     aggregation = std::make_unique<TrilinosWrappers::PreconditionAMG>();
     aggregation->initialize(has_smoother ? coarse : *tangent->terms()[0].matrix,
                             list);

@@ -79,10 +79,9 @@ namespace Ricochet
     const CoarseSpace      space;
     const bool             is_symmetric;
     const bool             has_smoother;
+    std::vector<double>    modes;
     const TangentOperator *tangent = nullptr;
-    // The null space as ML wants it: mode by mode, the owned entries.
-    std::vector<double> modes;
-    Smoother            smoother;
+    Smoother               smoother;
     // Between coarse unknowns: constant terms, the body, and all of the tangent.
     std::map<const Matrix *, Matrix>                           constant_terms;
     Matrix                                                     coarse_body;

@@ -65,6 +65,9 @@ namespace Ricochet
 
     /// Another number for another sparsity pattern.
     std::uint64_t pattern = 0;
+    /// What makes its rows those of forces: 1 for displacements, a stiffness for
+    /// multipliers.
+    const Vector *row_scaling = nullptr;
 
     /// Overwrite a matrix with the body's part.
     std::function<void(Matrix &)> assemble_body;

@@ -122,6 +122,7 @@ namespace Ricochet
     };
     tangent.complete_open_contact = [](Matrix &) {};
     tangent.body_terms            = {{1., &invertible_mass}};
+    tangent.row_scaling           = &contact.row_scaling();
     linear_solver.solve(tangent, right_hand_side, acceleration, false, 1e-14);
   }
 

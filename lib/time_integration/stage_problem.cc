@@ -143,6 +143,7 @@ namespace Ricochet
       else
         parts.bulk.add_tangent(bulk_weight, solution, matrix);
     };
+    tangent.row_scaling        = &parts.contact.row_scaling();
     const Couplings *couplings = parts.contact.couplings();
     if (couplings)
       {

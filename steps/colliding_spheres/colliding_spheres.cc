@@ -85,6 +85,10 @@ private:
   Point<3>
   centre(const unsigned int sphere) const;
 
+  /// Where it will touch the other one.
+  std::optional<FinePlace>
+  fine_place(const unsigned int sphere) const;
+
   void
   make_whole_mesh(Triangulation<3> &mesh) const;
 
@@ -104,9 +108,10 @@ private:
   MaterialParameters material;
   double             radius = 1., distance = 2.02, offset = 0., speed = 1.;
   Tensor<1, 3>       spin[2];
-  double             mesh_size[2] = {.35, .4};
-  std::string        cell_shape   = "tetrahedra";
-  std::string        slave        = "left";
+  double             mesh_size[2]   = {.35, .4};
+  double             fine_mesh_size = 0.;
+  std::string        cell_shape     = "tetrahedra";
+  std::string        slave          = "left";
 };
 
 
@@ -175,6 +180,13 @@ CollidingSpheres::add_parameters(ParameterHandler &prm)
                     mesh_size[1],
                     "The same for the other sphere.",
                     Patterns::Double(1e-30));
+  prm.add_parameter(
+    "Mesh size where they touch",
+    fine_mesh_size,
+    "Length of elements around the place where the spheres first touch, over a "
+    "dozen of them; from there on they grow by a third each. Only for tetrahedra. "
+    "0: as everywhere (m).",
+    Patterns::Double(0.));
   prm.add_parameter("Slave",
                     slave,
                     "The sphere in whose nodes contact is formulated.",
@@ -203,9 +215,22 @@ CollidingSpheres::validate() const
     throw InputError(
       "Linear elastic bodies cannot turn: a sphere that spins "
       "takes another Material/Law.");
+  if (fine_mesh_size > 0. && cell_shape != "tetrahedra")
+    throw InputError(
+      "Spheres/Mesh size where they touch is for Spheres/Cells = "
+      "tetrahedra.");
+  if (fine_mesh_size > std::min(mesh_size[0], mesh_size[1]))
+    throw InputError(
+      "Spheres/Mesh size where they touch = " + to_text(fine_mesh_size) +
+      " m is larger than that of a whole sphere.");
   double n_unknowns = 0.;
   for (const double h : mesh_size)
-    n_unknowns += 4. / 3. * numbers::PI * std::pow(radius / h, 3) * 3.6;
+    {
+      n_unknowns += 4. / 3. * numbers::PI * std::pow(radius / h, 3) * 3.6;
+      // Half a ball of a dozen fine elements around it, and as many beyond.
+      if (fine_mesh_size > 0.)
+        n_unknowns += 4. / 3. * numbers::PI * std::pow(12., 3) * 3.6;
+    }
   impact.check_size(n_unknowns, 3);
 }
 
@@ -238,6 +263,20 @@ CollidingSpheres::centre(const unsigned int sphere) const
 
 
 
+std::optional<FinePlace>
+CollidingSpheres::fine_place(const unsigned int sphere) const
+{
+  if (fine_mesh_size == 0.)
+    return {};
+  // Each flies along x until they are two radii apart.
+  const double       along = std::sqrt(4. * radius * radius - offset * offset);
+  const Tensor<1, 3> to_the_right({along, offset, 0.});
+  const Tensor<1, 3> half = (sphere == 0 ? .5 : -.5) * to_the_right;
+  return FinePlace{centre(sphere) + half, fine_mesh_size};
+}
+
+
+
 void
 CollidingSpheres::make_whole_mesh(Triangulation<3> &mesh) const
 {
@@ -249,7 +288,9 @@ CollidingSpheres::make_whole_mesh(Triangulation<3> &mesh) const
         make_ball_of_tetrahedra(centre(sphere),
                                 radius,
                                 mesh_size[sphere],
-                                balls[sphere]);
+                                balls[sphere],
+                                nullptr,
+                                fine_place(sphere));
       else
         {
           make_ball_of_hexahedra(centre(sphere),

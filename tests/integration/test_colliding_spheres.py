@@ -41,17 +41,18 @@ class CollidingSpheres(ProgramTest):
         if treatment in KEEP_ENERGY:
             self.assertLess(largest([e - scale for e in total]), 1e-9 * scale)
         if treatment in KEEP_MODIFIED_ENERGY:
-            # But for what changes when a point comes before another triangle.
             kept = [e + w for e, w in
                     zip(ledger["modified_energy"], ledger["friction_work"])]
-            self.assertLess(largest([e - scale for e in kept]), 5e-3 * scale)
+            # But for a node at the rim that turns until it faces its facet no longer
+            # (in one of the runs).
+            self.assertLess(largest([e - scale for e in kept]), 1e-4 * scale)
+            self.assertLess(sorted(abs(b - a) for a, b in zip(kept, kept[1:]))[-2],
+                            1e-9 * scale)
         # Nobody is seen through a body or round a corner of it.
         self.assertLess(max(ledger["penetration_spheres"]), .1)
         if treatment == "Signorini active set":
             self.assertLess(max(increments(total)), 1e-11 * scale)
-            # No deeper than the facets of the meshes are off the planes in which a
-            # point was before.
-            self.assertLess(max(ledger["penetration_spheres"]), 2e-3)
+            self.assertLess(max(ledger["penetration_spheres"]), 1e-9)
 
     def test_every_treatment(self):
         cases = [(treatment, "colliding_spheres",
@@ -78,6 +79,31 @@ class CollidingSpheres(ProgramTest):
                 self.check("persistent contact", ledger, "linear" in parameters[0])
             if is_debug_build():
                 break
+
+    def test_multigrid(self):
+        """The same as with a factorisation, with constraints and with a law, on one
+        rank and on two."""
+        for treatment in ("persistent contact", "improved normal compliance"):
+            parameters = (COARSE + OBLIQUE + NO_FIELDS +
+                          [f"Contact/Treatment={treatment}",
+                           "Time/Final time=0.06"] +
+                          (FRICTION if treatment == "persistent contact" else
+                           ["Contact/Compliance coefficient=1e7"]))
+            factored = self.run_program("colliding_spheres", parameters)
+            self.assertGreater(max(factored["contact_force_spheres"]), 1e3)
+            for n_ranks in (1, 2):
+                with self.subTest(f"{treatment}, {n_ranks} ranks"):
+                    ledger = self.run_program(
+                        "colliding_spheres",
+                        parameters + ["Linear solver/Type=multigrid"],
+                        n_ranks=n_ranks)
+                    scale = ledger["energy"][0]
+                    self.assertLess(largest(ledger["balance_residual"]), 1e-11)
+                    for name in ("energy", "kinetic_energy_right", "friction_work"):
+                        self.assertLess(
+                            largest([a - b for a, b in
+                                     zip(factored[name], ledger[name])]),
+                            1e-9 * scale, msg=name)
 
     def test_spin_of_what_slides(self):
         """Head-on, the left sphere spins about z: friction takes of its spin what it
@@ -132,7 +158,10 @@ class CollidingSpheres(ProgramTest):
                 (["Contact/Treatment=Nitsche"], "Nitsche"),
                 (["Contact/Coupling=mortar"], "Coupling"),
                 (["Time/Scheme=TR-BDF2"], "TR-BDF2"),
-                (["Linear solver/Type=multigrid"], "ultigrid")):
+                (["Linear solver/Type=corrected"], "corrected"),
+                (["Spheres/Mesh size where they touch=2"], "larger than"),
+                (["Spheres/Mesh size where they touch=0.1",
+                  "Spheres/Cells=hexahedra"], "is for Spheres/Cells = tetrahedra")):
             with self.subTest(" ".join(parameters)):
                 code, out, err = self.attempt("colliding_spheres",
                                               COARSE + parameters)

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <Sacado_Fad_SLFad.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,6 +46,38 @@ namespace Ricochet
       make_nodal_points(body);
     gaps.resize(own_points.size());
     steps.resize(own_points.size());
+
+    Tensor<1, 3> lower, upper;
+    for (unsigned int c = 0; c < 3; ++c)
+      {
+        lower[c] = std::numeric_limits<double>::max();
+        upper[c] = -lower[c];
+        for (const auto &node : master.nodes)
+          {
+            lower[c] = std::min(lower[c], node.reference_position[c]);
+            upper[c] = std::max(upper[c], node.reference_position[c]);
+          }
+      }
+    smallest_reach = .1 * (upper - lower).norm();
+    for (const auto &facet : master.facets)
+      smallest_reach =
+        std::max(smallest_reach, 2. * std::sqrt(2. * facet.measure));
+
+    std::vector<std::vector<unsigned int>> at_node(master.nodes.size());
+    for (unsigned int f = 0; f < master.facets.size(); ++f)
+      for (const unsigned int node : master.facets[f].nodes)
+        at_node[node].push_back(f);
+    around.resize(master.facets.size());
+    for (unsigned int f = 0; f < master.facets.size(); ++f)
+      {
+        for (const unsigned int node : master.facets[f].nodes)
+          around[f].insert(around[f].end(),
+                           at_node[node].begin(),
+                           at_node[node].end());
+        std::sort(around[f].begin(), around[f].end());
+        around[f].erase(std::unique(around[f].begin(), around[f].end()),
+                        around[f].end());
+      }
   }
 
 
@@ -103,6 +137,40 @@ namespace Ricochet
 
 
 
+  PointsBeforeTriangles::Passing::Points<double>
+  PointsBeforeTriangles::corners(const unsigned int p,
+                                 const unsigned int old_facet,
+                                 const unsigned int new_facet,
+                                 const Positions   &positions) const
+  {
+    Passing::Points<double> x;
+    x[0] = position_of(own_points[p], positions.slave);
+    for (unsigned int v = 0; v < 3; ++v)
+      {
+        x[1 + v] = positions.master[master.facets[old_facet].nodes[v]];
+        x[4 + v] = positions.master[master.facets[new_facet].nodes[v]];
+      }
+    return x;
+  }
+
+
+
+  std::optional<SharedEdge>
+  PointsBeforeTriangles::shared_edge(const unsigned int old_facet,
+                                     const unsigned int new_facet) const
+  {
+    const auto &a = master.facets[old_facet];
+    const auto &b = master.facets[new_facet];
+    for (unsigned int e = 0; e < 3; ++e)
+      if (a.neighbours[e] == new_facet)
+        for (unsigned int v = 0; v < 3; ++v)
+          if (b.nodes[v] != a.nodes[e] && b.nodes[v] != a.nodes[(e + 1) % 3])
+            return SharedEdge{e, v};
+    return {};
+  }
+
+
+
   bool
   PointsBeforeTriangles::is_off(const Corners<double> &x,
                                 const unsigned int     f) const
@@ -136,7 +204,9 @@ namespace Ricochet
   {
     const Point &point = own_points[p];
     const auto   f = search.closest_facing(position_of(point, positions.slave),
-                                         normal_of(point, positions.slave));
+                                         normal_of(point, positions.slave),
+                                         {},
+                                         reach);
     if (!f)
       return {};
     const Corners<double> x   = corners(p, *f, positions);
@@ -145,15 +215,19 @@ namespace Ricochet
     if (is_off(x, *f) || !(gap > -std::sqrt(master.facets[*f].measure)))
       return {};
     // What is behind the plane of a facet, but nearer to another one that it does not
-    // face, is outside of the body, or at its far side.
+    // face, is at the far side of the body, or beside it; unless it only just came
+    // in, at an edge.
     if (gap < 0.)
       {
         const auto nearest =
           search.closest_facing(x[0], x[0], [](const unsigned int) {
             return true;
           });
-        if (*nearest != *f &&
-            distance(corners(p, *nearest, positions)) < .999 * distance(x))
+        const Corners<double> other = corners(p, *nearest, positions);
+        const double          size = std::sqrt(master.facets[*nearest].measure);
+        if (*nearest != *f && distance(other) < .999 * distance(x) &&
+            (gap < -.2 * size ||
+             PointBeforeTriangle<double>::gap(other) > 1e-6 * size))
           return {};
       }
     return f;
@@ -161,15 +235,111 @@ namespace Ricochet
 
 
 
-  void
-  PointsBeforeTriangles::set_facet(const unsigned int p, const unsigned int f)
+  unsigned int
+  PointsBeforeTriangles::walk(const unsigned int p,
+                              const unsigned int f,
+                              const Position    &normal,
+                              const Positions   &positions) const
   {
-    Gaps &gap           = gaps[p];
-    gap.is_before_facet = true;
-    gap.old_gap =
-      PointBeforeTriangle<double>::gap(corners(p, f, old_positions));
-    gap.new_gap    = gap.old_gap;
-    steps[p].facet = f;
+    const Position y       = position_of(own_points[p], positions.slave);
+    unsigned int   closest = f;
+    // What is fast may pass several facets, but not the whole surface.
+    for (unsigned int n = 0; n < 4; ++n)
+      {
+        const auto next = closest_facing_of<3>(around[closest],
+                                               master,
+                                               positions.master,
+                                               y,
+                                               normal);
+        if (!next || *next == closest)
+          break;
+        closest = *next;
+      }
+    return closest;
+  }
+
+
+
+  unsigned int
+  PointsBeforeTriangles::last_facet(const unsigned int p,
+                                    const Positions   &now) const
+  {
+    const Step        &step = steps[p];
+    const unsigned int old  = step.old_facet;
+    const double       size = std::sqrt(master.facets[old].measure);
+    // What is far off needs no closer look.
+    if (!step.may_pass ||
+        PointBeforeTriangle<double>::gap(corners(p, old, now)) > 2. * size)
+      return old;
+    const unsigned int closest = walk(p, old, step.normal, now);
+    if (closest == old)
+      return old;
+    // Where both gaps are the same but for so little that the energy does not notice,
+    // round-off would choose.
+    const auto   old_x  = corners(p, old, closest, old_positions);
+    const auto   new_x  = corners(p, old, closest, now);
+    const double change = Passing::difference(new_x);
+    if (std::abs(change) < 1e-10 * size)
+      return old;
+    const auto edge   = shared_edge(old, closest);
+    const bool passes = edge
+      ? Passing::past_edge(old_x, *edge) <= 1e-9 * size &&
+        Passing::past_edge(new_x, *edge) > 1e-8 * size
+      : Passing::difference(old_x) * change <= 0.;
+    return passes ? closest : old;
+  }
+
+
+
+  void
+  PointsBeforeTriangles::begin_before(const unsigned int p,
+                                      const unsigned int f,
+                                      const double       gap,
+                                      const bool         may_pass)
+  {
+    gaps[p].is_before_facet = true;
+    gaps[p].old_gap         = gap;
+    steps[p].old_facet      = f;
+    steps[p].may_pass       = may_pass;
+  }
+
+
+
+  void
+  PointsBeforeTriangles::find_facet_now(const unsigned int    p,
+                                        const FacetSearch<3> &search)
+  {
+    if (const auto f = find_facet(p, search, old_positions))
+      begin_before(p,
+                   *f,
+                   PointBeforeTriangle<double>::gap(
+                     corners(p, *f, old_positions)),
+                   true);
+  }
+
+
+
+  void
+  PointsBeforeTriangles::find_facet_later(const unsigned int    p,
+                                          const FacetSearch<3> &search,
+                                          const Positions      &later)
+  {
+    const auto f = find_facet(p, search, later);
+    if (!f)
+      return;
+    // The way there, from where the point is now; should it not be before this part of
+    // the surface yet, along this facet.
+    const unsigned int first = walk(p, *f, steps[p].normal, old_positions);
+    for (const unsigned int old_facet : {first, *f})
+      {
+        const double gap = PointBeforeTriangle<double>::gap(
+          corners(p, old_facet, old_positions));
+        if (gap > 0.)
+          {
+            begin_before(p, old_facet, gap, old_facet == first);
+            return;
+          }
+      }
   }
 
 
@@ -181,7 +351,7 @@ namespace Ricochet
     get_multipliers();
     new_positions         = old_positions;
     const bool has_length = start.time_step > 0.;
-    Positions  middle     = old_positions, end;
+    Positions  middle, end;
     if (has_length)
       {
         get_positions(start.mean_velocity,
@@ -193,25 +363,40 @@ namespace Ricochet
                       &old_positions,
                       start.time_step);
       }
-    const FacetSearch<3> search(master, middle.master);
+    const auto way = [](const std::vector<Position> &from,
+                        const std::vector<Position> &to) {
+      double longest = 0.;
+      for (unsigned int n = 0; n < to.size(); ++n)
+        longest =
+          std::max(longest, (to_tensor(to[n]) - to_tensor(from[n])).norm());
+      return longest;
+    };
+    reach = smallest_reach + way(old_positions.slave, end.slave) +
+      way(old_positions.master, end.master);
+    const FacetSearch<3> search(master, old_positions.master);
     const auto           later = has_length
                 ? std::make_unique<FacetSearch<3>>(master, end.master)
                 : nullptr;
     for (unsigned int p = 0; p < own_points.size(); ++p)
       {
-        gaps[p].is_before_facet = false;
-        steps[p].up_to_date     = false;
+        Step &step          = steps[p];
+        Gaps &gap           = gaps[p];
+        gap.is_before_facet = false;
+        step.up_to_date     = false;
         if (!own_points[p].can_touch)
           continue;
-        if (const auto f = find_facet(p, search, middle))
-          set_facet(p, *f);
-        // What is fast may pass a whole triangle in a step.
-        else if (has_length)
-          if (const auto at_end = find_facet(p, *later, end))
-            set_facet(p, *at_end);
-        if (gaps[p].is_before_facet)
-          gaps[p].predicted_gap = PointBeforeTriangle<double>::gap(
-            corners(p, steps[p].facet, middle));
+        step.normal = normal_of(own_points[p], old_positions.slave);
+        find_facet_now(p, search);
+        if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
+          find_facet_later(p, *later, end);
+        if (!gap.is_before_facet)
+          continue;
+        step.new_facet    = step.old_facet;
+        gap.new_gap       = gap.old_gap;
+        gap.predicted_gap = gap.old_gap;
+        if (has_length)
+          gap.predicted_gap = PointBeforeTriangle<double>::gap(
+            corners(p, last_facet(p, middle), middle));
       }
   }
 
@@ -225,10 +410,39 @@ namespace Ricochet
     for (unsigned int p = 0; p < own_points.size(); ++p)
       if (gaps[p].is_before_facet)
         {
+          Step &step      = steps[p];
+          step.new_facet  = last_facet(p, new_positions);
           gaps[p].new_gap = PointBeforeTriangle<double>::gap(
-            corners(p, steps[p].facet, new_positions));
-          steps[p].up_to_date = false;
+            corners(p, step.new_facet, new_positions));
+          step.up_to_date = false;
         }
+  }
+
+
+
+  void
+  PointsBeforeTriangles::stay_at_vertex(const unsigned int p,
+                                        const double       tolerance)
+  {
+    Step        &step = steps[p];
+    const auto  &old  = master.facets[step.old_facet];
+    const double gap  = PointBeforeTriangle<double>::gap(
+      corners(p, step.old_facet, new_positions));
+    for (const unsigned int f : around[step.old_facet])
+      if (f != step.old_facet &&
+          std::abs(
+            PointBeforeTriangle<double>::gap(corners(p, f, new_positions)) -
+            gap) < tolerance * std::sqrt(old.measure))
+        step.may_pass = false;
+  }
+
+
+
+  int
+  PointsBeforeTriangles::passage(const unsigned int p) const
+  {
+    const Step &step = steps[p];
+    return step.new_facet == step.old_facet ? 0 : 1 + step.new_facet;
   }
 
 
@@ -240,13 +454,33 @@ namespace Ricochet
     if (step.up_to_date)
       return;
     step.up_to_date = true;
-    PointBeforeTriangle<double>::evaluate(corners(p, step.facet, old_positions),
-                                          corners(p, step.facet, new_positions),
-                                          triangle_rows);
+    Passing::Rows all;
+    if (step.new_facet == step.old_facet)
+      {
+        PointBeforeTriangle<double>::Rows one;
+        PointBeforeTriangle<double>::evaluate(
+          corners(p, step.old_facet, old_positions),
+          corners(p, step.old_facet, new_positions),
+          one);
+        all.gap_increment = one.gap_increment;
+        all.slip          = one.slip;
+        std::copy(one.normal.begin(), one.normal.end(), all.normal.begin());
+        for (unsigned int d = 0; d < n_tangents; ++d)
+          std::copy(one.tangential[d].begin(),
+                    one.tangential[d].end(),
+                    all.tangential[d].begin());
+      }
+    else
+      Passing::evaluate(
+        corners(p, step.old_facet, step.new_facet, old_positions),
+        corners(p, step.old_facet, step.new_facet, new_positions),
+        shared_edge(step.old_facet, step.new_facet),
+        Caution::none,
+        all);
     Rows &rows         = step.rows;
-    rows.gap_increment = triangle_rows.gap_increment;
+    rows.gap_increment = all.gap_increment;
     for (unsigned int d = 0; d < n_tangents; ++d)
-      rows.slip[d] = triangle_rows.slip[d];
+      rows.slip[d] = all.slip[d];
 
     // The nodes that the point and the corners move with.
     rows.unknowns.clear();
@@ -262,33 +496,38 @@ namespace Ricochet
       for (unsigned int c = 0; c < 3; ++c)
         step.shares.push_back({place + c, 3 * corner + c, factor});
     };
+    const auto add_corners = [&](const unsigned int facet,
+                                 const unsigned int first) {
+      for (unsigned int v = 0; v < 3; ++v)
+        {
+          const auto &node = master.nodes[master.facets[facet].nodes[v]];
+          if (node.mean_of.empty())
+            add(node, first + v, 1.);
+          for (const unsigned int of : node.mean_of)
+            add(master.nodes[of], first + v, 1. / node.mean_of.size());
+        }
+    };
     for (const auto &[node, weight] : own_points[p].nodes)
       add(slave.nodes[node], 0, weight);
-    for (unsigned int v = 0; v < 3; ++v)
-      {
-        const auto &node = master.nodes[master.facets[step.facet].nodes[v]];
-        if (node.mean_of.empty())
-          add(node, v + 1, 1.);
-        for (const unsigned int of : node.mean_of)
-          add(master.nodes[of], v + 1, 1. / node.mean_of.size());
-      }
+    add_corners(step.old_facet, 1);
+    if (step.new_facet != step.old_facet)
+      add_corners(step.new_facet, 4);
 
     rows.normal.assign(rows.unknowns.size(), 0.);
     for (auto &row : rows.tangential)
       row.assign(rows.unknowns.size(), 0.);
     for (const Share &share : step.shares)
       {
-        rows.normal[share.place] +=
-          share.factor * triangle_rows.normal[share.coordinate];
+        rows.normal[share.place] += share.factor * all.normal[share.coordinate];
         for (unsigned int d = 0; d < n_tangents; ++d)
           rows.tangential[d][share.place] +=
-            share.factor * triangle_rows.tangential[d][share.coordinate];
+            share.factor * all.tangential[d][share.coordinate];
       }
     double square = 0.;
     for (unsigned int c = 0; c < 3; ++c)
-      square += triangle_rows.normal[c] * triangle_rows.normal[c];
+      square += all.normal[c] * all.normal[c];
     for (unsigned int c = 0; c < 3; ++c)
-      rows.direction[c] = triangle_rows.normal[c] / std::sqrt(square);
+      rows.direction[c] = all.normal[c] / std::sqrt(square);
   }
 
 
@@ -302,25 +541,23 @@ namespace Ricochet
 
 
 
-  const SurfacePair<3>::Derivatives &
-  PointsBeforeTriangles::derivatives(const unsigned int p,
-                                     const double       pressure,
-                                     const Tangential  &traction,
-                                     const Caution /*caution*/) const
+  template <unsigned int n_points, typename Evaluate>
+  void
+  PointsBeforeTriangles::differentiate(const unsigned int p,
+                                       const double       pressure,
+                                       const Tangential  &traction,
+                                       const Evaluate    &evaluate) const
   {
-    update(p);
-    const Step             &step = steps[p];
-    const Corners<double>   now  = corners(p, step.facet, new_positions);
-    Corners<Differentiable> x;
-    for (unsigned int v = 0; v < 4; ++v)
+    constexpr unsigned int n = 3 * n_points;
+    using Differentiable     = Sacado::Fad::SLFad<double, n>;
+    const Step &step         = steps[p];
+    const auto  now = corners(p, step.old_facet, step.new_facet, new_positions);
+    std::array<std::array<Differentiable, 3>, n_points> x;
+    for (unsigned int v = 0; v < n_points; ++v)
       for (unsigned int c = 0; c < 3; ++c)
-        x[v][c] = Differentiable(12, 3 * v + c, now[v][c]);
-    auto &all = differentiable_rows;
-    PointBeforeTriangle<Differentiable>::evaluate(corners(p,
-                                                          step.facet,
-                                                          old_positions),
-                                                  x,
-                                                  all);
+        x[v][c] = Differentiable(n, 3 * v + c, now[v][c]);
+    RowsOfPoint<Differentiable, n> all;
+    evaluate(x, all);
 
     const unsigned int m = step.rows.unknowns.size();
     result.gap.assign(m, 0.);
@@ -345,6 +582,36 @@ namespace Ricochet
           result.forces[a.place * m + b.place] +=
             a.factor * b.factor * entry.dx(b.coordinate);
       }
+  }
+
+
+
+  const SurfacePair<3>::Derivatives &
+  PointsBeforeTriangles::derivatives(const unsigned int p,
+                                     const double       pressure,
+                                     const Tangential  &traction,
+                                     const Caution      caution) const
+  {
+    update(p);
+    const Step        &step = steps[p];
+    const unsigned int old = step.old_facet, now = step.new_facet;
+    if (now == old)
+      differentiate<4>(p, pressure, traction, [&](const auto &x, auto &rows) {
+        using Number = std::decay_t<decltype(x[0][0])>;
+        PointBeforeTriangle<Number>::evaluate(corners(p, old, old_positions),
+                                              x,
+                                              rows);
+      });
+    else
+      differentiate<7>(p, pressure, traction, [&](const auto &x, auto &rows) {
+        using Number = std::decay_t<decltype(x[0][0])>;
+        PointPassingTriangles<Number>::evaluate(
+          corners(p, old, now, old_positions),
+          x,
+          shared_edge(old, now),
+          caution,
+          rows);
+      });
     return result;
   }
 
@@ -353,12 +620,29 @@ namespace Ricochet
   std::vector<SurfacePair<3>::Index>
   PointsBeforeTriangles::unknowns_nearby(const unsigned int p) const
   {
-    // The facet stays the same during a step.
     std::vector<Index> unknowns = rows(p).unknowns;
+    const auto         add      = [&](const auto &node) {
+      unknowns.insert(unknowns.end(),
+                      node.unknowns.begin(),
+                      node.unknowns.end());
+    };
+    // The neighbours to which the point may pass.
+    for (const auto &neighbour : master.facets[steps[p].old_facet].neighbours)
+      if (neighbour)
+        for (const unsigned int n : master.facets[*neighbour].nodes)
+          {
+            const auto &mean_of = master.nodes[n].mean_of;
+            if (mean_of.empty())
+              add(master.nodes[n]);
+            for (const unsigned int of : mean_of)
+              add(master.nodes[of]);
+          }
     for (const Index multiplier : own_points[p].multipliers)
       if (multiplier != numbers::invalid_dof_index)
         unknowns.push_back(multiplier);
     std::sort(unknowns.begin(), unknowns.end());
+    unknowns.erase(std::unique(unknowns.begin(), unknowns.end()),
+                   unknowns.end());
     return unknowns;
   }
 
@@ -372,7 +656,7 @@ namespace Ricochet
     double             size   = 0.;
     const Position     y      = position_of(own_points[p], new_positions.slave);
     const auto        &own    = slave.nodes[own_points[p].nodes[0].first];
-    const unsigned int corner = master.facets[steps[p].facet].nodes[0];
+    const unsigned int corner = master.facets[steps[p].new_facet].nodes[0];
     for (unsigned int c = 0; c < 3; ++c)
       size += std::abs(y[c]) + std::abs(own.reference_position[c]) +
         std::abs(new_positions.master[corner][c]);

@@ -3,9 +3,7 @@
 #define ricochet_contact_kinematics_points_before_triangles_h
 
 #include <contact/kinematics/surface_pair.h>
-#include <contact/surfaces/point_before_triangle.h>
-
-#include <Sacado_Fad_SLFad.hpp>
+#include <contact/surfaces/point_passing_triangles.h>
 
 namespace Ricochet
 {
@@ -14,14 +12,13 @@ namespace Ricochet
 
   /**
    * Each point of the slave, a node or a quadrature point, is held by the one triangle
-   * of the master before which it will be in the middle of the step, if the mean
-   * velocity of the step before goes on: the closest one there that faces it. It stays
-   * before the plane of this triangle during the step, wherever it goes along it.
+   * of the master before which it is: the closest one that faces it.
    *
-   * Increments are exact within the step (see PointBeforeTriangle), and so are energy
-   * and momenta of conditions on the increment. A point that slides over an edge has
-   * another gap before the next triangle than before the last one, by the angle
-   * between them times the way behind the edge.
+   * No history enters: which triangle that is follows from where both are. A point may
+   * pass from one to another during a step (see PointPassingTriangles), so that the gap
+   * at the end of a step is that at the beginning of the next one. Where both differ
+   * after all, at vertices of some kinds, the point stays before the triangle where it
+   * began until the step is over.
    */
   class PointsBeforeTriangles : public SurfacePair<3>
   {
@@ -52,6 +49,12 @@ namespace Ricochet
                 const Tangential  &traction,
                 const Caution      caution) const override;
 
+    void
+    stay_at_vertex(const unsigned int p, const double tolerance) override;
+
+    int
+    passage(const unsigned int p) const override;
+
     std::vector<Index>
     unknowns_nearby(const unsigned int p) const override;
 
@@ -59,12 +62,12 @@ namespace Ricochet
     round_off(const unsigned int p) const override;
 
   private:
-    using Differentiable = Sacado::Fad::SLFad<double, 12>;
+    using Passing = PointPassingTriangles<double>;
     template <typename Number>
     using Corners = std::array<std::array<Number, 3>, 4>;
 
     /// What the row of an unknown is made of: coordinates of the point and the
-    /// triangle's corners that move with it, and by how much.
+    /// triangles' corners that move with it, and by how much.
     struct Share
     {
       unsigned int place, coordinate;
@@ -73,7 +76,11 @@ namespace Ricochet
 
     struct Step
     {
-      unsigned int       facet      = 0;
+      /// Before which the point is at both ends of the step.
+      unsigned int old_facet = 0, new_facet = 0;
+      bool         may_pass = false;
+      /// Outward normal of the slave at the beginning of the step.
+      Position           normal{};
       bool               up_to_date = false;
       Rows               rows;
       std::vector<Share> shares;
@@ -88,6 +95,30 @@ namespace Ricochet
             const unsigned int f,
             const Positions   &positions) const;
 
+    /// Positions of the point @p p and of the corners of two facets.
+    Passing::Points<double>
+    corners(const unsigned int p,
+            const unsigned int old_facet,
+            const unsigned int new_facet,
+            const Positions   &positions) const;
+
+    /// The edge that two facets share.
+    std::optional<SharedEdge>
+    shared_edge(const unsigned int old_facet,
+                const unsigned int new_facet) const;
+
+    /// The closest facet, found by walking over the surface from facet @p f.
+    unsigned int
+    walk(const unsigned int p,
+         const unsigned int f,
+         const Position    &normal,
+         const Positions   &positions) const;
+
+    /// The facet before which the point is at the end of the step, with positions @p
+    /// now.
+    unsigned int
+    last_facet(const unsigned int p, const Positions &now) const;
+
     /// Whether the point, the first of @p x, is beyond an open edge of the surface, or
     /// beside the facet @p f.
     bool
@@ -100,18 +131,43 @@ namespace Ricochet
                const FacetSearch<3> &search,
                const Positions      &positions) const;
 
-    /// Let the point be before facet @p f in this step.
+    /// The facet before which a point is at the beginning of a step, if there is one.
     void
-    set_facet(const unsigned int p, const unsigned int f);
+    find_facet_now(const unsigned int p, const FacetSearch<3> &search);
+
+    /// For a point that is not pressed, a facet that it is in front of and before
+    /// which it will be @p later, if there is one.
+    void
+    find_facet_later(const unsigned int    p,
+                     const FacetSearch<3> &search,
+                     const Positions      &later);
+
+    /// Let the point @p p begin before facet @p f.
+    void
+    begin_before(const unsigned int p,
+                 const unsigned int f,
+                 const double       gap,
+                 const bool         may_pass);
+
+    /// Sum the derivatives of rows on @p n_points points up over the shares.
+    template <unsigned int n_points, typename Evaluate>
+    void
+    differentiate(const unsigned int p,
+                  const double       pressure,
+                  const Tangential  &traction,
+                  const Evaluate    &evaluate) const;
 
     void
     update(const unsigned int p) const;
 
-    Positions                                 old_positions, new_positions;
-    mutable std::vector<Step>                 steps;
-    mutable PointBeforeTriangle<double>::Rows triangle_rows;
-    mutable PointBeforeTriangle<Differentiable>::Rows differentiable_rows;
-    mutable Derivatives                               result;
+    /// Facets farther from a point are not looked for: a tenth of the surface, but no
+    /// less than two facets and what comes near in a step (m).
+    double reach = 0., smallest_reach = 0.;
+    /// The facets around each one: those that share a node with it, and itself.
+    std::vector<std::vector<unsigned int>> around;
+    Positions                              old_positions, new_positions;
+    mutable std::vector<Step>              steps;
+    mutable Derivatives                    result;
   };
 } // namespace Ricochet
 

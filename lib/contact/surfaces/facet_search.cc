@@ -18,6 +18,8 @@ namespace Ricochet
   {
     using Entry = std::pair<BoundingBox<dim>, unsigned int>;
     RTree<Entry> boxes;
+    /// Of all facets.
+    Point<dim> lower, upper;
   };
 
 
@@ -77,6 +79,16 @@ namespace Ricochet
         entries.emplace_back(BoundingBox<dim>(corners), f);
       }
     tree->boxes = pack_rtree(entries);
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        const auto smaller = [c](const auto &a, const auto &b) {
+          return a[c] < b[c];
+        };
+        const auto ends =
+          std::minmax_element(positions.begin(), positions.end(), smaller);
+        tree->lower[c] = (*ends.first)[c];
+        tree->upper[c] = (*ends.second)[c];
+      }
   }
 
 
@@ -148,6 +160,58 @@ namespace Ricochet
       return std::abs(dot<dim>(normal, y) - dot<dim>(normal, a)) /
         std::sqrt(dot<dim>(normal, normal));
     }
+
+    /// Whether its outward normal points against @p normal.
+    template <int dim>
+    bool
+    faces(const ContactSurface<dim>                  &surface,
+          const std::vector<std::array<double, dim>> &positions,
+          const unsigned int                          f,
+          const std::array<double, dim>              &normal)
+    {
+      return dot<dim>(facet_normal<dim>(surface, positions, f), normal) < 0.;
+    }
+
+    /// The closest facet of those that it is told of.
+    template <int dim>
+    struct Closest
+    {
+      /// @param accept is only asked of what would be the closest.
+      template <typename Accept>
+      void
+      consider(const ContactSurface<dim>                  &surface,
+               const std::vector<std::array<double, dim>> &positions,
+               const unsigned int                          f,
+               const std::array<double, dim>              &y,
+               const Accept                               &accept)
+      {
+        const double distance = squared_distance<dim>(surface, positions, f, y);
+        // In space the facets around an edge or a vertex that is closest are equally
+        // far, but for round-off, which must not choose. The point is before the one
+        // from whose plane it is farthest: behind the planes of others it may be, in
+        // front of the body.
+        const double equal =
+          dim < 3 ? 0. : 1e-9 * smallest + 1e-18 * surface.facets[f].measure;
+        if (distance > smallest + equal || !accept(f))
+          return;
+        const double from_plane =
+          dim < 3 ? 0. : distance_from_plane<dim>(surface, positions, f, y);
+        const double margin = 1e-6 * std::sqrt(distance);
+        if (!best || distance < smallest - equal ||
+            from_plane > farthest + margin ||
+            (f < *best && from_plane >= farthest - margin))
+          {
+            smallest = distance;
+            best     = f;
+            farthest = from_plane;
+          }
+      }
+
+      std::optional<unsigned int> best;
+      /// Square of the distance (m^2).
+      double smallest = std::numeric_limits<double>::max();
+      double farthest = 0.;
+    };
   } // namespace
 
 
@@ -164,54 +228,74 @@ namespace Ricochet
     Point<dim> point;
     for (unsigned int c = 0; c < dim; ++c)
       point[c] = y[c];
-    std::optional<unsigned int> best;
-    double                      farthest = 0.;
-    double smallest = std::min(std::numeric_limits<double>::max(),
-                               largest_distance * largest_distance);
-    // Boxes come in the order of their distance, which is not larger than that of
-    // the facet within.
+    // In boxes around y that grow until the closest facet is in them for sure. The first
+    // one reaches beyond the nearest facet, the last one holds them all.
     const auto &boxes = tree->boxes;
-    for (auto entry = boxes.qbegin(bgi::nearest(point, boxes.size()));
-         entry != boxes.qend();
-         ++entry)
+    const auto  first = boxes.qbegin(bgi::nearest(point, 1));
+    if (first == boxes.qend())
+      return {};
+    double radius = 0., farthest = 0.;
+    for (unsigned int c = 0; c < dim; ++c)
       {
-        double box_distance = 0.;
+        const double lower = first->first.lower_bound(c),
+                     upper = first->first.upper_bound(c);
+        radius = std::max({radius, lower - y[c], y[c] - upper, upper - lower});
+        farthest =
+          std::max({farthest, y[c] - tree->lower[c], tree->upper[c] - y[c]});
+      }
+    farthest = std::min(farthest, largest_distance);
+    radius   = std::max(radius, 1e-3 * farthest);
+    Closest<dim> closest;
+    for (bool is_last = false; !is_last; radius *= 2.)
+      {
+        is_last          = radius >= farthest;
+        radius           = std::min(radius, farthest);
+        Point<dim> lower = point, upper = point;
         for (unsigned int c = 0; c < dim; ++c)
           {
-            const double outside = std::max({entry->first.lower_bound(c) - y[c],
-                                             y[c] - entry->first.upper_bound(c),
-                                             0.});
-            box_distance += outside * outside;
+            lower[c] -= radius;
+            upper[c] += radius;
           }
-        if (box_distance > smallest * (1. + 1e-8))
+        closest = {};
+        closest.smallest =
+          std::min(closest.smallest, largest_distance * largest_distance);
+        for (auto entry = boxes.qbegin(
+               bgi::intersects(BoundingBox<dim>(std::pair(lower, upper))));
+             entry != boxes.qend();
+             ++entry)
+          if (accept)
+            closest.consider(surface, positions, entry->second, y, accept);
+          else if (faces<dim>(surface, positions, entry->second, normal))
+            closest.consider(surface,
+                             positions,
+                             entry->second,
+                             y,
+                             [](const unsigned int) { return true; });
+        // What is as far as this one is in the box as well.
+        if (closest.best && closest.smallest * (1. + 1e-6) <= radius * radius)
           break;
-        const unsigned int f = entry->second;
-        if (!accept &&
-            !(dot<dim>(facet_normal<dim>(surface, positions, f), normal) < 0.))
-          continue;
-        const double distance = squared_distance<dim>(surface, positions, f, y);
-        // In space the facets around an edge or a vertex that is closest are equally
-        // far, but for round-off, which must not choose. The point is before the one
-        // from whose plane it is farthest: behind the planes of others it may be, in
-        // front of the body.
-        const double equal =
-          dim < 3 ? 0. : 1e-9 * smallest + 1e-18 * surface.facets[f].measure;
-        if (distance > smallest + equal || (accept && !accept(f)))
-          continue;
-        const double from_plane =
-          dim < 3 ? 0. : distance_from_plane<dim>(surface, positions, f, y);
-        const double margin = 1e-6 * std::sqrt(distance);
-        if (!best || distance < smallest - equal ||
-            from_plane > farthest + margin ||
-            (f < *best && from_plane >= farthest - margin))
-          {
-            smallest = distance;
-            best     = f;
-            farthest = from_plane;
-          }
       }
-    return best;
+    return closest.best;
   }
+
+
+
+  template <int dim>
+  std::optional<unsigned int>
+  closest_facing_of(const std::vector<unsigned int>            &facets,
+                    const ContactSurface<dim>                  &surface,
+                    const std::vector<std::array<double, dim>> &positions,
+                    const std::array<double, dim>              &y,
+                    const std::array<double, dim>              &normal)
+  {
+    Closest<dim> closest;
+    for (const unsigned int f : facets)
+      closest.consider(surface, positions, f, y, [&](const unsigned int other) {
+        return faces<dim>(surface, positions, other, normal);
+      });
+    return closest.best;
+  }
+
 
 
   template <int dim>
@@ -251,4 +335,10 @@ namespace Ricochet
   facet_normal<3>(const ContactSurface<3> &,
                   const std::vector<std::array<double, 3>> &,
                   const unsigned int);
+  template std::optional<unsigned int>
+  closest_facing_of<3>(const std::vector<unsigned int> &,
+                       const ContactSurface<3> &,
+                       const std::vector<std::array<double, 3>> &,
+                       const std::array<double, 3> &,
+                       const std::array<double, 3> &);
 } // namespace Ricochet

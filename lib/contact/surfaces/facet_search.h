@@ -47,6 +47,15 @@ namespace Ricochet
     std::unique_ptr<Tree>                       tree;
   };
 
+  /// As FacetSearch::closest_facing(), but only of @p facets.
+  template <int dim>
+  std::optional<unsigned int>
+  closest_facing_of(const std::vector<unsigned int>            &facets,
+                    const ContactSurface<dim>                  &surface,
+                    const std::vector<std::array<double, dim>> &positions,
+                    const std::array<double, dim>              &y,
+                    const std::array<double, dim>              &normal);
+
   /// Outward normal of facet @p f, as long as the facet; in space, twice its area.
   template <int dim>
   std::array<double, dim>

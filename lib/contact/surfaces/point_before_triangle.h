@@ -9,6 +9,22 @@
 
 namespace Ricochet
 {
+  /// Gap and slip of a point over a step, with the rows that they are products of, on
+  /// @p n coordinates.
+  template <typename Number, unsigned int n>
+  struct RowsOfPoint
+  {
+    /// Gap at the end of the step (m).
+    Number new_gap{};
+    /// D . change, which is new gap - old gap (m).
+    Number gap_increment{};
+    /// T . change: how far the point slides along the triangle where it began (m).
+    std::array<Number, 2> slip{};
+    /// D and T, 1.
+    std::array<Number, n>                normal{};
+    std::array<std::array<Number, n>, 2> tangential{};
+  };
+
   /**
    * Contact of a point y with a triangle (a, b, c), all of which move: the gap, and the
    * directions along which forces on them have to act over a step.
@@ -45,18 +61,7 @@ namespace Ricochet
     /// Rows on the coordinates.
     using Row = std::array<Number, n_coordinates>;
 
-    struct Rows
-    {
-      /// Gap at the end of the step (m).
-      Number new_gap{};
-      /// D . change, which is new gap - old gap (m).
-      Number gap_increment{};
-      /// T . change: how far the point slides along the triangle (m).
-      std::array<Number, 2> slip{};
-      /// D and T, 1.
-      Row                normal{};
-      std::array<Row, 2> tangential{};
-    };
+    using Rows = RowsOfPoint<Number, n_coordinates>;
 
     /// Positions of y, a, b, c at the beginning of a step and at its end (m).
     static void
@@ -101,7 +106,23 @@ namespace Ricochet
       return dot(normal, w[2]) / sqrt(dot(normal, normal));
     }
 
-  private:
+    /// The sine of the angle by which the surface turns from the triangle (a, b, c) to
+    /// (b, a, y), beyond the edge from a to b: positive in a valley.
+    static DiscreteScalar<Number, n_coordinates>
+    sine(const Points<double> &old_x, const Points<Number> &new_x)
+    {
+      const Step step(old_x, new_x);
+      using Scalar     = DiscreteScalar<Number, n_coordinates>;
+      const Scalar q11 = step.product(0, 0), q12 = step.product(0, 1),
+                   q22 = step.product(1, 1), q13 = step.product(0, 2),
+                   q23 = step.product(1, 2), q33 = step.product(2, 2);
+      const Scalar first  = sqrt(q11 * q22 - q12 * q12),
+                   second = sqrt(q11 * q33 - q13 * q13);
+      return sqrt(q11) *
+        step.volume({{&q11, &q12, &q22, &q13, &q23, &q33}}, first) /
+        (first * second);
+    }
+
     template <typename T>
     using Vector3 = std::array<T, 3>;
 
@@ -136,6 +157,7 @@ namespace Ricochet
       return w;
     }
 
+  private:
     /// What the functions are made of.
     struct Step
     {

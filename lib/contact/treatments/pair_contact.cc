@@ -215,12 +215,13 @@ namespace Ricochet
         // are at a vertex that holds them stay before the one where they began.
         // What this leaves between the gap at the end of the step and that at the
         // beginning of the next one is no matter to a condition on the increment.
-        // Signorini's condition with friction has no solution where a node is pressed
-        // into a valley from both sides; it is given up there bit by bit.
+        // Signorini's condition with friction, or in space, has no solution where a node
+        // is pressed into a valley from both sides; it is given up there bit by bit.
         const double tolerance = method.law ? 1e-10
           : method.condition != ClosingCondition::signorini
-          ? 1e-4
-          : std::min(has_friction ? 1e-2 : 1e-9,
+          ? std::min(1e-2,
+                     1e-4 * std::pow(10., .5 * std::max(0., n_returns - 4.)))
+          : std::min(has_friction || dim == 3 ? 1e-2 : 1e-9,
                      1e-10 * std::pow(10., n_returns));
         ++n_returns;
         n_frozen = 4 * std::max(1u, n_returns - 1);
@@ -280,7 +281,15 @@ namespace Ricochet
   PairContact<dim>::closing(const PointState &state) const
   {
     if (method.condition == ClosingCondition::signorini)
-      return state.state.gap;
+      {
+        // What is behind a facet already, because it came there past something that
+        // nodes do not see, is not thrown out, which would take energy from nowhere;
+        // but it comes no deeper.
+        const double old_gap = state.old_state.gap;
+        return old_gap < -1e-9 * point_of(state).cell_diameter
+          ? state.state.gap - old_gap
+          : state.state.gap;
+      }
     if (method.condition == ClosingCondition::two_step && pass == 0)
       return .5 * (state.old_state.gap + state.state.gap);
     return pair_of(state).rows(state.point).gap_increment;

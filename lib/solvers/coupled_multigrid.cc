@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <base/stopwatch.h>
+#include <solvers/aggregation_parameters.h>
+#include <solvers/coupled_multigrid.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/solver_control.h>
+#include <deal.II/lac/solver_gmres.h>
+
+#include <EpetraExt_MatrixMatrix.h>
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Import.h>
+#include <Epetra_Map.h>
+#include <Epetra_Vector.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  CoupledMultigrid::CoupledMultigrid(CoarseSpace coarse_space)
+    : space(std::move(coarse_space))
+    , modes(values_of_modes(space))
+  {
+    AssertThrow(space.prolongation.m() == 0,
+                ExcMessage("Contact between bodies is of degree 1."));
+    displacement_part.reinit(space.rigid_body_modes[0]);
+    displacement_result.reinit(space.rigid_body_modes[0]);
+  }
+
+
+
+  CoupledMultigrid::~CoupledMultigrid() = default;
+
+
+
+  namespace
+  {
+    using EpetraIndex = TrilinosWrappers::types::int_type;
+
+    EpetraIndex
+    index_of(const Epetra_Map &map, const int row)
+    {
+      return static_cast<EpetraIndex>(map.GID64(row));
+    }
+
+    /// @p values of the rows of @p matrix, in the order of its columns on this rank.
+    Epetra_Vector
+    in_columns(const Epetra_CrsMatrix &matrix, const Epetra_Vector &values)
+    {
+      Epetra_Vector result(matrix.ColMap());
+      if (const Epetra_Import *importer = matrix.Importer())
+        result.Import(values, *importer, Insert);
+      else
+        result = values;
+      return result;
+    }
+  } // namespace
+
+
+
+  void
+  CoupledMultigrid::split()
+  {
+    const Epetra_CrsMatrix &all = matrix.trilinos_matrix();
+    const int n_displacements   = displacement_part.locally_owned_size();
+    const int n_multipliers     = all.NumMyRows() - n_displacements;
+    if (!displacements)
+      {
+        displacements = std::make_unique<Epetra_Map>(EpetraIndex(-1),
+                                                     n_displacements,
+                                                     EpetraIndex(0),
+                                                     all.Comm());
+        multipliers   = std::make_unique<Epetra_Map>(EpetraIndex(-1),
+                                                   n_multipliers,
+                                                   EpetraIndex(0),
+                                                   all.Comm());
+      }
+
+    // The number of each row among displacements, or less than zero and among
+    // multipliers. Numbers are whole, which a double holds.
+    Epetra_Vector number(all.RowMap());
+    for (int row = 0; row < all.NumMyRows(); ++row)
+      number[row] = row < n_displacements
+        ? static_cast<double>(displacements->GID64(row))
+        : -1. - static_cast<double>(multipliers->GID64(row - n_displacements));
+    const Epetra_Vector numbers = in_columns(all, number);
+
+    body = std::make_unique<Epetra_CrsMatrix>(Copy, *displacements, 0);
+    from_multipliers =
+      std::make_unique<Epetra_CrsMatrix>(Copy, *displacements, 0);
+    to_multipliers = std::make_unique<Epetra_CrsMatrix>(Copy, *multipliers, 0);
+    Epetra_Vector diagonal(all.RowMap());
+    all.ExtractDiagonalCopy(diagonal);
+    const Epetra_Vector      diagonals = in_columns(all, diagonal);
+    std::vector<EpetraIndex> columns, multiplier_columns;
+    std::vector<double>      values, multiplier_values;
+    inverse_diagonal = std::make_unique<Epetra_Vector>(*multipliers);
+    for (int row = 0; row < all.NumMyRows(); ++row)
+      {
+        int     n_entries = 0;
+        double *entries   = nullptr;
+        int    *indices   = nullptr;
+        all.ExtractMyRowView(row, n_entries, entries, indices);
+        columns.clear();
+        values.clear();
+        multiplier_columns.clear();
+        multiplier_values.clear();
+        // What the constraint's stiffness would be with that of a node.
+        double square = 0.;
+        for (int k = 0; k < n_entries; ++k)
+          if (const double column = numbers[indices[k]]; column >= 0.)
+            {
+              columns.push_back(static_cast<EpetraIndex>(column));
+              values.push_back(entries[k]);
+              square += entries[k] * entries[k] / diagonals[indices[k]];
+            }
+          else if (entries[k] != 0.)
+            {
+              multiplier_columns.push_back(
+                static_cast<EpetraIndex>(-1. - column));
+              multiplier_values.push_back(entries[k]);
+            }
+        if (row < n_displacements)
+          {
+            body->InsertGlobalValues(index_of(*displacements, row),
+                                     columns.size(),
+                                     values.data(),
+                                     columns.data());
+            from_multipliers->InsertGlobalValues(index_of(*displacements, row),
+                                                 multiplier_columns.size(),
+                                                 multiplier_values.data(),
+                                                 multiplier_columns.data());
+            continue;
+          }
+        to_multipliers->InsertGlobalValues(index_of(*multipliers,
+                                                    row - n_displacements),
+                                           columns.size(),
+                                           values.data(),
+                                           columns.data());
+        (*inverse_diagonal)[row - n_displacements] =
+          1. / (diagonal[row] - square / scaling->trilinos_vector()[0][row]);
+      }
+    body->FillComplete(*displacements, *displacements);
+    from_multipliers->FillComplete(*multipliers, *displacements);
+    to_multipliers->FillComplete(*displacements, *multipliers);
+    multiplier_part = std::make_unique<Epetra_Vector>(*multipliers);
+    work            = std::make_unique<Epetra_Vector>(*displacements);
+  }
+
+
+
+  void
+  CoupledMultigrid::set_up()
+  {
+    const Stopwatch stopwatch(spent.factorising);
+    ++spent.n_factorisations;
+    if (multipliers->NumGlobalElements64() == 0)
+      schur_complement = std::make_unique<Epetra_CrsMatrix>(*body);
+    else
+      add_springs();
+    auto list = aggregation_parameters(space, modes);
+    seed_aggregation(Utilities::MPI::this_mpi_process(
+      displacement_part.get_mpi_communicator()));
+    aggregation = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+    aggregation->initialize(*schur_complement, list);
+  }
+
+
+
+  void
+  CoupledMultigrid::add_springs()
+  {
+    // A - G C~^-1 H.
+    Epetra_CrsMatrix scaled(*to_multipliers);
+    scaled.LeftScale(*inverse_diagonal);
+    Epetra_CrsMatrix springs(Copy, *displacements, 0);
+    int error = EpetraExt::MatrixMatrix::Multiply(*from_multipliers,
+                                                  false,
+                                                  scaled,
+                                                  false,
+                                                  springs);
+    AssertThrow(error == 0, ExcTrilinosError(error));
+    Epetra_CrsMatrix *sum = nullptr;
+    error =
+      EpetraExt::MatrixMatrix::Add(*body, false, 1., springs, false, -1., sum);
+    AssertThrow(error == 0, ExcTrilinosError(error));
+    schur_complement.reset(sum);
+    schur_complement->FillComplete(*displacements, *displacements);
+  }
+
+
+
+  void
+  CoupledMultigrid::vmult(Vector &result, const Vector &vector) const
+  {
+    // u = S^-1 (r_u - G C~^-1 r_m), m = C~^-1 (r_m - H u).
+    const unsigned int n    = displacement_part.locally_owned_size();
+    const unsigned int n_m  = multipliers->NumMyElements();
+    const double      *from = vector.trilinos_vector()[0];
+    double            *to   = result.trilinos_vector()[0];
+    double            *part = displacement_part.trilinos_vector()[0];
+    for (unsigned int i = 0; i < n_m; ++i)
+      (*multiplier_part)[i] = (*inverse_diagonal)[i] * from[n + i];
+    from_multipliers->Multiply(false, *multiplier_part, *work);
+    for (unsigned int i = 0; i < n; ++i)
+      part[i] = from[i] - (*work)[i];
+    aggregation->vmult(displacement_result, displacement_part);
+    const double *solved = displacement_result.trilinos_vector()[0];
+    std::copy(solved, solved + n, to);
+    std::copy(solved, solved + n, work->Values());
+    to_multipliers->Multiply(false, *work, *multiplier_part);
+    for (unsigned int i = 0; i < n_m; ++i)
+      to[n + i] =
+        (*inverse_diagonal)[i] * (from[n + i] - (*multiplier_part)[i]);
+  }
+
+
+
+  int
+  CoupledMultigrid::iterate(const Vector &right_hand_side,
+                            Vector       &solution,
+                            const double  tolerance) const
+  {
+    solution = 0.;
+    Vector forces(right_hand_side);
+    forces.scale(*scaling);
+    SolverControl control(400, tolerance * forces.l2_norm());
+    const SolverGMRES<Vector>::AdditionalData data(
+      80,
+      /* right_preconditioning = */ true);
+    try
+      {
+        SolverGMRES<Vector>(control, data)
+          .solve(matrix, solution, forces, *this);
+      }
+    catch (const SolverControl::NoConvergence &)
+      {
+        return -1;
+      }
+    return control.last_step();
+  }
+
+
+
+  bool
+  CoupledMultigrid::solve(const Tangent &tangent,
+                          const Vector  &right_hand_side,
+                          Vector        &solution,
+                          const bool     may_reuse,
+                          const double   tolerance)
+  {
+    if (stage_begins || !may_reuse)
+      {
+        if (pattern != tangent.pattern)
+          {
+            matrix.clear();
+            pattern = tangent.pattern;
+          }
+        assemble(tangent, matrix);
+        scaling = tangent.row_scaling;
+        const_cast<Epetra_CrsMatrix &>(matrix.trilinos_matrix())
+          .LeftScale(*scaling->trilinos_vector()(0));
+        split();
+      }
+    // One set-up serves a stage, while iterations do not become too many; never
+    // beyond, so that results do not depend on what came before.
+    const bool is_first = stage_begins;
+    stage_begins        = false;
+    const auto go       = [&]() {
+      const Stopwatch stopwatch(spent.substituting);
+      return iterate(right_hand_side, solution, tolerance);
+    };
+    if (is_first)
+      set_up();
+    const double decades      = -std::log10(tolerance);
+    int          n_iterations = go();
+    if (is_first)
+      first_iterations_per_decade = n_iterations / decades;
+    else if (n_iterations < 0 ||
+             n_iterations > 5 + 2. * decades * first_iterations_per_decade)
+      {
+        // The next solution of this stage will have a better one.
+        set_up();
+        if (n_iterations < 0)
+          n_iterations = go();
+      }
+    if (n_iterations < 0)
+      throw NewtonFailure("Multigrid does not converge.");
+    return true;
+  }
+} // namespace Ricochet

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_coupled_multigrid_h
+#define ricochet_solvers_coupled_multigrid_h
+
+#include <solvers/coarse_space.h>
+#include <solvers/tangent_solver.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <memory>
+#include <vector>
+
+class Epetra_CrsMatrix;
+class Epetra_Map;
+class Epetra_Vector;
+
+namespace Ricochet
+{
+  /**
+   * Solves each system by GMRES, for bodies that touch each other and are too large
+   * to be factored. Displacements come first, on each rank, then multipliers:
+   *
+   *     T = | A  G |
+   *         | H  C |.
+   *
+   * C has no inverse where points are closed. With a diagonal C~ that has one (C, less
+   * what a stiffness like the body's own would give), the preconditioner solves with
+   *
+   *     | A  G  |
+   *     | H  C~ |
+   *
+   * by its Schur complement A - G C~^-1 H, on which Trilinos' ML acts with the rigid
+   * body modes as what coarse levels must be able to represent. This adds springs of
+   * the bodies' stiffness where they touch, which tie them together on all levels, and
+   * leaves the multipliers' own Schur complement well conditioned.
+   */
+  class CoupledMultigrid : public TangentSolver
+  {
+  public:
+    /// @param coarse_space of displacements of degree 1.
+    explicit CoupledMultigrid(CoarseSpace coarse_space);
+
+    ~CoupledMultigrid() override;
+
+    /// @return true.
+    /// @throws NewtonFailure when it does not converge.
+    bool
+    solve(const Tangent &tangent,
+          const Vector  &right_hand_side,
+          Vector        &solution,
+          const bool     may_reuse,
+          const double   tolerance) override;
+
+    /// The preconditioner.
+    void
+    vmult(Vector &result, const Vector &vector) const;
+
+  private:
+    /// Take T apart.
+    void
+    split();
+
+    /// Set ML up for the Schur complement as it is now.
+    void
+    set_up();
+
+    /// Make the Schur complement of A and the springs of C~.
+    void
+    add_springs();
+
+    /// @return the number of iterations, or -1 if they do not converge.
+    int
+    iterate(const Vector &right_hand_side,
+            Vector       &solution,
+            const double  tolerance) const;
+
+    const CoarseSpace   space;
+    std::vector<double> modes;
+    // T with all rows in units of force, and what made them so.
+    Matrix        matrix;
+    const Vector *scaling = nullptr;
+    std::uint64_t pattern = 0;
+
+    // Displacements and multipliers, each numbered by themselves.
+    std::unique_ptr<Epetra_Map>       displacements, multipliers;
+    std::unique_ptr<Epetra_CrsMatrix> body, from_multipliers, to_multipliers;
+    std::unique_ptr<Epetra_Vector>    inverse_diagonal;
+    std::unique_ptr<Epetra_CrsMatrix> schur_complement;
+    std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> aggregation;
+    mutable Vector displacement_part, displacement_result;
+    mutable std::unique_ptr<Epetra_Vector> multiplier_part, work;
+    // See MultigridSolver.
+    bool   set_up_in_stage             = false;
+    double first_iterations_per_decade = 0.;
+  };
+} // namespace Ricochet
+
+#endif
