@@ -30,14 +30,15 @@ namespace Ricochet
     void
     refine_around(const FinePlace &fine, const double mesh_size)
     {
-      namespace field             = gmsh::model::mesh::field;
-      const int        tag        = field::add("Ball");
-      constexpr double n_elements = 12., growth = .3;
+      namespace field = gmsh::model::mesh::field;
+      const int tag   = field::add("Ball");
       field::setNumber(tag, "XCenter", fine.place[0]);
       field::setNumber(tag, "YCenter", fine.place[1]);
       field::setNumber(tag, "ZCenter", fine.place[2]);
-      field::setNumber(tag, "Radius", n_elements * fine.mesh_size);
-      field::setNumber(tag, "Thickness", (mesh_size - fine.mesh_size) / growth);
+      field::setNumber(tag, "Radius", fine.n_elements() * fine.mesh_size);
+      field::setNumber(tag,
+                       "Thickness",
+                       (mesh_size - fine.mesh_size) / fine.growth());
       field::setNumber(tag, "VIn", fine.mesh_size);
       field::setNumber(tag, "VOut", mesh_size);
       field::setAsBackgroundMesh(tag);

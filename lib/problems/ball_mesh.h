@@ -30,13 +30,29 @@ namespace Ricochet
   read_ball(const std::string        &file_name,
             dealii::Triangulation<3> &triangulation);
 
-  /// Where elements are smaller than elsewhere: around a place, over a dozen of them;
-  /// from there on each is at most a third longer than the one before.
+  /// Where elements are smaller than elsewhere: around a place, over some elements;
+  /// from there on they grow with the distance.
   struct FinePlace
   {
     dealii::Point<3> place;
     /// m
     double mesh_size;
+    /// Displacements of degree 1 need more of them for the same error.
+    unsigned int degree;
+
+    /// Within so many elements they are of this size,
+    double
+    n_elements() const
+    {
+      return degree == 1 ? 12. : 6.;
+    }
+
+    /// and beyond larger by so much times the distance.
+    double
+    growth() const
+    {
+      return degree == 1 ? .15 : .3;
+    }
   };
 
   /**

@@ -184,7 +184,7 @@ CollidingSpheres::add_parameters(ParameterHandler &prm)
     "Mesh size where they touch",
     fine_mesh_size,
     "Length of elements around the place where the spheres first touch, over a "
-    "dozen of them; from there on they grow by a third each. Only for tetrahedra. "
+    "dozen of them; from there on they grow. Only for tetrahedra. "
     "0: as everywhere (m).",
     Patterns::Double(0.));
   prm.add_parameter("Slave",
@@ -272,7 +272,7 @@ CollidingSpheres::fine_place(const unsigned int sphere) const
   const double       along = std::sqrt(4. * radius * radius - offset * offset);
   const Tensor<1, 3> to_the_right({along, offset, 0.});
   const Tensor<1, 3> half = (sphere == 0 ? .5 : -.5) * to_the_right;
-  return FinePlace{centre(sphere) + half, fine_mesh_size};
+  return FinePlace{centre(sphere) + half, fine_mesh_size, 1};
 }
 
 

@@ -452,7 +452,7 @@ class BadInput(ProgramTest):
     def test_degree_and_solvers(self):
         self.refuse(["Contact between bodies needs displacements of degree 1; the "
                      "degree is 2"], "Mesh/Degree=2")
-        self.refuse(["direct or automatic instead of corrected"],
+        self.refuse(["direct, multigrid or automatic instead of corrected"],
                     "Linear solver/Type=corrected")
         self.refuse(["choose KLU, MUMPS or automatic"],
                     "Linear solver/Factorisation=CHOLMOD")
