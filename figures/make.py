@@ -114,8 +114,8 @@ def command_line():
 
 
 def is_short(figure):
-    """Whether its runs take less than half a minute, all of them together."""
-    return not figure.timed and not figure.animate and sum(r.cost for r in figure.runs) < 30
+    """Whether its runs take less than a quarter of a minute, all of them together."""
+    return not figure.timed and not figure.animate and sum(r.cost for r in figure.runs) < 15
 
 
 def make(names, build_dir, jobs, force):

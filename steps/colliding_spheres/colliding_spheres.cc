@@ -89,6 +89,12 @@ private:
   std::optional<FinePlace>
   fine_place(const unsigned int sphere) const;
 
+  unsigned int
+  nearest_sphere(const Point<3> &x) const
+  {
+    return x.distance(centre(0)) < x.distance(centre(1)) ? 0 : 1;
+  }
+
   void
   make_whole_mesh(Triangulation<3> &mesh) const;
 
@@ -96,8 +102,15 @@ private:
   Tensor<1, 3>
   initial_velocity(const Point<3> &x) const;
 
+  /// Angular momentum of one sphere about its own middle (kg m^2/s).
+  Tensor<1, 3>
+  own_angular_momentum(const unsigned int    sphere,
+                       const Impact<3>      &collision,
+                       const PartColumns<3> &parts,
+                       const State          &state) const;
+
   void
-  report(const Impact<3>      &collision,
+  report(Impact<3>            &collision,
          const PartColumns<3> &parts,
          const State          &begin,
          const State          &end,
@@ -314,8 +327,7 @@ CollidingSpheres::make_whole_mesh(Triangulation<3> &mesh) const
 Tensor<1, 3>
 CollidingSpheres::initial_velocity(const Point<3> &x) const
 {
-  const unsigned int sphere =
-    x.distance(centre(0)) < x.distance(centre(1)) ? 0 : 1;
+  const unsigned int sphere = nearest_sphere(x);
   return Tensor<1, 3>({sphere == 0 ? speed : -speed, 0., 0.}) +
     cross_product_3d(spin[sphere], x - centre(sphere));
 }
@@ -379,8 +391,31 @@ CollidingSpheres::run(RunFolder &folder)
 
 
 // ### What came out
+//
+// The angular momentum of a sphere about its own middle is what is left of that about
+// the origin when the middle's momentum is taken away. Where the middle is, products
+// with translations tell: m c x e for each direction e.
+Tensor<1, 3>
+CollidingSpheres::own_angular_momentum(const unsigned int    sphere,
+                                       const Impact<3>      &collision,
+                                       const PartColumns<3> &parts,
+                                       const State          &state) const
+{
+  const Momenta<3> &momenta = parts.momenta(sphere);
+  const auto        along_x = collision.uniform(Tensor<1, 3>({1., 0., 0.})),
+             along_y        = collision.uniform(Tensor<1, 3>({0., 1., 0.}));
+  const double       mass   = momenta.linear(along_x)[0];
+  const Tensor<1, 3> of_x   = momenta.angular(state.solution, along_x),
+                     of_y   = momenta.angular(state.solution, along_y);
+  const Tensor<1, 3> middle = Tensor<1, 3>({of_y[2], -of_x[2], of_x[1]}) / mass;
+  return momenta.angular(state.solution, state.velocity) -
+    cross_product_3d(middle, momenta.linear(state.velocity));
+}
+
+
+
 void
-CollidingSpheres::report(const Impact<3>      &collision,
+CollidingSpheres::report(Impact<3>            &collision,
                          const PartColumns<3> &parts,
                          const State          &begin,
                          const State          &end,
@@ -402,6 +437,31 @@ CollidingSpheres::report(const Impact<3>      &collision,
     for (unsigned int c = 0; c < 3; ++c)
       print(std::string("velocity_") + "xyz"[c] + "_" + names[sphere],
             velocity(sphere, end)[c]);
+
+  // The spin of a rigid sphere with the same angular momentum; linear bodies do not
+  // turn.
+  if (material.law != "linear elastic")
+    {
+      std::vector<std::function<double(const Point<3> &)>> turning;
+      for (unsigned int c = 0; c < 3; ++c)
+        turning.emplace_back([this, c](const Point<3> &x) {
+          const unsigned int sphere = nearest_sphere(x);
+          return cross_product_3d(Tensor<1, 3>({0., 0., 1.}),
+                                  Tensor<1, 3>(x - centre(sphere)))[c];
+        });
+      const State unit =
+        collision.state_in_motion(FunctionFromFunctionObjects<3>(turning));
+      for (unsigned int sphere = 0; sphere < 2; ++sphere)
+        {
+          const double inertia =
+            own_angular_momentum(sphere, collision, parts, unit)[2];
+          const Tensor<1, 3> angular =
+            own_angular_momentum(sphere, collision, parts, end);
+          for (unsigned int c = 0; c < 3; ++c)
+            print(std::string("spin_") + "xyz"[c] + "_" + names[sphere],
+                  angular[c] / inertia);
+        }
+    }
 
   // Along the line of the centres when the spheres first touch.
   const double       along = std::sqrt(4. * radius * radius - offset * offset);

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 
@@ -77,6 +78,9 @@ class ProgramTest(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="ricochet-"))
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        begin = time.monotonic()
+        self.addCleanup(lambda: print(f"{time.monotonic() - begin:.1f} s", end=" ",
+                                      file=sys.stderr))
 
     def command(self, program, parameters=(), folder=None, options=(), prm=None,
                 n_ranks=1):

@@ -454,14 +454,14 @@ class RestartAndRanks(BodiesTest):
         if is_debug_build():
             cases = cases[1:2]
         else:
-            self.stop_and_resume("stent_artery", [], [.36, .5, .6],
+            self.stop_and_resume("stent_artery", [], [.36, .42, .46],
                                  FILES / "stent_artery" / "mu_0.2.prm")
         for treatment, coupling in cases:
             with self.subTest(f"{treatment} {coupling}"):
                 self.stop_and_resume("colliding_disks",
-                                     self.disks(treatment, .16) +
+                                     self.disks(treatment, .12) +
                                      [f"Contact/Coupling={coupling}"],
-                                     [.06, .12, .16])
+                                     [.06, .1, .12])
 
     def compare(self, one, other):
         """To 1e-9 of the largest value of each column; what is round-off by itself
@@ -492,15 +492,15 @@ class RestartAndRanks(BodiesTest):
         """Also a run that begins on one rank and goes on with two, in contact."""
         cases = (
                 ("stent_artery", *self.STENT, .36),
-                ("colliding_disks", self.disks("improved normal compliance", .16),
+                ("colliding_disks", self.disks("improved normal compliance", .12),
                  None, .08),
-                ("colliding_disks", self.disks("persistent contact", .16),
+                ("colliding_disks", self.disks("persistent contact", .12),
                  None, .08),
                 ("colliding_disks",
-                 self.disks("improved normal compliance", .16) +
+                 self.disks("improved normal compliance", .12) +
                  ["Contact/Coupling=mortar"], None, .08),
                 ("colliding_disks",
-                 CutFaces.parameters("Nitsche-hybrid") + ["Time/Final time=.16"],
+                 CutFaces.parameters("Nitsche-hybrid") + ["Time/Final time=.12"],
                  None, .08))
         if is_debug_build():
             cases = cases[2:4]

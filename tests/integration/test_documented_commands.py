@@ -23,6 +23,7 @@ SHORTENED = {"elastic_ball": "Time/Final time=0.01",
              "sphere": "Time/Final time=1",
              "obstacle_course": "Time/Final time=0.05",
              "colliding_disks": "Time/Final time=0.05",
+             "colliding_spheres": "Time/Final time=0.012",
              "stent_artery": "Time/Final time=0.3",
              "sliding_block": "Time/Final time=0.1"}
 
