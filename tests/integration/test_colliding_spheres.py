@@ -74,6 +74,8 @@ class CollidingSpheres(ProgramTest):
                            ["Material/Law=linear elastic"],
                            ["Spheres/Slave=right"] + OBLIQUE):
             with self.subTest(" ".join(parameters)):
+                if is_debug_build():
+                    parameters = parameters + ["Time/Final time=0.06"]
                 ledger = self.run_program("colliding_spheres",
                                           COARSE + NO_FIELDS + parameters)
                 self.check("persistent contact", ledger, "linear" in parameters[0])
