@@ -15,7 +15,6 @@
 #include <Epetra_Vector.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Ricochet
 {
@@ -276,12 +275,10 @@ namespace Ricochet
     };
     if (is_first)
       set_up();
-    const double decades      = -std::log10(tolerance);
-    int          n_iterations = go();
+    int n_iterations = go();
     if (is_first)
-      first_iterations_per_decade = n_iterations / decades;
-    else if (n_iterations < 0 ||
-             n_iterations > 5 + 2. * decades * first_iterations_per_decade)
+      budget.begin(n_iterations, tolerance);
+    else if (budget.is_exceeded(n_iterations, tolerance))
       {
         // The next solution of this stage will have a better one.
         set_up();

@@ -3,6 +3,7 @@
 #define ricochet_solvers_coupled_multigrid_h
 
 #include <solvers/coarse_space.h>
+#include <solvers/iteration_budget.h>
 #include <solvers/tangent_solver.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
@@ -89,9 +90,7 @@ namespace Ricochet
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> aggregation;
     mutable Vector displacement_part, displacement_result;
     mutable std::unique_ptr<Epetra_Vector> multiplier_part, work;
-    // See MultigridSolver.
-    bool   set_up_in_stage             = false;
-    double first_iterations_per_decade = 0.;
+    IterationBudget                        budget;
   };
 } // namespace Ricochet
 

@@ -7,7 +7,6 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Ricochet
 {
@@ -148,20 +147,17 @@ namespace Ricochet
     // before the stage.
     if (stage_begins)
       set_up_in_stage = false;
-    stage_begins          = false;
-    const bool   has_name = new_name.body && new_name.contact;
-    const bool   is_first = !has_name && !set_up_in_stage;
-    const double decades  = -std::log10(tolerance);
+    stage_begins        = false;
+    const bool has_name = new_name.body && new_name.contact;
+    const bool is_first = !has_name && !set_up_in_stage;
     if (has_name ? !(set_up_name == new_name) : is_first)
       set_up();
     if (is_first)
       set_up_in_stage = true;
     int n_iterations = iterate();
     if (is_first)
-      first_iterations_per_decade = n_iterations / decades;
-    else if (!has_name &&
-             (n_iterations < 0 ||
-              n_iterations > 5 + 2. * decades * first_iterations_per_decade))
+      budget.begin(n_iterations, tolerance);
+    else if (!has_name && budget.is_exceeded(n_iterations, tolerance))
       {
         // The next solution of this stage will have a better one.
         set_up();

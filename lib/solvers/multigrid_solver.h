@@ -3,6 +3,7 @@
 #define ricochet_solvers_multigrid_solver_h
 
 #include <solvers/coarse_space.h>
+#include <solvers/iteration_budget.h>
 #include <solvers/multigrid.h>
 #include <solvers/tangent_operator.h>
 #include <solvers/tangent_solver.h>
@@ -68,9 +69,9 @@ namespace Ricochet
     Multigrid multigrid;
     Name      name, set_up_name;
     // For tangents without a name: whether there was a set-up for them in this
-    // stage, and the iterations for a decade of the residual that it needed.
-    bool   set_up_in_stage             = false;
-    double first_iterations_per_decade = 0.;
+    // stage, and the iterations that it needed.
+    bool            set_up_in_stage = false;
+    IterationBudget budget;
   };
 } // namespace Ricochet
 

@@ -237,12 +237,13 @@ CollidingSpheres::validate() const
       "Spheres/Mesh size where they touch = " + to_text(fine_mesh_size) +
       " m is larger than that of a whole sphere.");
   double n_unknowns = 0.;
-  for (const double h : mesh_size)
+  for (const unsigned int sphere : {0, 1})
     {
-      n_unknowns += 4. / 3. * numbers::PI * std::pow(radius / h, 3) * 3.6;
-      // Half a ball of a dozen fine elements around it, and as many beyond.
-      if (fine_mesh_size > 0.)
-        n_unknowns += 4. / 3. * numbers::PI * std::pow(12., 3) * 3.6;
+      double volume = std::pow(radius / mesh_size[sphere], 3);
+      // Half a ball of fine elements around it, and as many beyond.
+      if (const auto fine = fine_place(sphere))
+        volume += std::pow(fine->n_elements(), 3);
+      n_unknowns += 4. / 3. * numbers::PI * volume * 3.6;
     }
   impact.check_size(n_unknowns, 3);
 }

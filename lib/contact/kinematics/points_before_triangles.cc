@@ -4,6 +4,7 @@
 #include <contact/surfaces/closest_point.h>
 #include <contact/surfaces/facet_search.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <Sacado_Fad_SLFad.hpp>
@@ -47,18 +48,11 @@ namespace Ricochet
     gaps.resize(own_points.size());
     steps.resize(own_points.size());
 
-    Tensor<1, 3> lower, upper;
-    for (unsigned int c = 0; c < 3; ++c)
-      {
-        lower[c] = std::numeric_limits<double>::max();
-        upper[c] = -lower[c];
-        for (const auto &node : master.nodes)
-          {
-            lower[c] = std::min(lower[c], node.reference_position[c]);
-            upper[c] = std::max(upper[c], node.reference_position[c]);
-          }
-      }
-    smallest_reach = .1 * (upper - lower).norm();
+    std::vector<dealii::Point<3>> places;
+    for (const auto &node : master.nodes)
+      places.push_back(node.reference_position);
+    const auto ends = BoundingBox<3>(places).get_boundary_points();
+    smallest_reach  = .1 * ends.first.distance(ends.second);
     for (const auto &facet : master.facets)
       smallest_reach =
         std::max(smallest_reach, 2. * std::sqrt(2. * facet.measure));
