@@ -1,0 +1,491 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Run one case with several methods on all cores, and lay their numbers beside each other.
+
+The case is a parameter file that names its program (`set Program = NAME`). Methods are all
+combinations of the treatments and schemes that are given; without them that of the file. What
+the program refuses is in the table with the reason. The table is printed, and FOLDER, without -o
+output/compare/CASE, has it as index.html with figures, and as table.csv.
+
+What the columns are:
+  energy lost          (first energy + work from outside - last energy) / first energy
+  restitution          - (velocity after) / (velocity before), along the normal of contact
+  largest force        of all contacts together (their sum at a time)
+  largest penetration  of any contact
+  contact lasts        all steps at whose end there is force
+  ms per step          of wall time in the steps, while as many runs share the machine as jobs
+  error of ...         root of the mean square of the difference from the finest run with the same
+                       method, over the first energy, or over the range of the displacement
+
+With --impact-positions the initial gap is shifted so that the impact falls at N places evenly
+spread over a time step, as where it falls changes what a method does. A number is then the mean,
+and after "±" stands half the distance from the smallest to the largest. Figures show the run whose
+impact is nearest to the middle of a step, and the range of all of them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import itertools
+import os
+import pathlib
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from . import measures, prm
+from .errors import BadParameterFile, ProgramError, Refused, RicochetError
+from .programs import Outcome, Task, check_many, find_program, parameters_of, run_tasks
+from .results import Run
+
+GAP = "Start/Initial gap"
+
+# Runs of a comparison need no fields for ParaView and no line per step.
+QUIET: dict[str, object] = {"Output/Fields every": 0, "Output/Log every": 0}
+
+
+def _list(text: str) -> list[str]:
+    return [part.strip() for part in text.split(",") if part.strip()]
+
+
+def command_line(arguments: Sequence[str] | None = None) -> argparse.Namespace:
+    """The options of the command."""
+    parser = argparse.ArgumentParser(
+        prog="ricochet-compare",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("case", metavar="CASE.prm", type=pathlib.Path)
+    parser.add_argument(
+        "--treatments", metavar="A,B,...", type=_list, default=[], help="contact treatments"
+    )
+    parser.add_argument("--schemes", metavar="A,B,...", type=_list, default=[], help="time schemes")
+    parser.add_argument(
+        "--impact-positions",
+        metavar="N",
+        type=int,
+        default=1,
+        help=f"so many places of the impact within a time step, by '{GAP}'",
+    )
+    parser.add_argument(
+        "--set",
+        metavar='"Section/Name=value"',
+        action="append",
+        default=[],
+        dest="settings",
+        help="a parameter of all runs; may be repeated. One that a method has no use for is noted "
+        "in its log and not refused",
+    )
+    parser.add_argument(
+        "--finest",
+        metavar='"Section/Name=value"',
+        action="append",
+        default=[],
+        help="what makes a run the finest, say a small Time/Time step; may be repeated",
+    )
+    parser.add_argument("--jobs", metavar="N", type=int, help="runs at a time (default: cores)")
+    parser.add_argument("--programs", metavar="FOLDER", help="folder with the programs")
+    parser.add_argument("-o", "--output", metavar="FOLDER", type=pathlib.Path, help="where to")
+    options = parser.parse_args(arguments)
+    if options.impact_positions < 1:
+        parser.error("--impact-positions must be at least 1")
+    if options.jobs is not None and options.jobs < 1:
+        parser.error("--jobs must be at least 1")
+    return options
+
+
+@dataclass
+class Method:
+    """A contact treatment with a time scheme; None stands for that of the file."""
+
+    treatment: str | None
+    scheme: str | None
+    #: One for each position of the impact, and of each position (a part of a step).
+    outcomes: list[Outcome] = field(default_factory=list)
+    positions: list[float | None] = field(default_factory=list)
+    finest: Outcome | None = None
+
+    @property
+    def name(self) -> str:
+        """What it is called in tables."""
+        return ", ".join(filter(None, (self.treatment, self.scheme))) or "as in the file"
+
+    def overrides(self, contact_sections: Sequence[str]) -> dict[str, object]:
+        """The parameters that make it; the treatment is that of all contacts."""
+        result: dict[str, object] = {}
+        if self.treatment:
+            result.update({f"{name}/Treatment": self.treatment for name in contact_sections})
+        if self.scheme:
+            result["Time/Scheme"] = self.scheme
+        return result
+
+    @property
+    def runs(self) -> list[Run]:
+        """Those that ended well."""
+        return [outcome.run for outcome in self.outcomes if outcome.run]
+
+    @property
+    def problem(self) -> str:
+        """Why some run of it did not end well, in one sentence; empty if all did."""
+        errors = [outcome.error for outcome in self.outcomes if outcome.error]
+        if not errors:
+            return ""
+        count = (
+            ""
+            if len(errors) == len(self.outcomes)
+            else (f"{len(errors)} of {len(self.outcomes)} runs: ")
+        )
+        return count + errors[0].sentence
+
+    @property
+    def shown(self) -> Run | None:
+        """The run for the figures: that whose impact is nearest to the middle of a step."""
+        good = [
+            (abs((position if position is not None else 0.5) - 0.5), number)
+            for number, (position, outcome) in enumerate(zip(self.positions, self.outcomes))
+            if outcome.run
+        ]
+        return self.outcomes[min(good)[1]].run if good else None
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A column of the table: the values of a method's runs."""
+
+    name: str
+    unit: str
+    values: dict[str, list[float]]
+
+    @property
+    def title(self) -> str:
+        """The name with the unit."""
+        return f"{self.name} ({self.unit})" if self.unit not in ("", "1") else self.name
+
+
+@dataclass
+class Comparison:
+    """All that was run, and what it was."""
+
+    case: pathlib.Path
+    program: pathlib.Path
+    folder: pathlib.Path
+    methods: list[Method]
+    settings: dict[str, str]
+    finest: dict[str, str]
+    jobs: int
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Of the columns of the tables, from the first run that there is."""
+        for method in self.methods:
+            for run in method.runs:
+                return run.units
+        return {}
+
+
+# Running ------------------------------------------------------------------------------
+
+
+def _settings(texts: Sequence[str]) -> dict[str, str]:
+    """Parameters of the command line. Names of files count from the working folder."""
+    values = dict(map(prm.parse_assignment, texts))
+    for name, value in values.items():
+        if ("/" in value or "." in value) and pathlib.Path(value).is_file():
+            values[name] = str(pathlib.Path(value).resolve())
+    return values
+
+
+@dataclass(frozen=True)
+class Impact:
+    """When and how fast a body hits, as a run at the gap of the file tells."""
+
+    gap: float
+    speed: float
+    time_step: float
+    #: Where in its step the impact falls, 0 to 1.
+    position: float
+
+    def gap_for(self, position: float) -> float:
+        """The initial gap for an impact there, the nearest one that is positive."""
+        length = self.speed * self.time_step
+        gap = self.gap + (position - self.position) * length
+        while gap <= 0:
+            gap += length
+        return gap
+
+
+def find_impact(run: Run, gap: float) -> Impact:
+    """The impact of a run whose initial gap this is.
+
+    Raises:
+        RicochetError: it does not fly towards anything.
+    """
+    approach = measures.first_approach(run.table)
+    if approach is None:
+        raise RicochetError(
+            f"No impact can be shifted: by '{GAP}' the body must fly for two steps at least "
+            "before it touches, and then touch."
+        )
+    time = run.table["time"]
+    step = float(time[1] - time[0])
+    return Impact(gap, approach.speed, step, (approach.time - float(time[0])) / step % 1.0)
+
+
+def positions(number: int) -> list[float]:
+    """Places within a step: the middles of so many parts of it."""
+    return [round((k + 0.5) / number, 6) for k in range(number)]
+
+
+def compare(options: argparse.Namespace) -> Comparison:
+    """Make all runs of a comparison.
+
+    Raises:
+        RicochetError: the case cannot be read or run at all.
+    """
+    text = prm.read(options.case)
+    if "Program" not in text.values:
+        raise BadParameterFile(
+            f"The parameter file '{options.case}' does not name its program: it needs a line "
+            "'set Program = NAME'."
+        )
+    program = find_program(text.values["Program"], options.programs)
+    folder = options.output or pathlib.Path("output") / "compare" / options.case.stem
+    folder.mkdir(parents=True, exist_ok=True)
+    settings, finest = _settings(options.settings), _settings(options.finest)
+    # In a file, what a method has no use for is noted; on the command line it is refused.
+    case = folder / "compared.prm"
+    if case.resolve() == options.case.resolve():
+        raise RicochetError(f"'{case}' would be overwritten: name another folder by -o.")
+    case.write_text(prm.write(settings, include=options.case.resolve()), encoding="utf-8")
+    sections = prm.contact_sections(prm.read(case))
+
+    methods = [
+        Method(treatment, scheme)
+        for treatment, scheme in itertools.product(
+            dict.fromkeys(options.treatments or [None]), dict.fromkeys(options.schemes or [None])
+        )
+    ]
+    jobs = options.jobs or os.cpu_count() or 1
+
+    def progress(outcome: Outcome, done: int, of: int) -> None:
+        word = ""
+        if outcome.error:
+            word = ": refused" if isinstance(outcome.error, Refused) else ": failed"
+        print(
+            f"  [{done:3}/{of}] {outcome.name}{word}  {outcome.wall_seconds:.1f} s",
+            file=sys.stderr,
+            flush=True,
+        )
+
+    def task(method: Method, name: str, more: dict[str, object]) -> Task:
+        number = methods.index(method) + 1
+        return Task(
+            f"{method.name}{', ' if name else ''}{name}",
+            program,
+            case,
+            {**QUIET, **method.overrides(sections), **more},
+            folder / "runs" / f"{number:02}{'-' if name else ''}{name.replace(' ', '_')}",
+        )
+
+    gaps: list[tuple[float | None, dict[str, object]]] = [(None, {})]
+    if options.impact_positions > 1:
+        impact = _first_impact(program, case, methods, task)
+        gaps = [
+            (position, {GAP: impact.gap_for(position)})
+            for position in positions(options.impact_positions)
+        ]
+    # What is refused is refused at each position: it is asked once.
+    if len(gaps) > 1 or finest:
+        refusals = check_many([task(method, "", gaps[0][1]) for method in methods], jobs)
+    else:
+        refusals = [None] * len(methods)
+    tasks, owners, good = [], [], []
+    for method, refusal in zip(methods, refusals):
+        if refusal:
+            method.outcomes.append(Outcome(method.name, {}, None, refusal, 0.0))
+            method.positions.append(None)
+            print(f"  {method.name}: refused", file=sys.stderr)
+            continue
+        good.append(method)
+        for position, more in gaps:
+            name = "" if position is None else f"impact at {position:g}"
+            tasks.append(task(method, name, more))
+            owners.append(method)
+            method.positions.append(position)
+    if finest:
+        # With the gap of the run that is shown: that nearest to the middle.
+        middle = min(gaps, key=lambda each: abs((each[0] or 0.5) - 0.5))[1]
+        fine = [task(method, "finest", {**middle, **finest}) for method in good]
+    else:
+        fine = []
+    # The finest take longest and start first.
+    outcomes = run_tasks([*fine, *tasks], jobs, progress)
+    for method, outcome in zip(good, outcomes[: len(fine)]):
+        method.finest = outcome
+    for method, outcome in zip(owners, outcomes[len(fine) :]):
+        method.outcomes.append(outcome)
+    return Comparison(options.case, program, folder, methods, settings, finest, jobs)
+
+
+def _first_impact(
+    program: pathlib.Path,
+    case: pathlib.Path,
+    methods: Sequence[Method],
+    task: Callable[[Method, str, dict[str, object]], Task],
+) -> Impact:
+    """The impact of the first method that runs.
+
+    Raises:
+        RicochetError: the program has no initial gap, or no method runs.
+    """
+    known = parameters_of(program, case)
+    if GAP not in known:
+        raise RicochetError(
+            f"--impact-positions needs a program with the parameter '{GAP}', which "
+            f"{program.name} has not."
+        )
+    problem: ProgramError | None = None
+    for method in methods:
+        outcome = run_tasks([task(method, "as in the file", {})], 1)[0]
+        if outcome.run:
+            return find_impact(outcome.run, float(known[GAP]))
+        problem = outcome.error
+    raise RicochetError(f"No method runs: {problem.sentence if problem else 'none is given.'}")
+
+
+# Numbers ------------------------------------------------------------------------------
+
+
+def quantities(comparison: Comparison) -> list[Quantity]:
+    """The columns of the table, with the values of all runs of each method."""
+    units = comparison.units
+
+    def unit(begin: str) -> str:
+        return next((text for name, text in units.items() if name.startswith(begin)), "")
+
+    def each(function: Callable[[Run], float | None]) -> dict[str, list[float]]:
+        result = {}
+        for method in comparison.methods:
+            values = [function(run) for run in method.runs]
+            result[method.name] = [float(v) for v in values if v is not None and np.isfinite(v)]
+        return result
+
+    def ms(run: Run) -> float | None:
+        seconds = run.seconds_in_steps or run.wall_seconds
+        return 1e3 * seconds / max(len(run.table) - 1, 1) if seconds is not None else None
+
+    def force(run: Run) -> float:
+        return float(np.nanmax(measures.contact_force(run.table), initial=0.0))
+
+    def penetration(run: Run) -> float:
+        return run.summary().largest_penetration
+
+    result = [
+        Quantity("energy lost", "%", each(lambda run: 100 * measures.energy_lost(run.table))),
+        Quantity("restitution", "", each(lambda run: measures.restitution(run.table, run.log))),
+        Quantity("largest force", unit("contact_force_"), each(force)),
+        Quantity("largest penetration", unit("penetration_"), each(penetration)),
+        Quantity("contact lasts", unit("time"), each(lambda run: measures.duration(run.table))),
+        Quantity("Newton iterations", "", each(lambda run: run.summary().newton_iterations)),
+        Quantity("ms per step", "", each(ms)),
+    ]
+    if comparison.finest:
+        for name, function in (
+            ("error of energy", measures.error_of_energy),
+            ("error of displacement", measures.error_of_displacement),
+        ):
+            values: dict[str, list[float]] = {}
+            for method in comparison.methods:
+                shown = method.shown
+                fine = method.finest.run if method.finest else None
+                error = function(shown.table, fine.table) if shown and fine else float("nan")
+                values[method.name] = [100 * error] if np.isfinite(error) else []
+            result.append(Quantity(name, "%", values))
+    # What no method has is no column.
+    return [q for q in result if any(q.values.values())]
+
+
+def cell(values: Sequence[float]) -> str:
+    """The mean of some values, and half their range if there are several."""
+    if not values:
+        return "-"
+    mean, half = float(np.mean(values)), 0.5 * (max(values) - min(values))
+    text = number(mean)
+    return f"{text} ± {half:.2g}" if len(values) > 1 else text
+
+
+def number(value: float) -> str:
+    """Four digits; a whole number in full."""
+    if value == round(value) and abs(value) < 1e6:
+        return f"{value:.0f}"
+    # Round-off has no digits.
+    return f"{value:.1e}" if abs(value) < 1e-9 else f"{value:.4g}"
+
+
+def rows(comparison: Comparison) -> tuple[list[str], list[list[str]]]:
+    """The header of the table and its rows; a method without runs has a sentence only."""
+    columns = quantities(comparison)
+    header = ["method", *(q.title for q in columns)]
+    result = []
+    for method in comparison.methods:
+        if method.runs:
+            result.append([method.name, *(cell(q.values[method.name]) for q in columns)])
+        else:
+            result.append([method.name, method.problem])
+    return header, result
+
+
+def print_table(comparison: Comparison) -> None:
+    """The table on the console."""
+    header, lines = rows(comparison)
+    whole = [header, *(line for line in lines if len(line) == len(header))]
+    widths = [max(len(line[i]) for line in whole) for i in range(len(header))]
+    widths[0] = max(len(line[0]) for line in [header, *lines])
+    for line in [header, *lines]:
+        print(" | ".join(text.ljust(width) for text, width in zip(line, widths)).rstrip())
+        if line is header:
+            print("-+-".join("-" * width for width in widths))
+    for method in comparison.methods:
+        if method.runs and method.problem:
+            print(f"{method.name}: {method.problem}")
+        if method.runs and method.finest and method.finest.error:
+            print(f"{method.name}, the finest run: {method.finest.error.sentence}")
+
+
+def write_csv(comparison: Comparison, path: pathlib.Path) -> None:
+    """The table with all digits: mean, smallest and largest of each number."""
+    columns = quantities(comparison)
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(
+            ["method", "runs", "problem"]
+            + [f"{what} {q.title}" for q in columns for what in ("mean", "smallest", "largest")]
+        )
+        for method in comparison.methods:
+            line: list[object] = [method.name, len(method.runs), method.problem]
+            for q in columns:
+                values = q.values[method.name]
+                line += [np.mean(values), min(values), max(values)] if values else ["", "", ""]
+            writer.writerow(line)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """The command; returns its exit code: 0; 1 if no method runs; 2 with one sentence if the
+    case cannot be run at all."""
+    options = command_line(arguments)
+    try:
+        comparison = compare(options)
+        print_table(comparison)
+        write_csv(comparison, comparison.folder / "table.csv")
+        from . import compare_page
+
+        page = compare_page.write(comparison)
+        print(f"\nsee {page}")
+    except (RicochetError, OSError) as error:
+        print(f"ricochet-compare: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    return 0 if any(method.runs for method in comparison.methods) else 1

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What bodies can be coloured by: numbers at the points of a VTK grid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .errors import RicochetError
+from .tables import Array
+
+
+@dataclass(frozen=True)
+class Colour:
+    """Something that is shown by colours."""
+
+    #: For the colour bar.
+    label: str
+    #: The field of the VTU file.
+    field: str
+    #: What its unit is made of: pressure, length or velocity.
+    kind: str
+
+
+COLOURS = {
+    "von_mises": Colour("von Mises stress", "von_mises", "pressure"),
+    "contact_pressure": Colour("contact pressure", "contact_pressure", "pressure"),
+    "displacement": Colour("displacement", "displacement", "length"),
+    "velocity": Colour("velocity", "velocity", "velocity"),
+    "stress": Colour("largest compressive stress", "stress", "pressure"),
+}
+
+
+def unit(units: dict[str, str], kind: str) -> str:
+    """The unit of a kind of fields, from those of the columns of energy.csv.
+
+    VTU files have no units. Empty if the columns do not tell.
+    """
+
+    def first(*begins: str) -> str:
+        for begin in begins:
+            for name, text in units.items():
+                if name.startswith(begin):
+                    return text
+        return ""
+
+    length, time = first("smallest_gap_", "penetration_", "displacement_"), first("time")
+    if kind == "length":
+        return length
+    if kind == "velocity":
+        return f"{length}/{time}" if length and time else ""
+    return first("contact_pressure_", "stress_pressure_")
+
+
+def array(grid: Any, name: str) -> Array:
+    """A field at the points, (n, components).
+
+    Raises:
+        RicochetError: there is no such field.
+    """
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    data = grid.GetPointData()
+    values = data.GetArray(name)
+    if values is None:
+        names = ", ".join(data.GetArrayName(i) for i in range(data.GetNumberOfArrays()))
+        raise RicochetError(f"The fields have no '{name}'; there are {names}.")
+    result = np.asarray(vtk_to_numpy(values), dtype=float)
+    return result.reshape(len(result), -1)
+
+
+def dimension(grid: Any) -> int:
+    """1 for lines, 2 for a plane body, 3 for one in space."""
+    return int(grid.GetCell(0).GetCellDimension())
+
+
+def displacements(grid: Any) -> Array:
+    """Displacements of the points, (n, 3)."""
+    values = array(grid, "displacement")
+    return np.pad(values, ((0, 0), (0, 3 - values.shape[1])))
+
+
+def values(grid: Any, colour: str) -> Array:
+    """One number for each point.
+
+    Of displacement and velocity the length (on a bar the value itself); of the stress the
+    largest compression in any direction, positive.
+    """
+    data = array(grid, COLOURS[colour].field)
+    dim = dimension(grid)
+    if colour == "stress":
+        if data.shape[1] == 1:
+            return -data[:, 0]
+        size = int(np.sqrt(data.shape[1]))
+        tensors = data.reshape(-1, size, size)[:, :dim, :dim]
+        return -np.linalg.eigvalsh(0.5 * (tensors + tensors.transpose(0, 2, 1)))[:, 0]
+    if data.shape[1] > 1 and dim > 1:
+        return np.asarray(np.linalg.norm(data, axis=1))
+    return data[:, 0]
+
+
+def array_of_points(grid: Any) -> Array:
+    """Where the points are at the start, (n, 3)."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    return np.asarray(vtk_to_numpy(grid.GetPoints().GetData()), dtype=float)

@@ -1,0 +1,417 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures and animations of deformed bodies: VTK draws them, matplotlib puts axes around."""
+
+from __future__ import annotations
+
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from . import curves, fields, measures, render
+from .errors import RicochetError
+from .results import FieldFile, Run
+from .tables import Array
+
+import matplotlib.animation as animation
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from PIL import Image
+
+COLOUR_MAP = "viridis"
+# Meshes with more cells than this are drawn without their edges.
+MOST_EDGES = 4000
+
+
+def check_ffmpeg() -> None:
+    """Raises: RicochetError: there is no ffmpeg."""
+    if not shutil.which("ffmpeg"):
+        raise RicochetError(
+            "An animation as MP4 needs ffmpeg, which is not installed; '--animation gif' needs "
+            "nothing more."
+        )
+
+
+@dataclass(frozen=True)
+class _Scene:
+    """What the frames of a run have in common."""
+
+    run: Run
+    colour: str
+    dim: int
+    limits: tuple[float, float]
+    #: Whether some values are above the limits.
+    exceeds: bool
+    view: render.View
+    edges: bool
+    cut: float | None
+    ground: tuple[float, float, float] | None
+    on_foundation: bool
+
+    @property
+    def label(self) -> str:
+        """For the colour bar, with the unit."""
+        colour = fields.COLOURS[self.colour]
+        unit = fields.unit(self.run.units, colour.kind)
+        return colour.label + (f" ({unit})" if unit else "")
+
+    @property
+    def mappable(self) -> ScalarMappable:
+        """What the colour bar shows."""
+        return ScalarMappable(Normalize(*self.limits), COLOUR_MAP)
+
+    @property
+    def extend(self) -> str:
+        """The ends of the colour bar that are open."""
+        return "max" if self.exceeds else "neither"
+
+
+def _axes(view: Array) -> tuple[Array, Array]:
+    """Right and up of a picture for an eye in the direction `view`, with z up."""
+    view = view / np.linalg.norm(view)
+    right = np.cross((0.0, 0.0, 1.0), view)
+    right /= np.linalg.norm(right)
+    return right, np.cross(view, right)
+
+
+def _scene(run: Run, colour: str, files: Sequence[FieldFile], pixels: int) -> _Scene:
+    """View and limits of the colours that suit all of these files."""
+    lowest, highest, largest = math.inf, -math.inf, -math.inf
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    dim, cells, middle = 0, 0, 0.0
+    for file in files:
+        grid = run.fields(file.step)
+        dim, cells = fields.dimension(grid), grid.GetNumberOfCells()
+        values = fields.values(grid, colour)
+        lowest = min(lowest, float(values.min()))
+        largest = max(largest, float(values.max()))
+        # A few points at an edge of contact would take all colours for themselves.
+        part = 100.0 if colour == "contact_pressure" else 99.8
+        highest = max(highest, float(np.percentile(values, part)))
+        places = fields.array_of_points(grid) + fields.displacements(grid)
+        low, high = np.minimum(low, places.min(axis=0)), np.maximum(high, places.max(axis=0))
+        bounds = grid.GetBounds()
+        middle = 0.5 * (bounds[2] + bounds[3])
+    if colour in ("von_mises", "contact_pressure", "stress") and dim > 1:
+        lowest = max(lowest, 0.0)
+    if not highest > lowest:
+        highest = lowest + 1.0
+    on_foundation = "foundation" in run.contacts
+    size = float(np.linalg.norm(high - low))
+
+    cut, ground = None, None
+    if dim == 2:
+        right, up = np.array((1.0, 0.0, 0.0)), np.array((0.0, 1.0, 0.0))
+        if on_foundation:
+            low[1] = min(low[1], 0.0)
+        corners = np.array([low, high])
+    else:
+        from_below = colour == "contact_pressure" and on_foundation
+        if colour in ("von_mises", "stress") or (
+            colour == "contact_pressure" and not on_foundation
+        ):
+            cut = middle
+        right, up = _axes(np.array((0.6, -0.9, -0.75) if from_below else (0.35, -1.0, 0.4)))
+        half = 0.62 * max(high[0] - low[0], high[1] - low[1])
+        if on_foundation and not from_below:
+            ground = (0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), half)
+        corners = np.array(
+            [
+                [(low, high)[i][0], (low, high)[j][1], (low, high)[k][2]]
+                for i in (0, 1)
+                for j in (0, 1)
+                for k in (0, 1)
+            ]
+        )
+    if ground:
+        x, y, half = ground
+        square = [(x + i * half, y + j * half, 0.0) for i in (-1, 1) for j in (-1, 1)]
+        corners = np.concatenate((corners, np.array(square)))
+    across, along = corners @ right, corners @ up
+    margin = 0.04 * max(np.ptp(across), np.ptp(along))
+    width, height = np.ptp(across) + 2 * margin, np.ptp(along) + 2 * margin
+    # A thin body is shown with something around it.
+    height, width = max(height, 0.15 * width), max(width, 0.15 * height)
+    depth = 0.5 * (low + high) @ np.cross(right, up)
+    centre = (
+        0.5 * (across.min() + across.max()) * right
+        + 0.5 * (along.min() + along.max()) * up
+        + depth * np.cross(right, up)
+    )
+    scale = pixels / max(width, height)
+    view = render.View(
+        tuple(map(float, centre)),  # type: ignore[arg-type]
+        tuple(map(float, right)),  # type: ignore[arg-type]
+        tuple(map(float, up)),  # type: ignore[arg-type]
+        float(width),
+        float(height),
+        size,
+        (max(16, round(width * scale)), max(16, round(height * scale))),
+    )
+    return _Scene(
+        run,
+        colour,
+        dim,
+        (lowest, highest),
+        largest > highest * (1 + 1e-9),
+        view,
+        cells <= MOST_EDGES,
+        cut,
+        ground,
+        on_foundation,
+    )
+
+
+def _render(scene: _Scene, files: Sequence[FieldFile], folder: pathlib.Path) -> list[Array]:
+    """The pictures of some files, as arrays of red, green and blue."""
+    images = [folder / f"{number:06}.png" for number in range(len(files))]
+    palette = [tuple(map(float, c[:3])) for c in plt.get_cmap(COLOUR_MAP)(np.linspace(0, 1, 256))]
+    job = render.Job(
+        [(str(file.path.resolve()), str(image)) for file, image in zip(files, images)],
+        scene.colour,
+        scene.limits,
+        palette,  # type: ignore[arg-type]
+        scene.view,
+        scene.edges,
+        scene.cut,
+        scene.ground,
+    )
+    (folder / "job.json").write_text(job.to_json(), encoding="utf-8")
+    command = [sys.executable, "-m", "ricochet.render", str(folder / "job.json")]
+    # VTK of Debian draws on an X server; there is a virtual one.
+    if not os.environ.get("DISPLAY"):
+        if not shutil.which("xvfb-run"):
+            raise RicochetError(
+                "VTK needs a screen to draw on: install the packages xvfb and xauth, which have a "
+                "virtual one."
+            )
+        command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1920x24", *command]
+    package = str(pathlib.Path(__file__).resolve().parents[1])
+    path = os.pathsep.join(filter(None, (package, os.environ.get("PYTHONPATH"))))
+    result = subprocess.run(
+        command,
+        env={**os.environ, "PYTHONPATH": path},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        check=False,
+    )
+    if result.returncode != 0 or not all(image.is_file() for image in images):
+        last = (result.stdout.strip().splitlines() or ["it said nothing"])[-1]
+        raise RicochetError(f"VTK cannot draw the fields: {last}.")
+    return [plt.imread(image) for image in images]
+
+
+def _scale_bar(panel: Axes, scene: _Scene) -> None:
+    """A length to compare with, in a picture of a body in space."""
+    raw = 0.25 * scene.view.width
+    power = 10.0 ** math.floor(math.log10(raw))
+    length = max(f * power for f in (1, 2, 5) if f * power <= raw)
+    x, y = -0.47 * scene.view.width, -0.47 * scene.view.height
+    panel.plot([x, x + length], [y, y], color="black", linewidth=2, solid_capstyle="butt")
+    unit = fields.unit(scene.run.units, "length")
+    panel.text(
+        x + 0.5 * length,
+        y + 0.012 * scene.view.height,
+        f"{length:g} {unit}".strip(),
+        ha="center",
+        va="bottom",
+        fontsize=9,
+    )
+
+
+def _show(panel: Axes, scene: _Scene, image: Array) -> None:
+    """Put a picture into axes that have its lengths."""
+    view = scene.view
+    half = 0.5 * np.array((view.width, view.height))
+    middle = np.array(view.centre[:2]) if scene.dim == 2 else np.zeros(2)
+    (x0, y0), (x1, y1) = middle - half, middle + half
+    panel.imshow(image, extent=(x0, x1, y0, y1), interpolation="antialiased")
+    panel.grid(False)
+    panel.set_aspect("equal")
+    if scene.dim == 3:
+        panel.axis("off")
+        _scale_bar(panel, scene)
+        return
+    if scene.on_foundation:
+        panel.axhline(0, color="black", linewidth=1.2)
+    panel.set_xlim(x0, x1)
+    panel.set_ylim(y0, y1)
+    unit = fields.unit(scene.run.units, "length")
+    panel.set_xlabel(f"x ({unit})" if unit else "x")
+    panel.set_ylabel(f"y ({unit})" if unit else "y")
+
+
+def _time(run: Run, file: FieldFile) -> str:
+    """The time of a file, with as many digits as the times of the run need."""
+    times = run.times
+    step = np.diff(times).min() if len(times) > 1 else abs(times[0]) or 1.0
+    digits = max(0, min(12, 1 - math.floor(math.log10(step)))) if step > 0 else 6
+    return f"t = {file.time:.{digits}f} {run.units.get('time', '')}".strip()
+
+
+def instants(run: Run) -> list[FieldFile]:
+    """The files of the beginning, of the largest force of contact and of the end."""
+    files = run.field_files
+    force = np.nan_to_num(measures.contact_force(run.table))
+    middle = len(files) // 2
+    if force.max(initial=0.0) > 0:
+        time = float(run.table["time"][force.argmax()])
+        middle = int(np.abs(run.times - time).argmin())
+    return [files[k] for k in sorted({0, middle, len(files) - 1})]
+
+
+def _check_dimension(run: Run, colour: str) -> int:
+    """The dimension of a run; raises: RicochetError: it has no such field."""
+    grid = run.fields(run.field_files[0].step)
+    try:
+        fields.values(grid, colour)
+    except RicochetError as error:
+        raise RicochetError(f"{run.folder}: {error}") from None
+    return fields.dimension(grid)
+
+
+def draw_instants(
+    run: Run, colour: str, path: pathlib.Path, title: str | None = None
+) -> pathlib.Path:
+    """A picture of the body at the beginning, at the largest force of contact and at the end;
+    of a bar the field over place and time.
+
+    Raises:
+        RicochetError: there are no such fields, or VTK cannot draw.
+    """
+    if _check_dimension(run, colour) == 1:
+        return curves.save(_bar(run, colour, title), path)
+    files = instants(run)
+    scene = _scene(run, colour, files, 900)
+    with tempfile.TemporaryDirectory(prefix="ricochet-") as folder:
+        images = _render(scene, files, pathlib.Path(folder))
+    ratio = scene.view.width / scene.view.height
+    if ratio > 1.8:
+        shape, size = (len(files), 1), (8.5, (7.0 / ratio + 0.75) * len(files))
+    else:
+        shape, size = (1, len(files)), ((3.9 * ratio + 0.7) * len(files) + 1.2, 4.7)
+    figure, axes = plt.subplots(*shape, figsize=size, squeeze=False, layout="constrained")
+    for panel, file, image in zip(axes.flat, files, images):
+        _show(panel, scene, image)
+        panel.set_title(_time(run, file))
+        panel.label_outer()
+    figure.colorbar(
+        scene.mappable, ax=axes, label=scene.label, extend=scene.extend, shrink=0.85, aspect=28
+    )
+    if title:
+        figure.suptitle(title)
+    return curves.save(figure, path)
+
+
+def _bar(run: Run, colour: str, title: str | None) -> Figure:
+    """A field of a bar: where its points are, over time, with their values as colours."""
+    places, shown = [], []
+    for file in run.field_files:
+        grid = run.fields(file.step)
+        start = fields.array_of_points(grid)[:, 0]
+        order = np.argsort(start, kind="stable")
+        places.append((start + fields.displacements(grid)[:, 0])[order])
+        shown.append(fields.values(grid, colour)[order])
+    if len(places) < 2:
+        raise RicochetError(f"The run '{run.folder}' has fields of one time only.")
+    times = np.repeat(run.times[:, None], len(places[0]), axis=1)
+    figure, axes = plt.subplots(figsize=(7.5, 4.6), layout="constrained")
+    drawn = axes.pcolormesh(
+        times,
+        np.array(places),
+        np.array(shown),
+        shading="gouraud",
+        cmap=COLOUR_MAP,
+        rasterized=True,
+    )
+    unit = fields.unit(run.units, "length")
+    axes.set_xlabel(f"time ({run.units.get('time', '')})")
+    axes.set_ylabel(f"x of the deformed bar ({unit})" if unit else "x of the deformed bar")
+    axes.grid(False)
+    colour_unit = fields.unit(run.units, fields.COLOURS[colour].kind)
+    label = fields.COLOURS[colour].label
+    figure.colorbar(drawn, label=f"{label} ({colour_unit})" if colour_unit else label)
+    if title:
+        axes.set_title(title)
+    return figure
+
+
+def animate(
+    run: Run, colour: str, path: pathlib.Path, title: str | None = None, most_frames: int = 100
+) -> pathlib.Path:
+    """An animation of the deformed body, GIF or MP4 by the ending of `path`.
+
+    Raises:
+        RicochetError: there are no such fields, VTK cannot draw, or ffmpeg is missing.
+    """
+    if path.suffix == ".mp4":
+        check_ffmpeg()
+    if _check_dimension(run, colour) == 1:
+        raise RicochetError("Bars are drawn over place and time by --fields, not as animations.")
+    if most_frames < 2:
+        raise RicochetError("An animation needs at least two frames.")
+    files = run.field_files
+    if len(files) > most_frames:
+        chosen = np.linspace(0, len(files) - 1, most_frames).round().astype(int)
+        files = [files[k] for k in chosen]
+    scene = _scene(run, colour, files, 560)
+    with tempfile.TemporaryDirectory(prefix="ricochet-") as folder:
+        images = _render(scene, files, pathlib.Path(folder))
+    ratio = scene.view.width / scene.view.height
+    size = (5.6 * min(ratio, 1.0) + 1.9, 5.6 * min(1 / ratio, 1.0) + 1.0)
+    figure, panel = plt.subplots(figsize=size)
+    figure.subplots_adjust(left=0.13, right=0.9, bottom=0.12, top=0.9)
+    _show(panel, scene, images[0])
+    shown = panel.images[0]
+    figure.colorbar(scene.mappable, ax=panel, label=scene.label, extend=scene.extend, shrink=0.9)
+    # About five seconds, and a second at the end.
+    speed = max(4, min(25, round(len(files) / 5)))
+    writer: Any = (
+        animation.FFMpegWriter(fps=speed) if path.suffix == ".mp4" else _GifWriter(fps=speed)
+    )
+    with writer.saving(figure, str(path), dpi=90):
+        for file, image in [*zip(files, images), *[(files[-1], images[-1])] * speed]:
+            shown.set_data(image)
+            panel.set_title((f"{title}\n" if title else "") + _time(run, file))
+            writer.grab_frame()
+    plt.close(figure)
+    return path
+
+
+class _GifWriter(animation.PillowWriter):  # type: ignore[misc]
+    """Writes GIFs with the colours of the map in the palette, the same in all frames.
+
+    A palette of its own for each frame has mostly those of the axes, and flickers.
+    """
+
+    def finish(self) -> None:
+        colours = plt.get_cmap(COLOUR_MAP)(np.linspace(0, 1, 112))[:, :3]
+        greys = np.repeat(np.linspace(0, 1, 32)[:, None], 3, axis=1)
+        # Bodies in space are in the shade where they turn away from the light.
+        palette = np.concatenate((colours, 0.75 * colours, greys))
+        holder = Image.new("P", (1, 1))
+        holder.putpalette((255 * palette).round().astype(np.uint8).tobytes())
+        frames = [
+            frame.convert("RGB").quantize(palette=holder, dither=Image.Dither.NONE)
+            for frame in self._frames
+        ]
+        frames[0].save(
+            self.outfile,
+            save_all=True,
+            append_images=frames[1:],
+            duration=round(1000 / self.fps),
+            loop=0,
+        )

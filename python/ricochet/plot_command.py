@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Draw what runs have left: energies, contact forces and gaps over time, and the bodies.
+
+Of several runs the curves are laid into the same axes, and legends name what differs between
+the runs. Images go to FOLDER, without -o to `plots` in the folder of the first run.
+"""
+
+from __future__ import annotations
+
+import argparse
+import pathlib
+import sys
+from collections.abc import Sequence
+
+from .errors import RicochetError
+from .fields import COLOURS
+from .results import Run
+
+
+def command_line(arguments: Sequence[str] | None = None) -> argparse.Namespace:
+    """The options of the command."""
+    parser = argparse.ArgumentParser(
+        prog="ricochet-plot",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("runs", nargs="+", metavar="RUN", help="the folder of a run")
+    parser.add_argument("-o", "--output", metavar="FOLDER", type=pathlib.Path, help="where to")
+    parser.add_argument(
+        "--fields", action="store_true", help="also pictures of the deformed bodies, by VTK"
+    )
+    parser.add_argument(
+        "--animation", choices=("gif", "mp4"), help="the bodies in motion; mp4 needs ffmpeg"
+    )
+    parser.add_argument(
+        "--colour",
+        choices=tuple(COLOURS),
+        default="von_mises",
+        help="what bodies are coloured by (default: von_mises)",
+    )
+    parser.add_argument(
+        "--frames",
+        type=int,
+        default=100,
+        metavar="N",
+        help="an animation has at most so many frames (default: 100)",
+    )
+    return parser.parse_args(arguments)
+
+
+def plot(
+    runs: Sequence[Run],
+    folder: pathlib.Path,
+    fields: bool = False,
+    animation: str | None = None,
+    colour: str = "von_mises",
+    frames: int = 100,
+) -> list[pathlib.Path]:
+    """Draw runs into a folder; return the files.
+
+    Raises:
+        RicochetError: a run cannot be read, or something that draws is missing.
+    """
+    from . import curves, pictures
+
+    if animation == "mp4":
+        pictures.check_ffmpeg()
+    lines = curves.lines_of(runs)
+    folder.mkdir(parents=True, exist_ok=True)
+    files = []
+    with curves.settings():
+        for name, figure in (
+            ("energies", curves.energies(lines)),
+            ("contact_forces", curves.contact_forces(lines)),
+            ("gaps", curves.gaps(lines)),
+        ):
+            if figure is not None:
+                files.append(curves.save(figure, folder / f"{name}.png"))
+        endings = [""] if len(runs) == 1 else [f"_{n}" for n in range(1, len(runs) + 1)]
+        titles: list[str | None] = [None] if len(runs) == 1 else [*(line.label for line in lines)]
+        for run, ending, title in zip(runs, endings, titles):
+            if fields:
+                path = folder / f"fields_{colour}{ending}.png"
+                files.append(pictures.draw_instants(run, colour, path, title))
+            if animation:
+                path = folder / f"animation_{colour}{ending}.{animation}"
+                files.append(pictures.animate(run, colour, path, title, frames))
+    return files
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """The command; returns its exit code: 0, or 2 with one sentence if it cannot be done."""
+    options = command_line(arguments)
+    try:
+        runs = [Run(folder) for folder in options.runs]
+        folder = options.output or runs[0].folder / "plots"
+        for file in plot(
+            runs, folder, options.fields, options.animation, options.colour, options.frames
+        ):
+            print(file)
+    except (RicochetError, OSError) as error:
+        print(f"ricochet-plot: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    return 0

@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Parameter files: what stands in them, without knowing which parameters there are."""
+
+from __future__ import annotations
+
+import os
+import pathlib
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from .errors import BadParameterFile
+
+#: Sections that say what is written and how hard the solvers try, not what is computed.
+ASIDE = ("Output/", "Limits/", "Linear solver/", "Newton/")
+
+
+@dataclass
+class ParameterText:
+    """What a parameter file says, with those that it includes."""
+
+    #: "Section/Name" -> value as text; the last one counts. Sections nest: "A/B/Name".
+    values: dict[str, str] = field(default_factory=dict)
+    #: The sections that are opened, also if nothing is set in them: "A", "A/B".
+    sections: list[str] = field(default_factory=list)
+    #: The file and all that it includes, in the order in which they are read.
+    files: list[pathlib.Path] = field(default_factory=list)
+
+
+def _statements(text: str) -> Iterator[tuple[int, str]]:
+    """Numbers and texts of the lines, without comments, continued lines joined."""
+    lines = iter(enumerate(text.lstrip("\ufeff").splitlines(), start=1))
+    for number, line in lines:
+        line = line.split("#", 1)[0].strip()
+        while line.endswith("\\"):
+            line = line[:-1] + next(lines, (0, ""))[1].split("#", 1)[0].strip()
+        if line:
+            yield number, line
+
+
+def read(path: str | os.PathLike[str]) -> ParameterText:
+    """Read a parameter file and all that it includes.
+
+    Raises:
+        BadParameterFile: it is missing, cannot be read, or has a line without meaning.
+    """
+    result = ParameterText()
+    _read(pathlib.Path(path), "", (), result)
+    return result
+
+
+def _read(
+    path: pathlib.Path, origin: str, open_files: tuple[pathlib.Path, ...], result: ParameterText
+) -> None:
+    """Add what stands in a file; `origin` is the line that includes it."""
+    if path.resolve() in open_files:
+        raise BadParameterFile(f"{origin}the parameter file '{path}' includes itself.")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise BadParameterFile(f"{origin}the parameter file '{path}' does not exist.") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadParameterFile(
+            f"{origin}the parameter file '{path}' cannot be read: {error}."
+        ) from None
+    result.files.append(path)
+    open_files = (*open_files, path.resolve())
+
+    section: list[str] = []
+    for number, line in _statements(text):
+        here = f"{path}, line {number}: "
+        keyword, rest = (line.split(None, 1) + [""])[:2]
+        if keyword == "subsection" and rest:
+            section.append(rest)
+            if "/".join(section) not in result.sections:
+                result.sections.append("/".join(section))
+        elif line == "end" and section:
+            section.pop()
+        elif keyword == "include" and rest and not section:
+            _read(path.parent / rest, here, open_files, result)
+        elif keyword == "set" and "=" in rest:
+            name, _, value = rest.partition("=")
+            result.values["/".join([*section, name.strip()])] = value.strip()
+        else:
+            raise BadParameterFile(f"{here}cannot make sense of '{line[:120]}'.")
+    if section:
+        raise BadParameterFile(f"{path}: subsection '{'/'.join(section)}' is never closed.")
+
+
+def contact_sections(text: ParameterText) -> list[str]:
+    """The sections in which a treatment of contact is set.
+
+    A file with named contacts has `subsection Contact ball on floor` for each of them; all
+    others have one `Contact`.
+    """
+    named = [s for s in text.sections if "/" not in s and s.startswith("Contact ")]
+    return named or ["Contact"]
+
+
+def to_text(value: object) -> str:
+    """A value as a parameter file has it: numbers in full, `true` and `false`."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return repr(float(value))
+    if isinstance(value, Iterable) and not isinstance(value, (str, bytes)):
+        return ", ".join(to_text(part) for part in value)
+    return str(value)
+
+
+def parse_assignment(text: str) -> tuple[str, str]:
+    """The parts of "Section/Name=value".
+
+    Raises:
+        BadParameterFile: the text has another form.
+    """
+    name, equal, value = text.partition("=")
+    parts = [part.strip() for part in name.split("/")]
+    if not equal or not all(parts):
+        raise BadParameterFile(f"'{text}' is not of the form \"Section/Name=value\".")
+    return "/".join(parts), value.strip()
+
+
+def write(values: Mapping[str, str], include: pathlib.Path | None = None) -> str:
+    """The text of a parameter file with these values, after those of another file."""
+    lines = [f"include {include}"] if include else []
+    for name, value in values.items():
+        *sections, last = name.split("/")
+        for depth, section in enumerate(sections):
+            lines.append("  " * depth + f"subsection {section}")
+        lines.append("  " * len(sections) + f"set {last} = {value}")
+        for depth in reversed(range(len(sections))):
+            lines.append("  " * depth + "end")
+    return "\n".join(lines) + "\n"
+
+
+def differences(
+    parameters: Iterable[Mapping[str, str]], ignore: tuple[str, ...] = ASIDE
+) -> list[str]:
+    """The names of the parameters that are not the same in all of these."""
+    parameters = list(parameters)
+    names = {name: None for each in parameters for name in each}
+    return [
+        name
+        for name in names
+        if not name.startswith(ignore) and len({each.get(name) for each in parameters}) > 1
+    ]
+
+
+def labels(parameters: Iterable[Mapping[str, str]]) -> list[str]:
+    """For each of several runs a text that names what differs from the others.
+
+    "persistent contact, Time step = 0.001": of a treatment, a scheme and a program the value
+    says enough. Texts are empty where nothing differs. Parameters that one run has and
+    another has not are named only if nothing else differs, since a run of another program has
+    many of them.
+    """
+    parameters = list(parameters)
+    names = differences(parameters)
+    common = [name for name in names if all(name in each for each in parameters)]
+    if common:
+        names = common
+    # What a treatment or a scheme brings along comes after it.
+    telling = ("Program", "Treatment", "Scheme")
+    names.sort(key=lambda name: name.split("/")[-1] not in telling)
+    last_parts = [name.split("/")[-1] for name in names]
+    texts = []
+    for each in parameters:
+        parts = []
+        for name, last in zip(names, last_parts):
+            if name not in each:
+                continue
+            value = _short(each[name])
+            if last_parts.count(last) > 1:
+                # Several sections have it, say several contacts.
+                others = [n for n in names if n.split("/")[-1] == last]
+                if len({each.get(n) for n in others}) == 1:
+                    if name != others[0]:
+                        continue
+                else:
+                    parts.append(f"{name} = {value}")
+                    continue
+            parts.append(value if last in telling else f"{last} = {value}")
+        texts.append(", ".join(parts))
+    return texts
+
+
+def _short(value: str) -> str:
+    """A number as a person would write it; a file by its last name."""
+    try:
+        return f"{float(value):g}"
+    except ValueError:
+        return value.rsplit("/", 1)[-1] if value.startswith("/") else value

@@ -1,0 +1,336 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Running the programs: one of them, or several on all cores."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import itertools
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from . import prm
+from .errors import BadParameterFile, Failed, ProgramError, Refused, RicochetError
+from .results import Run
+
+#: Where the programs of a checkout are built.
+BUILD = pathlib.Path(__file__).resolve().parents[2] / "build" / "release"
+
+#: The environment of a run that shares the cores with others: it takes one.
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
+
+PathLike = str | os.PathLike[str]
+Overrides = Mapping[str, object]
+
+
+def find_program(program: PathLike, programs: PathLike | None = None) -> pathlib.Path:
+    """The file of a program: a path as it is, a name from a folder.
+
+    The folder is `programs`, or else that which the environment variable RICOCHET_PROGRAMS
+    names, or build/release of the checkout, or one in the PATH.
+
+    Raises:
+        RicochetError: there is no such program.
+    """
+    if os.sep in str(program):
+        path = pathlib.Path(program)
+        if not path.is_file():
+            raise RicochetError(f"There is no program '{path}'.")
+        return path.resolve()
+    named = programs or os.environ.get("RICOCHET_PROGRAMS")
+    path = pathlib.Path(named or BUILD) / program
+    if path.is_file():
+        return path.resolve()
+    in_path = None if named else shutil.which(str(program))
+    if in_path:
+        return pathlib.Path(in_path)
+    raise RicochetError(
+        f"There is no program '{path}'. Build the project, or name the folder with the programs."
+    )
+
+
+def _settings(overrides: Overrides | None) -> list[str]:
+    """The overrides as options of the command line."""
+    words = []
+    for name, value in (overrides or {}).items():
+        words += ["--set", f"{name}={prm.to_text(value)}"]
+    return words
+
+
+def execute(command: Sequence[str], cwd: PathLike | None = None) -> tuple[int, str]:
+    """Run a command with one thread. Returns its exit code and what it said, also as errors.
+
+    Raises:
+        RicochetError: it cannot be started.
+    """
+    try:
+        result = subprocess.run(
+            command,
+            cwd=cwd,
+            env={**os.environ, **ONE_THREAD},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            check=False,
+        )
+    except OSError as error:
+        raise RicochetError(f"'{command[0]}' cannot be run: {error.strerror}.") from None
+    return result.returncode, result.stdout
+
+
+def _check(name: str, exit_code: int, text: str) -> None:
+    """Raises: Refused or Failed, if the exit code says so."""
+    # mpirun has this exit code too, for reasons of its own.
+    if exit_code == 1 and "the input is not valid." in text:
+        raise Refused(name, exit_code, text)
+    if exit_code != 0:
+        raise Failed(name, exit_code, text)
+
+
+def default_output(
+    program: str, parameter_file: PathLike | None, overrides: Overrides | None = None
+) -> pathlib.Path:
+    """The folder that a program writes to if it is not told: `Output/Folder`, or
+    output/PROGRAM/FILE."""
+    folder = str((overrides or {}).get("Output/Folder", ""))
+    if not folder and parameter_file:
+        folder = prm.read(parameter_file).values.get("Output/Folder", "")
+    stem = pathlib.Path(parameter_file).stem if parameter_file else "without_file"
+    return pathlib.Path(folder) if folder else pathlib.Path("output") / program / stem
+
+
+def run(
+    program_or_path: PathLike,
+    parameter_file: PathLike | None = None,
+    overrides: Overrides | None = None,
+    output: PathLike | None = None,
+    ranks: int = 1,
+    programs: PathLike | None = None,
+    *,
+    overwrite: bool = False,
+    mpiexec: str = "mpirun",
+) -> Run:
+    """Run a program to its end; the result knows how long that took (`wall_seconds`).
+
+        ricochet.run("bar_sd", overrides={"Time/Scheme": "TR-BDF2", "Time/Time step": 0.01})
+
+    Args:
+        program_or_path: its name, see `find_program`, or the path of it.
+        parameter_file: none for the program's defaults.
+        overrides: "Section/Name" -> value.
+        output: the folder to write to; without it that which the program takes itself,
+            output/PROGRAM/FILE.
+        ranks: how many MPI ranks.
+        programs: the folder with the programs.
+        overwrite: take the place of the run of another parameter file in that folder.
+        mpiexec: what starts several ranks.
+
+    Raises:
+        Refused: the program refused its input.
+        Failed: the computation failed.
+        RicochetError: the program is missing or cannot be started.
+    """
+    program = find_program(program_or_path, programs)
+    folder = (
+        pathlib.Path(output)
+        if output is not None
+        else default_output(program.name, parameter_file, overrides)
+    )
+    command = [mpiexec, "-n", str(ranks)] if ranks > 1 else []
+    command.append(str(program))
+    if parameter_file is not None:
+        command.append(str(parameter_file))
+    command += [*_settings(overrides), "--output-dir", str(folder), "--quiet"]
+    if overwrite:
+        command.append("--overwrite")
+    begin = time.monotonic()
+    exit_code, text = execute(command)
+    seconds = time.monotonic() - begin
+    _check(program.name, exit_code, text)
+    result = Run(folder)
+    result.wall_seconds = seconds
+    return result
+
+
+def parameters_of(
+    program_or_path: PathLike,
+    parameter_file: PathLike | None = None,
+    overrides: Overrides | None = None,
+    programs: PathLike | None = None,
+) -> dict[str, str]:
+    """All parameters that a run would have, without running it: "Section/Name" -> value.
+
+    Raises:
+        Refused: there is a parameter or a value that the program does not know.
+        RicochetError: the program is missing or cannot be started.
+    """
+    program = find_program(program_or_path, programs)
+    command = [str(program), *([str(parameter_file)] if parameter_file else [])]
+    exit_code, text = execute([*command, *_settings(overrides), "--print-parameters"])
+    _check(program.name, exit_code, text)
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "parameters.prm"
+        file.write_text(text, encoding="utf-8")
+        return prm.read(file).values
+
+
+@dataclass(frozen=True)
+class Task:
+    """A run to be made; the arguments are those of `run`."""
+
+    name: str
+    program: pathlib.Path
+    parameter_file: pathlib.Path | None
+    overrides: dict[str, object]
+    output: pathlib.Path
+    ranks: int = 1
+
+
+def check_many(tasks: Sequence[Task], jobs: int | None = None) -> list[ProgramError | None]:
+    """Let the programs check the parameters of some runs, without running them.
+
+    For each task the reason why it is refused, or None.
+    """
+
+    def work(task: Task) -> ProgramError | None:
+        command = [str(task.program), *([str(task.parameter_file)] if task.parameter_file else [])]
+        try:
+            code_and_text = execute([*command, *_settings(task.overrides), "--validate"])
+            _check(task.program.name, *code_and_text)
+        except ProgramError as error:
+            return error
+        return None
+
+    with concurrent.futures.ThreadPoolExecutor(max_workers=jobs or os.cpu_count() or 1) as pool:
+        return list(pool.map(work, tasks))
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of one run of several."""
+
+    name: str
+    overrides: dict[str, object]
+    #: None if it was refused or failed.
+    run: Run | None
+    #: Why, if it was.
+    error: ProgramError | None
+    #: How long it took (s).
+    wall_seconds: float
+
+
+def run_tasks(
+    tasks: Sequence[Task],
+    jobs: int | None = None,
+    progress: Callable[[Outcome, int, int], None] | None = None,
+) -> list[Outcome]:
+    """Make runs, `jobs` at a time (all cores without it), each with one thread per process.
+
+    A run that is refused or fails does not stop the others. `progress` is called after each
+    with what came of it, and how many are done of how many. Outcomes are in the order of tasks.
+    """
+
+    def work(task: Task) -> Outcome:
+        begin = time.monotonic()
+        result, problem = None, None
+        try:
+            result = run(
+                task.program,
+                task.parameter_file,
+                task.overrides,
+                task.output,
+                task.ranks,
+                overwrite=True,
+            )
+        except ProgramError as error:
+            problem = error
+        seconds = time.monotonic() - begin
+        return Outcome(task.name, task.overrides, result, problem, seconds)
+
+    workers = jobs or os.cpu_count() or 1
+    with concurrent.futures.ThreadPoolExecutor(max_workers=workers) as pool:
+        futures = [pool.submit(work, task) for task in tasks]
+        try:
+            for done, future in enumerate(concurrent.futures.as_completed(futures), start=1):
+                outcome = future.result()
+                if progress:
+                    progress(outcome, done, len(tasks))
+        except BaseException:
+            # Those that have started end by themselves; no other one starts.
+            for future in futures:
+                future.cancel()
+            raise
+    return [future.result() for future in futures]
+
+
+def sweep(
+    program_or_path: PathLike,
+    parameter_file: PathLike | None = None,
+    overrides: Mapping[str, Sequence[object]] | Iterable[Overrides] = (),
+    output: PathLike | None = None,
+    jobs: int | None = None,
+    programs: PathLike | None = None,
+    *,
+    common: Overrides | None = None,
+    ranks: int = 1,
+    progress: Callable[[Outcome, int, int], None] | None = None,
+) -> list[Outcome]:
+    """Several runs of one program, as many at a time as there are cores.
+
+        outcomes = ricochet.sweep("bar_sd", overrides={"Time/Time step": [0.1, 0.05],
+                                                       "Contact/Treatment": ["Nitsche", "penalty"]})
+        for outcome in outcomes:
+            print(outcome.name, outcome.wall_seconds, outcome.run and outcome.run.summary())
+
+    Args:
+        overrides: lists of values, of which all combinations are run, or a list of overrides,
+            one for each run.
+        output: the folder in which each run has one of its own; without it
+            output/PROGRAM/FILE-sweep. What an earlier sweep left there is overwritten.
+        jobs: how many run at the same time; without it one for each core (less with `ranks`).
+        common: overrides of all runs.
+        progress: see `run_tasks`.
+
+    The other arguments are those of `run`. A run that is refused or fails has its `error` in
+    its outcome; the others go on.
+    """
+    program = find_program(program_or_path, programs)
+    variations: list[dict[str, Any]]
+    if isinstance(overrides, Mapping):
+        names = list(overrides)
+        variations = [dict(zip(names, values)) for values in itertools.product(*overrides.values())]
+    else:
+        variations = [dict(each) for each in overrides]
+    if not variations:
+        raise RicochetError("A sweep needs at least one set of overrides.")
+    if output is None:
+        folder = default_output(program.name, parameter_file, common)
+        folder = folder.with_name(folder.name + "-sweep")
+    else:
+        folder = pathlib.Path(output)
+    file = pathlib.Path(parameter_file) if parameter_file is not None else None
+    if file is not None and not file.is_file():
+        raise BadParameterFile(f"There is no parameter file '{file}'.")
+    digits = len(str(len(variations)))
+    tasks = [
+        Task(
+            ", ".join(f"{name}={prm.to_text(value)}" for name, value in each.items()),
+            program,
+            file,
+            {**(common or {}), **each},
+            folder / f"{number:0{digits}}",
+            ranks,
+        )
+        for number, each in enumerate(variations, start=1)
+    ]
+    if jobs is None:
+        jobs = max(1, (os.cpu_count() or 1) // ranks)
+    return run_tasks(tasks, jobs, progress)

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Draws deformed bodies by VTK, without a window: `python3 -m ricochet.render JOB.json`.
+
+It is a process of its own, since Debian's VTK draws on an X server (a virtual one will do),
+and ends the process if there is none. `pictures` writes the job and uses the images.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from . import fields
+from .results import read_vtu
+
+
+@dataclass(frozen=True)
+class View:
+    """A parallel projection: what is seen, from where, on how many pixels.
+
+    The picture is a rectangle in the plane of `right` and `up`, about `centre`; one pixel is
+    `height / pixels[1]` long.
+    """
+
+    centre: tuple[float, float, float]
+    right: tuple[float, float, float]
+    up: tuple[float, float, float]
+    width: float
+    height: float
+    #: Size of the body, to stand far enough away from it.
+    size: float
+    pixels: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Job:
+    """Pictures that share view and colours."""
+
+    #: VTU files, and the PNG files to make of them.
+    frames: list[tuple[str, str]]
+    colour: str
+    limits: tuple[float, float]
+    #: Red, green and blue (0 to 1) from the lowest to the highest value.
+    palette: list[tuple[float, float, float]]
+    view: View
+    edges: bool
+    #: What is before the plane y = cut (at the start) is left away.
+    cut: float | None
+    #: The foundation, z = 0, as a square: its middle and half its side.
+    ground: tuple[float, float, float] | None
+
+    def to_json(self) -> str:
+        """As `read_job` reads it."""
+        return json.dumps(asdict(self))
+
+
+def read_job(path: str) -> Job:
+    """A job from its file."""
+    with open(path, encoding="utf-8") as file:
+        job: dict[str, Any] = json.load(file)
+    job["view"] = View(**job["view"])
+    return Job(**job)
+
+
+def _ground(middle_x: float, middle_y: float, half: float) -> Any:
+    import vtk
+
+    plane = vtk.vtkPlaneSource()
+    plane.SetOrigin(middle_x - half, middle_y - half, 0)
+    plane.SetPoint1(middle_x + half, middle_y - half, 0)
+    plane.SetPoint2(middle_x - half, middle_y + half, 0)
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputConnection(plane.GetOutputPort())
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(0.88, 0.88, 0.88)
+    actor.GetProperty().LightingOff()
+    return actor
+
+
+def render(job: Job) -> None:
+    """Draw all frames of a job."""
+    import vtk
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+
+    table = vtk.vtkLookupTable()
+    table.SetNumberOfTableValues(len(job.palette))
+    for number, colour in enumerate(job.palette):
+        table.SetTableValue(number, *colour, 1.0)
+    table.SetTableRange(*job.limits)
+
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetScalarModeToUsePointFieldData()
+    mapper.SelectColorArray("shown")
+    mapper.SetLookupTable(table)
+    mapper.UseLookupTableScalarRangeOn()
+    # Between nodes values are interpolated, not colours.
+    mapper.InterpolateScalarsBeforeMappingOn()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    renderer = vtk.vtkRenderer()
+    renderer.SetBackground(1, 1, 1)
+    renderer.AddActor(actor)
+    if job.ground:
+        renderer.AddActor(_ground(*job.ground))
+    if job.edges:
+        look.EdgeVisibilityOn()
+        look.SetEdgeColor(0.35, 0.35, 0.35)
+        look.SetLineWidth(0.6)
+
+    view = job.view
+    towards = np.cross(view.right, view.up)  # from the body to the eye
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetFocalPoint(*view.centre)
+    camera.SetPosition(*(np.array(view.centre) + 4 * view.size * towards))
+    camera.SetViewUp(*view.up)
+    camera.SetParallelScale(0.5 * view.height)
+
+    window = vtk.vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(4)
+    window.SetSize(*view.pixels)
+    window.AddRenderer(renderer)
+    for source, image in job.frames:
+        grid = read_vtu(source)
+        if fields.dimension(grid) == 2:
+            look.LightingOff()
+        else:
+            look.SetAmbient(0.5)
+            look.SetDiffuse(0.55)
+        for name, values in (
+            ("shown", fields.values(grid, job.colour)),
+            ("moved", fields.displacements(grid)),
+        ):
+            data = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+            data.SetName(name)
+            grid.GetPointData().AddArray(data)
+        last: Any = grid
+        if job.cut is not None:
+            plane = vtk.vtkPlane()
+            plane.SetOrigin(0, job.cut, 0)
+            plane.SetNormal(0, 1, 0)
+            clip = vtk.vtkClipDataSet()
+            clip.SetInputData(last)
+            clip.SetClipFunction(plane)
+            clip.Update()
+            last = clip.GetOutput()
+        warp = vtk.vtkWarpVector()
+        warp.SetInputData(last)
+        warp.SetInputArrayToProcess(0, 0, 0, 0, "moved")
+        surface = vtk.vtkDataSetSurfaceFilter()
+        surface.SetInputConnection(warp.GetOutputPort())
+        surface.Update()
+        mapper.SetInputData(surface.GetOutput())
+
+        renderer.ResetCameraClippingRange()
+        window.Render()
+        grab = vtk.vtkWindowToImageFilter()
+        grab.SetInput(window)
+        grab.ReadFrontBufferOff()
+        grab.Update()
+        writer = vtk.vtkPNGWriter()
+        writer.SetFileName(image)
+        writer.SetInputConnection(grab.GetOutputPort())
+        writer.Write()
+
+
+if __name__ == "__main__":
+    render(read_job(sys.argv[1]))

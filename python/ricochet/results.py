@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a run has left in its folder."""
+
+from __future__ import annotations
+
+import functools
+import numbers
+import os
+import pathlib
+import re
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import measures, prm
+from .errors import BadParameterFile, NotARun, RicochetError
+from .tables import Array, Table, read_table
+
+if TYPE_CHECKING:
+    import pandas
+    from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+
+
+@dataclass(frozen=True)
+class FieldFile:
+    """A VTU file of a run."""
+
+    step: int
+    time: float
+    path: pathlib.Path
+
+
+class Run:
+    """The results of one run of a program, read when they are asked for.
+
+        run = ricochet.Run("output/elastic_ball/default")
+        run.energy.plot(x="time", y=["kinetic_energy", "elastic_energy"])
+        print(run.summary())
+        grid = run.fields(0.02)  # the VTK grid of the written time nearest to 0.02
+
+    A run that is still at work can be read too: the table then ends with its last whole row.
+    What was read once is kept; make another `Run` to see later rows.
+
+    Raises:
+        NotARun: there is no such folder, or no run in it.
+    """
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        self.folder = pathlib.Path(folder)
+        #: How long the program took (s), if `ricochet.run` has run it.
+        self.wall_seconds: float | None = None
+        if not self.folder.is_dir():
+            raise NotARun(f"There is no folder '{self.folder}'.")
+        if not any((self.folder / name).is_file() for name in ("energy.csv", "parameters.prm")):
+            raise NotARun(
+                f"The folder '{self.folder}' holds no run: neither energy.csv nor parameters.prm "
+                "is in it."
+            )
+
+    def __repr__(self) -> str:
+        return f"ricochet.Run({str(self.folder)!r})"
+
+    # The table ----------------------------------------------------------------
+
+    @functools.cached_property
+    def table(self) -> Table:
+        """The columns of energy.csv as arrays, and their units; it needs NumPy only."""
+        table = read_table(self.folder / "energy.csv")
+        if "time" not in table or "energy" not in table:
+            raise NotARun(
+                f"The file '{self.folder / 'energy.csv'}' is no table of energies: it has no "
+                "columns 'time' and 'energy'."
+            )
+        if len(table) == 0:
+            raise NotARun(f"The table '{self.folder / 'energy.csv'}' has no rows yet.")
+        return table
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of each column of energy.csv, as its header has it."""
+        return self.table.units
+
+    @functools.cached_property
+    def energy(self) -> pandas.DataFrame:
+        """energy.csv, one row per step; `energy.attrs["units"]` has the columns' units."""
+        try:
+            import pandas
+        except ImportError:
+            raise RicochetError(
+                "Run.energy needs pandas: install the package python3-pandas. Run.table has the "
+                "same columns as arrays of NumPy."
+            ) from None
+        frame = pandas.DataFrame(self.table.columns)
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+    @property
+    def contacts(self) -> list[str]:
+        """The names of the contacts, from the columns `contact_force_NAME`."""
+        return measures.contacts(self.table)
+
+    def summary(self) -> measures.Summary:
+        """The numbers that tell most about the run."""
+        return measures.summarise(self.table, self.log)
+
+    # Parameters ---------------------------------------------------------------
+
+    @functools.cached_property
+    def parameters(self) -> dict[str, str]:
+        """All parameters of the run, "Section/Name" -> value as text.
+
+        Sections may nest: "Section/Section/Name".
+        """
+        try:
+            return prm.read(self.folder / "parameters.prm").values
+        except BadParameterFile as error:
+            raise NotARun(f"The parameters of the run cannot be read: {error}") from None
+
+    @functools.cached_property
+    def program(self) -> str:
+        """The name of the program, from run.txt or else from the parameters."""
+        try:
+            text = (self.folder / "run.txt").read_text(encoding="utf-8")
+        except OSError:
+            text = ""
+        match = re.search(r"^program = (.+)$", text, re.MULTILINE)
+        name = match.group(1).strip() if match else self.parameters.get("Program", "")
+        if not name:
+            raise NotARun(f"Nothing in the folder '{self.folder}' says which program has run.")
+        return name
+
+    @functools.cached_property
+    def log(self) -> str:
+        """The text of log.txt; empty if there is none."""
+        try:
+            return (self.folder / "log.txt").read_text(encoding="utf-8", errors="replace")
+        except OSError:
+            return ""
+
+    @property
+    def seconds_in_steps(self) -> float | None:
+        """The time spent in the steps (s), without start and output, if log.txt has it."""
+        match = re.search(r"^\| steps +\| +\d+ \| +([0-9.e+-]+)s", self.log, re.MULTILINE)
+        return float(match.group(1)) if match else None
+
+    # Fields -------------------------------------------------------------------
+
+    @functools.cached_property
+    def field_files(self) -> list[FieldFile]:
+        """The VTU files that solution.pvd lists, in their order."""
+        path = self.folder / "solution.pvd"
+        try:
+            entries = ElementTree.parse(path).findall(".//DataSet")
+            files = [(float(entry.attrib["timestep"]), entry.attrib["file"]) for entry in entries]
+        except FileNotFoundError:
+            raise NotARun(
+                f"There is no '{path}': the run has written no fields (Output/Fields every)."
+            ) from None
+        except (OSError, ElementTree.ParseError, KeyError, ValueError) as error:
+            raise NotARun(f"The list of fields '{path}' cannot be read: {error}.") from None
+        result = []
+        for number, (time, name) in enumerate(files):
+            match = re.search(r"(\d+)\.vtu$", name)
+            step = int(match.group(1)) if match else number
+            result.append(FieldFile(step, time, self.folder / name))
+        if not result:
+            raise NotARun(f"The list of fields '{path}' is empty.")
+        return result
+
+    @property
+    def steps(self) -> list[int]:
+        """The steps of which there are fields."""
+        return [file.step for file in self.field_files]
+
+    @property
+    def times(self) -> Array:
+        """The times of which there are fields."""
+        return np.array([file.time for file in self.field_files])
+
+    def field_file(self, at: int | float = -1) -> FieldFile:
+        """The file of a step (an integer; -1 for the last one), or of the time nearest to `at`.
+
+        Raises:
+            NotARun: there are no fields of that step, or none at all.
+        """
+        files = self.field_files
+        if isinstance(at, numbers.Integral):
+            if at == -1:
+                return files[-1]
+            for file in files:
+                if file.step == at:
+                    return file
+            steps = ", ".join(map(str, self.steps[:5]))
+            if len(files) > 5:
+                steps += f" and so on to {files[-1].step}"
+            raise NotARun(
+                f"The run '{self.folder}' has no fields of step {at}; it has those of {steps}."
+            )
+        return files[int(np.abs(self.times - float(at)).argmin())]
+
+    def fields(self, at: int | float = -1) -> vtkUnstructuredGrid:
+        """The fields of a step (an integer), or of the written time nearest to `at` (a float).
+
+        Points are where they were at the start; `displacement` says where they are.
+        Without an argument: the last ones.
+
+        Raises:
+            NotARun: there are no fields of that step, or the file is damaged.
+        """
+        return read_vtu(self.field_file(at).path)
+
+
+def read_vtu(path: str | os.PathLike[str]) -> Any:
+    """A VTU file as an unstructured grid of VTK.
+
+    Raises:
+        NotARun: the file is missing or damaged.
+        RicochetError: VTK is missing.
+    """
+    path = pathlib.Path(path)
+    if not path.is_file():
+        raise NotARun(f"There is no file of fields '{path}'.")
+    try:
+        from vtkmodules.vtkCommonCore import vtkObject
+        from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+    except ImportError:
+        raise RicochetError("Fields need VTK: install the package python3-vtk9.") from None
+    problems: list[str] = []
+    reader = vtkXMLUnstructuredGridReader()
+    # VTK prints what is wrong and goes on; the parser is an object of its own.
+    reader.AddObserver("ErrorEvent", lambda *_: problems.append("VTK cannot read it"))
+    shown = vtkObject.GetGlobalWarningDisplay()
+    vtkObject.SetGlobalWarningDisplay(0)
+    try:
+        reader.SetFileName(str(path))
+        reader.Update()
+    finally:
+        vtkObject.SetGlobalWarningDisplay(shown)
+    grid = reader.GetOutput()
+    if problems or grid.GetNumberOfPoints() == 0:
+        raise NotARun(f"The file of fields '{path}' is damaged or is no VTU file.")
+    return grid

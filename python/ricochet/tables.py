@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Tables of the programs: CSV files whose header is `name [unit],name [unit],...`."""
+
+from __future__ import annotations
+
+import csv
+import os
+import pathlib
+import re
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import NotARun
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Table:
+    """The columns of a table by their names, and their units."""
+
+    columns: dict[str, Array]
+    units: dict[str, str]
+
+    def __getitem__(self, name: str) -> Array:
+        """A column. A value that does not exist, an empty cell, is not a number."""
+        return self.columns[name]
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.columns
+
+    def __len__(self) -> int:
+        """The number of rows."""
+        return len(next(iter(self.columns.values()), ()))
+
+
+def read_table(path: str | os.PathLike[str]) -> Table:
+    """Read a table.
+
+    A last line without an end is one that a run has not finished writing; it is left out.
+
+    Raises:
+        NotARun: the file is missing, or is no such table.
+    """
+    path = pathlib.Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise NotARun(f"There is no table '{path}'.") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise NotARun(f"The table '{path}' cannot be read: {error}.") from None
+    # What comes after the last end of a line is not complete, nor is an empty line a row.
+    lines = [line for line in text.split("\n")[:-1] if line.strip()]
+    if not lines:
+        raise NotARun(f"The table '{path}' is empty.")
+    names, units = [], {}
+    for cell in next(csv.reader(lines[:1])):
+        match = re.fullmatch(r"(.*?)(?: \[([^\]]*)\])?", cell.strip())
+        assert match is not None  # it matches any text
+        names.append(match.group(1))
+        units[match.group(1)] = match.group(2) or ""
+
+    values = np.empty((len(lines) - 1, len(names)))
+    for number, line in enumerate(lines[1:]):
+        cells = line.split(",")
+        if len(cells) != len(names):
+            raise NotARun(
+                f"The table '{path}' has {len(cells)} cells in row {number + 1}, "
+                f"and {len(names)} columns."
+            )
+        try:
+            values[number] = [float(cell) if cell.strip() else np.nan for cell in cells]
+        except ValueError:
+            raise NotARun(
+                f"The table '{path}' has something that is not a number in row {number + 1}."
+            ) from None
+    return Table(dict(zip(names, values.T)), units)

@@ -1,0 +1,291 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The Python package: numbers of a run against its files, what is refused, commands."""
+
+import re
+import xml.etree.ElementTree as ElementTree
+
+from common import *
+
+PACKAGE = ROOT / "python"
+sys.path.insert(0, str(PACKAGE))
+
+try:
+    import matplotlib
+    import numpy
+    import ricochet
+    from ricochet import measures, prm
+except ImportError:
+    numpy = None
+
+# A case of a fraction of a second, with fields.
+CASE = """set Program = elastic_ball
+subsection Mesh
+  set Nodes          = 200
+  set Boundary nodes = 40
+end
+subsection Start
+  set Initial gap = 0.0355
+end
+subsection Time
+  set Time step  = 1e-3
+  set Final time = 0.04
+end
+subsection Output
+  set Fields every = 10
+  set Log every    = 0
+end
+"""
+
+
+@unittest.skipIf(numpy is None, "NumPy or matplotlib (Debian's python3-matplotlib) is missing")
+class PythonPackage(ProgramTest):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = pathlib.Path(tempfile.mkdtemp(prefix="ricochet-"))
+        cls.addClassCleanup(shutil.rmtree, cls.shared, ignore_errors=True)
+        cls.case = cls.shared / "case.prm"
+        cls.case.write_text(CASE)
+        cls.ball = ricochet.run(program_path("elastic_ball"), cls.case,
+                                output=cls.shared / "ball")
+
+    def script(self, name, *words):
+        """Run a command from the source tree; return exit code, output and errors."""
+        result = subprocess.run(
+            [sys.executable, str(PACKAGE / "bin" / name), *map(str, words)],
+            capture_output=True, text=True, timeout=300, cwd=self.folder,
+            env={**os.environ, "RICOCHET_PROGRAMS": program_path("")})
+        return result.returncode, result.stdout, result.stderr
+
+    def assert_picture(self, path, colours=20):
+        """A picture that is not blank: with so many colours at least."""
+        from matplotlib import image
+        pixels = (255 * image.imread(path)[:, :, :3]).round().astype(int)
+        self.assertGreater(min(pixels.shape[:2]), 200)
+        self.assertGreater(len(numpy.unique(pixels.reshape(-1, 3), axis=0)), colours, msg=path)
+
+    # The table and its summary
+
+    def test_summary_and_table(self):
+        ledger = Ledger(self.ball.folder)
+        for name, unit in zip(ledger.names, ledger.units):
+            self.assertEqual(list(self.ball.table[name]), list(ledger[name]))
+            self.assertEqual(self.ball.units[name], unit)
+        summary = self.ball.summary()
+        energy, force = ledger["energy"], ledger["contact_force_foundation"]
+        self.assertEqual(self.ball.contacts, ["foundation"])
+        self.assertEqual(summary.energy_lost, (energy[0] - energy[-1]) / energy[0])
+        self.assertEqual(summary.largest_force, {"foundation": max(force)})
+        self.assertEqual(summary.largest_penetration, max(ledger["penetration_foundation"]))
+        self.assertEqual(summary.newton_iterations, sum(ledger["newton_iterations"]))
+        self.assertEqual(summary.largest_balance_residual, largest(ledger["balance_residual"]))
+        self.assertAlmostEqual(summary.contact_duration, 1e-3 * sum(f > 0 for f in force))
+        self.assertGreater(summary.contact_duration, 0.02)
+        momentum = ledger["momentum_y"]
+        self.assertAlmostEqual(summary.restitution, -momentum[-1] / momentum[0], places=12)
+        self.assertIn(" N at ", str(summary))
+        self.assertGreater(self.ball.wall_seconds, 0)
+        self.assertGreater(self.ball.seconds_in_steps, 0)
+
+    def test_data_frame(self):
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("pandas (Debian's python3-pandas) is missing")
+        frame = self.ball.energy
+        ledger = Ledger(self.ball.folder)
+        self.assertEqual(list(frame.columns), ledger.names)
+        self.assertEqual(list(frame["energy"]), list(ledger["energy"]))
+        self.assertEqual(frame.attrs["units"]["contact_force_foundation"], "N")
+
+    def test_units_of_the_user_and_unfinished_rows(self):
+        """Units are what the header says; a row without an end is left out; an empty cell is
+        not a number; a contact may have blanks in its name."""
+        run = self.folder / "run"
+        run.mkdir()
+        (run / "energy.csv").write_text(
+            "time [ms],energy [mJ],modified_energy [mJ],external_work [mJ],"
+            "contact_force_ball on floor [kN],penetration_ball on floor [mm]\n"
+            "0,4,,0,0,0\n1,3,,0.5,2,0.25\n2,3,,0.5,0,0\n3,3,,0.")
+        result = ricochet.Run(run)
+        self.assertEqual(list(result.table["time"]), [0, 1, 2])
+        self.assertTrue(numpy.isnan(result.table["modified_energy"]).all())
+        self.assertEqual(result.contacts, ["ball on floor"])
+        summary = result.summary()
+        self.assertEqual(summary.energy_lost, (4 + .5 - 3) / 4)
+        self.assertEqual(summary.contact_duration, 1)
+        self.assertIn("2 kN at 1 ms (ball on floor)", str(summary))
+
+    def test_restitution_of_two_disks(self):
+        """From the momenta alone it is what the program prints."""
+        disks = ricochet.run(program_path("colliding_disks"), overrides={
+            "Disks/Rings of the left disk": 5, "Disks/Rings of the right disk": 4,
+            "Time/Final time": 0.3, "Output/Fields every": 0, "Output/Log every": 0},
+            output=self.folder / "disks")
+        printed = float(re.search(r"^restitution +(\S+)$", disks.log, re.M).group(1))
+        self.assertEqual(disks.summary().restitution, printed)
+        ours = measures.restitution(disks.table)
+        self.assertIsNotNone(ours)
+        # The normal is another one: the direction of the impulse, on a coarse mesh.
+        self.assertAlmostEqual(ours, printed, delta=0.005)
+
+    # Fields and parameters
+
+    def test_fields(self):
+        entries = ElementTree.parse(self.ball.folder / "solution.pvd").findall(".//DataSet")
+        self.assertEqual(list(self.ball.times), [float(e.get("timestep")) for e in entries])
+        self.assertEqual(self.ball.steps, [0, 10, 20, 30, 40])
+        with self.assertRaisesRegex(ricochet.NotARun, "no fields of step 3; it has those of 0, 10"):
+            self.ball.field_file(3)
+        self.assertEqual(self.ball.field_file(0.019).step, 20)
+        try:
+            import vtkmodules.vtkIOXML
+        except ImportError:
+            self.skipTest("VTK (Debian's python3-vtk9) is missing")
+        from ricochet import fields
+        grid = self.ball.fields(20)
+        # Over the nodes once: those of neighbouring cells are in the same place.
+        places = fields.array_of_points(grid)
+        _, first = numpy.unique(places.round(6), axis=0, return_index=True)
+        force = fields.array(grid, "contact_force")[first].sum(axis=0)
+        self.assertAlmostEqual(
+            force[1] / self.ball.table["contact_force_foundation"][20], 1, places=5)
+        lowest = (places + fields.displacements(grid))[:, 1].min()
+        self.assertAlmostEqual(
+            lowest, self.ball.table["smallest_gap_foundation"][20], places=5)
+        damaged = self.folder / "damaged.vtu"
+        damaged.write_bytes(self.ball.field_file(20).path.read_bytes()[:2000])
+        with self.assertRaisesRegex(ricochet.NotARun, "damaged"):
+            ricochet.results.read_vtu(damaged)
+
+    def test_parameters(self):
+        self.assertEqual(self.ball.program, "elastic_ball")
+        self.assertEqual(self.ball.parameters["Mesh/Boundary nodes"], "40")
+        self.assertEqual(self.ball.parameters["Linear solver/Type"], "automatic")
+        file = self.folder / "mine.prm"
+        (self.folder / "base.prm").write_text("set Program = ricochet # for\nsubsection A b\n"
+                                              "  set X y = 1, \\\n    2\nend\n")
+        file.write_text("include base.prm\nsubsection Contact ball on floor\n subsection C\n"
+                        "  set Z =\n end\nend\nsubsection Contact b\nend\n")
+        text = prm.read(file)
+        self.assertEqual(text.values, {"Program": "ricochet", "A b/X y": "1, 2",
+                                       "Contact ball on floor/C/Z": ""})
+        self.assertEqual(prm.contact_sections(text), ["Contact ball on floor", "Contact b"])
+        self.assertEqual(prm.contact_sections(prm.read(self.case)), ["Contact"])
+        file.write_text("include mine.prm\n")
+        with self.assertRaisesRegex(ricochet.BadParameterFile, "line 1: .* includes itself"):
+            prm.read(file)
+        # What is written is read as it was.
+        file.write_text(prm.write(text.values))
+        self.assertEqual(prm.read(file).values, text.values)
+
+    def test_names_of_differences(self):
+        a = {"Program": "p", "Contact/Treatment": "x", "Time/Time step": "0.0010", "Output/Y": "1"}
+        b = {**a, "Contact/Treatment": "y", "Output/Y": "2"}
+        c = {**a, "Time/Time step": "2e-3"}
+        self.assertEqual(prm.labels([a, b]), ["x", "y"])
+        self.assertEqual(prm.labels([a, b, c]), ["x, Time step = 0.001", "y, Time step = 0.001",
+                                                 "x, Time step = 0.002"])
+
+    # What is refused
+
+    def test_what_is_no_run(self):
+        with self.assertRaisesRegex(ricochet.NotARun, "There is no folder 'nowhere'"):
+            ricochet.Run("nowhere")
+        with self.assertRaisesRegex(ricochet.NotARun, "holds no run"):
+            ricochet.Run(self.folder)
+        (self.folder / "energy.csv").write_text("a [m],b [s]\n1,2\n")
+        with self.assertRaisesRegex(ricochet.NotARun, "no table of energies"):
+            ricochet.Run(self.folder).table
+        (self.folder / "energy.csv").write_text("time [s],energy [J]\n1,2\n3,four\n")
+        with self.assertRaisesRegex(ricochet.NotARun, "not a number in row 2"):
+            ricochet.Run(self.folder).table
+        with self.assertRaisesRegex(ricochet.NotARun, "has written no fields"):
+            ricochet.Run(self.folder).steps
+        code, _, error = self.script("ricochet-plot", "nowhere")
+        self.assertEqual((code, error), (2, "ricochet-plot: There is no folder 'nowhere'.\n"))
+
+    def test_refused_and_missing_programs(self):
+        with self.assertRaises(ricochet.Refused) as caught:
+            ricochet.run(program_path("bar_sd"), overrides={"Time/Time step": "fast"},
+                         output=self.folder / "x")
+        self.assertIn("the value 'fast' of 'Time/Time step' is not allowed", str(caught.exception))
+        self.assertEqual(caught.exception.exit_code, 1)
+        with self.assertRaisesRegex(ricochet.RicochetError, "no program"):
+            ricochet.run("no_such", programs=program_path(""))
+
+    def test_sweep(self):
+        outcomes = ricochet.sweep(
+            program_path("bar_sd"), overrides={"Time/Time step": [0.1, 0.05],
+                                 "Contact/Treatment": ["penalty", "Nitsche-hybrid"]},
+            common={"Output/Fields every": 0, "Time/Final time": 1},
+            output=self.folder / "sweep", jobs=2)
+        self.assertEqual([o.run is not None for o in outcomes], [True, False, True, False])
+        self.assertEqual([len(o.run.table) for o in outcomes if o.run], [11, 21])
+        self.assertIn("cannot be combined", outcomes[1].error.sentence)
+        self.assertTrue(all(o.wall_seconds > 0 for o in outcomes))
+
+    # Commands
+
+    def test_plot(self):
+        words = ["-o", self.folder / "plots"]
+        names = ["energies.png", "contact_forces.png", "gaps.png"]
+        try:
+            import vtkmodules.vtkIOXML
+            if shutil.which("xvfb-run") or os.environ.get("DISPLAY"):
+                words += ["--fields", "--animation", "gif"]
+                names.append("fields_von_mises.png")
+        except ImportError:
+            pass
+        code, out, error = self.script("ricochet-plot", self.ball.folder, *words)
+        self.assertEqual(code, 0, msg=error)
+        for name in names:
+            self.assert_picture(self.folder / "plots" / name)
+        if len(names) > 3:
+            # The colours of the body: it is not white inside.
+            self.assert_picture(self.folder / "plots" / "fields_von_mises.png", 500)
+            from PIL import Image
+            with Image.open(self.folder / "plots" / "animation_von_mises.gif") as film:
+                self.assertGreaterEqual(film.n_frames, 5)
+        if not shutil.which("ffmpeg"):
+            code, _, error = self.script("ricochet-plot", self.ball.folder, "--animation", "mp4")
+            self.assertEqual(code, 2)
+            self.assertIn("needs ffmpeg", error)
+
+    def test_compare(self):
+        folder = self.folder / "compared"
+        code, out, error = self.script(
+            "ricochet-compare", self.case, "--treatments",
+            "persistent contact,Signorini active set", "--schemes", "Crank-Nicolson",
+            "--impact-positions", "2", "--set", "Contact/Compliance exponent=3",
+            "--finest", "Time/Time step=5e-4", "--jobs", "2", "-o", folder)
+        self.assertEqual(code, 0, msg=out + error)
+        lines = {line.split(" | ")[0].strip(): [cell.strip() for cell in line.split(" | ")[1:]]
+                 for line in out.splitlines() if " | " in line}
+        header = lines.pop("method")
+        refused, good = (f"{treatment}, Crank-Nicolson"
+                         for treatment in ("persistent contact", "Signorini active set"))
+        self.assertEqual(list(lines), [refused, good])
+        # The refused one has its reason, and the other one numbers.
+        self.assertIn("cannot be combined with the time scheme 'Crank-Nicolson'",
+                      lines[refused][0])
+        cells = dict(zip(header, lines[good]))
+        tables = [ricochet.Run(path).table for path in sorted((folder / "runs").glob("02-impact*"))]
+        self.assertEqual(len(tables), 2)
+        lost = [100 * measures.energy_lost(table) for table in tables]
+        self.assertAlmostEqual(float(cells["energy lost (%)"].split()[0]), sum(lost) / 2, places=3)
+        self.assertIn("error of displacement (%)", header)
+        # The impacts are half a step apart, at a quarter and at three quarters of it.
+        gaps = [table["smallest_gap_foundation"][0] for table in tables]
+        self.assertEqual([round(gap / 1e-2 % 1, 6) for gap in gaps], [.25, .75])
+        page = (folder / "index.html").read_text()
+        self.assertEqual(page.count("data:image/png;base64,"), 4)
+        self.assertNotIn("src=\"http", page)
+        self.assertIn("cannot be combined", page)
+        code, _, error = self.script("ricochet-compare", self.folder / "none.prm")
+        self.assertEqual(code, 2)
+        self.assertIn("does not exist", error)
+
+
+if __name__ == "__main__":
+    main()
