@@ -6,12 +6,8 @@ The reference times and forces are those of a run of the paper's reference tool
 on straight ones, which figure 17 shows besides, is one of its runs on those.
 """
 
-import os
 import pathlib
-import shutil
-import subprocess
 import sys
-import tempfile
 from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
@@ -19,7 +15,9 @@ import numpy as np
 
 from paper_ab_common import checks_of_runs, statement, table_image
 from report import Figure, check, info
-from runs import OUTPUT, Run, RunError
+from runs import OUTPUT, Run
+
+from ricochet.screen import run_with_screen
 
 RADIUS, SPEED = 20.0, np.sqrt(2 * 0.1 * 2)  # of the sphere, and at the impact
 
@@ -301,16 +299,7 @@ def picture(sphere, field):
     file = sphere.runs["nitsche_hht"].folder / "solution" / f"step-{step:06d}.vtu"
     target = OUTPUT / "figures" / f"C-18_{sphere.name}_{field}.png"
     script = pathlib.Path(__file__).with_name("render_sphere.py")
-    command = [sys.executable, str(script), str(file), field, str(target)]
-    # VTK of Debian draws on an X server; there is a virtual one.
-    if not os.environ.get("DISPLAY"):
-        if not shutil.which("xvfb-run"):
-            raise RunError("Figure C-18 is drawn by VTK: install the packages python3-vtk9 and xvfb.")
-        command = ["xvfb-run", "-a", *command]
-    with tempfile.TemporaryFile("w+") as log:
-        if subprocess.run(command, stdout=log, stderr=log, check=False).returncode != 0:
-            log.seek(0)
-            raise RunError(f"Figure C-18 cannot be drawn by VTK:\n{log.read()[-2000:]}")
+    run_with_screen([sys.executable, str(script), str(file), field, str(target)])
     return plt.imread(target)
 
 

@@ -2,20 +2,20 @@
 """Runs of the programs: what to run, running it once, reading what it wrote."""
 
 import concurrent.futures
-import csv
 import hashlib
 import json
 import os
 import pathlib
-import re
-import subprocess
+import sys
 import threading
 import time
 from dataclasses import dataclass
 
-import numpy as np
-
 CHECKOUT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(CHECKOUT / "python"))
+
+from ricochet import RicochetError, prm, programs, read_table  # noqa: E402
+
 OUTPUT = CHECKOUT / "output"
 
 # Overrides of runs for curves, which need no fields for ParaView and no line per
@@ -26,8 +26,8 @@ QUIET = ("Output/Fields every=0", "Output/Log every=0")
 STAMP = "finished.json"
 
 
-class RunError(Exception):
-    """A program could not be run; the message is for the user."""
+# A program could not be run, or what it wrote not be read; the message is for the user.
+RunError = RicochetError
 
 
 @dataclass(frozen=True)
@@ -66,27 +66,7 @@ class Run:
 
     def read(self, table=None):
         """The columns of a CSV table of the run, by their names without units."""
-        return read_csv(self.folder / (table or self.table))
-
-
-def read_csv(path):
-    """The columns of a CSV file whose header is `name [unit],name [unit],...`."""
-    with open(path, newline="", encoding="utf-8") as file:
-        header = next(csv.reader(file))
-    # An empty cell is a value that does not exist.
-    values = np.genfromtxt(path, delimiter=",", skip_header=1, ndmin=2)
-    names = [re.sub(r" \[[^\]]*\]$", "", column.strip()) for column in header]
-    return dict(zip(names, values.T))
-
-
-def _with_includes(parameter_file):
-    """A parameter file and all that it includes, directly or not."""
-    files = [parameter_file]
-    for line in parameter_file.read_text(encoding="utf-8").splitlines():
-        match = re.match(r"\s*include\s+(\S+)", line)
-        if match:
-            files += _with_includes(parameter_file.parent / match.group(1))
-    return files
+        return read_table(self.folder / (table or self.table)).columns
 
 
 def _fingerprint(run, build_dir):
@@ -107,7 +87,7 @@ def _fingerprint(run, build_dir):
         path = CHECKOUT / "parameter_files" / run.parameter_file
         if not path.is_file():
             raise RunError(f"There is no parameter file {path}, which {run.name} needs.")
-        for file in _with_includes(path):
+        for file in prm.read(path).files:
             parameters.update(file.read_bytes())
     return {
         "command": run.command(build_dir),
@@ -132,21 +112,12 @@ def _execute(run, build_dir, fingerprint):
     for stale in (STAMP, run.table):
         (run.folder / stale).unlink(missing_ok=True)
     # The runs share the cores among them: a run of its own takes one.
-    one_thread = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
-    result = subprocess.run(
-        run.command(build_dir),
-        cwd=CHECKOUT,
-        env={**os.environ, **one_thread},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        check=False,
-    )
+    exit_code, text = programs.execute(run.command(build_dir), CHECKOUT)
     table = run.folder / run.table
-    if result.returncode != 0 or not table.is_file():
+    if exit_code != 0 or not table.is_file():
         raise RunError(
-            f"The run {run.name} failed (exit code {result.returncode}):\n"
-            f"  {' '.join(run.command(build_dir))}\n{result.stdout.strip()[-2000:]}"
+            f"The run {run.name} failed (exit code {exit_code}):\n"
+            f"  {' '.join(run.command(build_dir))}\n{text.strip()[-2000:]}"
         )
     # The fingerprint was taken before the run: if the program was rebuilt
     # meanwhile, the stamp does not fit the new one and the run is repeated.

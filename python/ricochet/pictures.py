@@ -7,7 +7,6 @@ import math
 import os
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -17,6 +16,7 @@ from typing import Any
 from . import curves, fields, measures, render
 from .errors import RicochetError
 from .results import FieldFile, Run
+from .screen import run_with_screen
 from .tables import Array
 
 import matplotlib.animation as animation
@@ -188,29 +188,9 @@ def _render(scene: _Scene, files: Sequence[FieldFile], folder: pathlib.Path) -> 
     )
     (folder / "job.json").write_text(job.to_json(), encoding="utf-8")
     command = [sys.executable, "-m", "ricochet.render", str(folder / "job.json")]
-    # VTK of Debian draws on an X server; there is a virtual one.
-    if not os.environ.get("DISPLAY"):
-        if not shutil.which("xvfb-run"):
-            raise RicochetError(
-                "VTK needs a screen to draw on: install the packages xvfb and xauth, which have a "
-                "virtual one."
-            )
-        command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1920x24", *command]
     package = str(pathlib.Path(__file__).resolve().parents[1])
     path = os.pathsep.join(filter(None, (package, os.environ.get("PYTHONPATH"))))
-    result = subprocess.run(
-        command,
-        env={**os.environ, "PYTHONPATH": path},
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        errors="replace",
-        check=False,
-    )
-    if result.returncode != 0 or not all(image.is_file() for image in images):
-        last = (result.stdout.strip().splitlines() or ["it said nothing"])[-1]
-        raise RicochetError(f"VTK cannot draw the fields: {last}.")
+    run_with_screen(command, {"PYTHONPATH": path})
     return [plt.imread(image) for image in images]
 
 
