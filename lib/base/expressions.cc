@@ -10,7 +10,8 @@ namespace Ricochet
 {
   Expressions::Expressions(const std::string              &variables,
                            const std::vector<std::string> &texts,
-                           const std::string              &what)
+                           const std::string              &what,
+                           const bool                      of_time)
   {
     auto new_parser = std::make_shared<dealii::FunctionParser<3>>(texts.size());
     // deal.II prints what it does not understand; we say it in a sentence.
@@ -19,10 +20,12 @@ namespace Ricochet
     try
       {
         const bool one = variables.find(',') == std::string::npos;
-        new_parser->initialize(one ? variables + ",unused_1,unused_2"
-                                   : variables,
+        new_parser->initialize((one ? variables + ",unused_1,unused_2"
+                                    : variables) +
+                                 (of_time ? ",t" : ""),
                                texts,
-                               {{"pi", dealii::numbers::PI}});
+                               {{"pi", dealii::numbers::PI}},
+                               of_time);
         // The parser looks at an expression when it is first needed.
         for (unsigned int f = 0; f < texts.size(); ++f)
           new_parser->value(dealii::Point<3>(), f);
@@ -40,6 +43,7 @@ namespace Ricochet
           list += "\n    " + text;
         throw InputError("One of the expressions of " + what +
                          " cannot be read; they are functions of " + variables +
+                         (of_time ? " and the time t" : "") +
                          " as muParser knows them:" + list);
       }
     parser = new_parser;

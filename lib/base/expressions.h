@@ -19,16 +19,28 @@ namespace Ricochet
      * @param variables their names, separated by commas: one or three.
      * @param texts one for each function.
      * @param what they are, for messages: "the level set".
+     * @param of_time they are functions of the time t as well.
      * @throws InputError when one of them cannot be read.
      */
     Expressions(const std::string              &variables,
                 const std::vector<std::string> &texts,
-                const std::string              &what);
+                const std::string              &what,
+                const bool                      of_time = false);
 
     /// The function number @p f where the variables are @p x.
     double
     value(const unsigned int f, const dealii::Tensor<1, 3> &x) const
     {
+      return parser->value(dealii::Point<3>(x), f);
+    }
+
+    /// The same at a time (s): the functions know it as t.
+    double
+    value(const unsigned int          f,
+          const dealii::Tensor<1, 3> &x,
+          const double                time) const
+    {
+      parser->set_time(time);
       return parser->value(dealii::Point<3>(x), f);
     }
 
@@ -39,7 +51,7 @@ namespace Ricochet
     }
 
   private:
-    std::shared_ptr<const dealii::FunctionParser<3>> parser;
+    std::shared_ptr<dealii::FunctionParser<3>> parser;
   };
 
   /// The parts of @p text between semicolons, without blanks around them.

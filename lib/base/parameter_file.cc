@@ -137,16 +137,16 @@ namespace Ricochet
       return row[b.size()];
     }
 
-    /// @param folder where a relative name of a file to be read counts from.
     Setting
-    assign(const Path               &path,
-           const std::string        &given_value,
-           const std::string        &where,
-           const std::string        &folder,
-           const Declarations       &declarations,
-           dealii::ParameterHandler &parameters)
+    assign(const ParameterText::Assignment &assignment,
+           const Declarations              &declarations,
+           dealii::ParameterHandler        &parameters)
     {
-      const auto entry = declarations.find(join(path));
+      const Path        &path        = assignment.path;
+      const std::string &given_value = assignment.value;
+      const std::string &where       = assignment.where;
+      const std::string &folder      = assignment.folder;
+      const auto         entry       = declarations.find(join(path));
       if (entry == declarations.end())
         {
           // Compare whole names as well as last parts: a user mistypes the
@@ -198,16 +198,18 @@ namespace Ricochet
       parameters.set(path.back(), value);
       for (unsigned int i = 0; i + 1 < path.size(); ++i)
         parameters.leave_subsection();
-      return {join(path), value, where, false, value != declaration.value};
+      return {join(path),
+              value,
+              where,
+              assignment.on_command_line,
+              value != declaration.value};
     }
 
     /// What reading a file and those that it includes carries along.
     struct Reading
     {
-      const Declarations       &declarations;
-      dealii::ParameterHandler &parameters;
-      std::vector<std::string>  open_files;
-      std::vector<Setting>      settings;
+      std::vector<std::string> open_files;
+      ParameterText            text;
     };
 
     void
@@ -272,7 +274,10 @@ namespace Ricochet
           const std::string keyword = line.substr(0, line.find_first_of(" \t"));
           const std::string rest    = trim(line.substr(keyword.size()));
           if (keyword == "subsection" && !rest.empty())
-            section.push_back(rest);
+            {
+              section.push_back(rest);
+              reading.text.sections.push_back({section, where});
+            }
           else if (line == "end")
             {
               if (section.empty())
@@ -292,12 +297,8 @@ namespace Ricochet
               const std::size_t equal = rest.find('=');
               Path              path  = section;
               path.push_back(trim(rest.substr(0, equal)));
-              reading.settings.push_back(assign(path,
-                                                trim(rest.substr(equal + 1)),
-                                                where,
-                                                folder,
-                                                reading.declarations,
-                                                reading.parameters));
+              reading.text.assignments.push_back(
+                {path, trim(rest.substr(equal + 1)), where, folder});
             }
           else
             throw InputError(where + ": cannot make sense of '" +
@@ -360,21 +361,30 @@ namespace Ricochet
 
 
 
-  std::vector<Setting>
-  read_parameter_file(const std::string        &file_name,
-                      dealii::ParameterHandler &parameters)
+  const ParameterText::Assignment *
+  ParameterText::find(const std::string &name) const
   {
-    const Declarations declarations = declarations_of(parameters);
-    Reading            reading{declarations, parameters, {}, {}};
-    read(file_name, "", reading);
-    return reading.settings;
+    const Assignment *last = nullptr;
+    for (const Assignment &assignment : assignments)
+      if (assignment.path == Path{name})
+        last = &assignment;
+    return last;
   }
 
 
 
-  Setting
-  set_parameter(const std::string        &assignment,
-                dealii::ParameterHandler &parameters)
+  ParameterText
+  parse_parameter_file(const std::string &file_name)
+  {
+    Reading reading;
+    read(file_name, "", reading);
+    return reading.text;
+  }
+
+
+
+  ParameterText::Assignment
+  parse_assignment(const std::string &assignment)
   {
     const std::string where = "--set \"" + shortened(assignment) + "\"";
     const std::size_t equal = assignment.find('=');
@@ -394,13 +404,42 @@ namespace Ricochet
     for (const std::string &part : path)
       if (part.empty())
         fail("a section or the name is empty.");
-    Setting setting         = assign(path,
-                             trim(assignment.substr(equal + 1)),
-                             where,
-                             ".",
-                             declarations_of(parameters),
-                             parameters);
-    setting.on_command_line = true;
-    return setting;
+    return {path,
+            trim(assignment.substr(equal + 1)),
+            where,
+            ".",
+            /* on command line */ true};
+  }
+
+
+
+  std::vector<Setting>
+  apply(const ParameterText &text, dealii::ParameterHandler &parameters)
+  {
+    const Declarations   declarations = declarations_of(parameters);
+    std::vector<Setting> settings;
+    for (const ParameterText::Assignment &assignment : text.assignments)
+      settings.push_back(assign(assignment, declarations, parameters));
+    return settings;
+  }
+
+
+
+  std::vector<Setting>
+  read_parameter_file(const std::string        &file_name,
+                      dealii::ParameterHandler &parameters)
+  {
+    return apply(parse_parameter_file(file_name), parameters);
+  }
+
+
+
+  Setting
+  set_parameter(const std::string        &assignment,
+                dealii::ParameterHandler &parameters)
+  {
+    return assign(parse_assignment(assignment),
+                  declarations_of(parameters),
+                  parameters);
   }
 } // namespace Ricochet

@@ -41,6 +41,59 @@ namespace Ricochet
     bool is_input_file = false;
   };
 
+  /// What parameter files and command line say, before any parameter is declared: for
+  /// programs whose sections depend on it.
+  struct ParameterText
+  {
+    /// A value for a parameter.
+    struct Assignment
+    {
+      /// Names of the sections, then that of the parameter.
+      std::vector<std::string> path;
+      std::string              value;
+      /// "file.prm, line 3" or the option of the command line.
+      std::string where;
+      /// Where a relative name of a file to be read counts from.
+      std::string folder;
+      bool        on_command_line = false;
+    };
+
+    /// A subsection that a file opens, also if nothing is set in it.
+    struct Section
+    {
+      std::vector<std::string> path;
+      std::string              where;
+    };
+
+    /// In their order; the last one for a parameter counts.
+    std::vector<Assignment> assignments;
+    std::vector<Section>    sections;
+
+    /// The last value for the parameter @p name outside of all sections, with where
+    /// it stands; null if there is none.
+    const Assignment *
+    find(const std::string &name) const;
+  };
+
+  /**
+   * Read the .prm file @p file_name, see read_parameter_file().
+   * @throws InputError file missing or unreadable, `include` circle, unbalanced
+   * `subsection`/`end`, a line without meaning.
+   */
+  ParameterText
+  parse_parameter_file(const std::string &file_name);
+
+  /// Read a text of the form "Section/Name=value", see set_parameter().
+  /// @throws InputError when it has another form.
+  ParameterText::Assignment
+  parse_assignment(const std::string &assignment);
+
+  /// Set what @p text says. @return all settings, in their order.
+  /// @throws InputError unknown parameter, value that does not match its pattern, file
+  /// of another program.
+  std::vector<Setting>
+  apply(const ParameterText &text, dealii::ParameterHandler &parameters);
+
   /// All parameters, in an order that does not depend on where they were set.
   std::vector<ParameterValue>
   list_parameters(const dealii::ParameterHandler &parameters);

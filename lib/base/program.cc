@@ -213,12 +213,15 @@ namespace Ricochet
                                "--output-dir.",
                                dealii::Patterns::DirectoryName());
       parameters.leave_subsection();
-      program.add_parameters(parameters);
-      std::vector<Setting> settings;
+      ParameterText text;
       if (!command_line.parameter_file.empty())
-        settings = read_parameter_file(command_line.parameter_file, parameters);
+        text = parse_parameter_file(command_line.parameter_file);
       for (const std::string &assignment : command_line.assignments)
-        settings.push_back(set_parameter(assignment, parameters));
+        text.assignments.push_back(parse_assignment(assignment));
+      if (program.prepare)
+        program.prepare(text);
+      program.add_parameters(parameters);
+      const std::vector<Setting> settings = apply(text, parameters);
 
       std::ostringstream all_parameters;
       parameters.print_parameters(all_parameters,
@@ -230,10 +233,12 @@ namespace Ricochet
       const std::vector<std::string> notes = check_unused(program, settings);
       if (command_line.validate_only)
         {
-          std::string text = "The parameters are valid.\n";
+          std::string lines = "The parameters are valid.\n";
+          if (program.description_of_input)
+            lines += program.description_of_input();
           for (const std::string &note : notes)
-            text += note + "\n";
-          return print(text);
+            lines += note + "\n";
+          return print(lines);
         }
 
       // Who stops reading the console does not stop the run.

@@ -48,6 +48,11 @@ namespace Ricochet
     std::function<void(RunFolder &)> run;
     /// The parameters without effect; may be left out.
     std::function<std::vector<UnusedParameter>()> unused_parameters = {};
+    /// Called with what the user has written before #add_parameters, which may depend
+    /// on it; may be left out.
+    std::function<void(const ParameterText &)> prepare = {};
+    /// What `--validate` prints besides, after #validate: lines; may be left out.
+    std::function<std::string()> description_of_input = {};
   };
 
   /**

@@ -68,12 +68,12 @@ namespace Ricochet
     virtual const Vector &
     contact_force() const = 0;
 
-    /// The part of contact_force() between surfaces of bodies, where obstacles have
-    /// a share in it too; null otherwise. Also right after force_at().
-    virtual const Vector *
-    force_between_surfaces() const
+    /// The forces of the several contacts whose sum contact_force() is, in their order;
+    /// none where there is only one. Also right after force_at().
+    virtual std::vector<const Vector *>
+    shares() const
     {
-      return nullptr;
+      return {};
     }
 
     /// The part of contact_force() that friction makes; null without friction.
@@ -126,6 +126,14 @@ namespace Ricochet
     /// displacements, a stiffness for multipliers.
     virtual const Vector &
     row_scaling() const = 0;
+
+    /// Whether complete_residual() takes rows out of the residual, so that all other
+    /// forces have to be in it before.
+    virtual bool
+    takes_rows() const
+    {
+      return false;
+    }
 
     /// The number of active contact points at the last complete_residual(), and
     /// of all, for Newton's table.

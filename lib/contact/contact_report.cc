@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace Ricochet
@@ -20,6 +21,29 @@ namespace Ricochet
     max_penetration = std::max(max_penetration, -gap);
     force += point_force;
     active_points += is_active;
+  }
+
+
+
+  void
+  ContactSummary::unite(const ContactSummary &other)
+  {
+    const double whole = area + other.area;
+    const auto   mean  = [&](double &own, const double its) {
+      // What is not known of one part is that of the other.
+      if (std::isnan(own) || area == 0.)
+        own = its;
+      else if (!std::isnan(its) && whole > 0.)
+        own = (area * own + other.area * its) / whole;
+    };
+    mean(mean_gap, other.mean_gap);
+    mean(contact_pressure, other.contact_pressure);
+    mean(stress_pressure, other.stress_pressure);
+    area = whole;
+    force += other.force;
+    smallest_gap    = std::min(smallest_gap, other.smallest_gap);
+    max_penetration = std::max(max_penetration, other.max_penetration);
+    active_points += other.active_points;
   }
 
 

@@ -39,6 +39,10 @@ namespace Ricochet
         const double        gap,
         const double        point_force,
         const bool          is_active);
+
+    /// Become that of both this part of the boundary and another one.
+    void
+    unite(const ContactSummary &other);
   };
 
   /// A solved state, as far as what is told of contact depends on it.
@@ -50,9 +54,8 @@ namespace Ricochet
     const Vector &contact_force;
     /// s
     double time = 0.;
-    /// The part of contact_force between surfaces of bodies, where obstacles have
-    /// a share in it too; null otherwise.
-    const Vector *force_between_surfaces = nullptr;
+    /// What several contacts have of contact_force; none where there is only one.
+    const std::vector<Vector> *shares = nullptr;
   };
 
   /// By boundary id.

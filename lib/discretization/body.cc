@@ -119,13 +119,15 @@ namespace Ricochet
                   const MultiplierSpace     multipliers,
                   const MPI_Comm            communicator,
                   const HeldComponents     &held,
-                  const Mapping<dim>       *curved)
+                  const Mapping<dim>       *curved,
+                  const BoundaryIds        &with_multipliers)
     : communicator(communicator)
     , displacement_dofs(triangulation)
     , multiplier_dofs(triangulation)
     , multipliers(multipliers)
     , clamped_ids(clamped_ids)
     , contact_ids(contact_ids)
+    , multiplier_ids(with_multipliers.empty() ? contact_ids : with_multipliers)
     , curved_geometry(curved != nullptr)
   {
     const unsigned int n_multipliers =
@@ -260,14 +262,14 @@ namespace Ricochet
     std::vector<types::global_dof_index> my_multipliers;
     IndexSet                             contact_dofs;
     IndexSet                             relevant_multipliers;
-    AssertThrow(!has_multipliers() || !contact_ids.empty(),
+    AssertThrow(!has_multipliers() || !multiplier_ids.empty(),
                 ExcMessage("Multipliers need a contact boundary."));
     if (has_multipliers())
       {
         multiplier_dofs.distribute_dofs(*multiplier_element);
         contact_dofs = DoFTools::extract_boundary_dofs(multiplier_dofs,
                                                        ComponentMask(),
-                                                       contact_ids);
+                                                       multiplier_ids);
         relevant_multipliers =
           DoFTools::extract_locally_relevant_dofs(multiplier_dofs);
         for (const types::global_dof_index i :

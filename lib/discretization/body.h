@@ -56,11 +56,13 @@ namespace Ricochet
      * @param triangulation any of deal.II's, all cells of the same kind.
      * @param degree polynomial degree of the displacement.
      * @param clamped boundary ids with zero displacement.
-     * @param contact boundary ids that can touch the obstacle.
+     * @param contact boundary ids that can touch something.
      * @param held boundary ids of which some components of the displacement are
      * prescribed.
      * @param curved the geometry of its cells (see curved_geometry.h), for a
      * displacement of degree 2; null for cells with straight edges.
+     * @param with_multipliers those of the boundary ids @p contact that have the
+     * multipliers; all of them if empty.
      */
     Body(const dealii::Triangulation<dim> &triangulation,
          const unsigned int                degree,
@@ -68,8 +70,9 @@ namespace Ricochet
          const BoundaryIds                &contact,
          const MultiplierSpace             multipliers,
          const MPI_Comm                    communicator,
-         const HeldComponents             &held   = {},
-         const dealii::Mapping<dim>       *curved = nullptr);
+         const HeldComponents             &held             = {},
+         const dealii::Mapping<dim>       *curved           = nullptr,
+         const BoundaryIds                &with_multipliers = {});
 
     /// System index of displacement DoF @p i of the DoFHandler.
     dealii::types::global_dof_index
@@ -257,8 +260,8 @@ namespace Ricochet
     dealii::DoFHandler<dim>                      displacement_dofs;
     dealii::DoFHandler<dim>                      multiplier_dofs;
     const MultiplierSpace                        multipliers;
-    const BoundaryIds                            clamped_ids, contact_ids;
-    const bool                                   curved_geometry;
+    const BoundaryIds clamped_ids, contact_ids, multiplier_ids;
+    const bool        curved_geometry;
 
     // First displacement DoF of each rank, and by how much the multipliers of
     // lower ranks shift it.

@@ -4,15 +4,20 @@
 
 #include <discretization/body.h>
 
+#include <functional>
+
 namespace Ricochet
 {
-  /// The forces (N) of a traction of 1 Pa in direction @p component on the undeformed
-  /// boundary @p id. Collective.
+  /// What adds the forces (N) of the @p traction (Pa), at a time (s) and a place (m),
+  /// on the undeformed boundary @p id to a vector. Collective.
   template <int dim>
-  Vector
-  boundary_load(const Body<dim>                 &body,
-                const dealii::types::boundary_id id,
-                const unsigned int               component);
+  std::function<void(const double time, Vector &load)>
+  boundary_load(
+    const Body<dim>                 &body,
+    const dealii::types::boundary_id id,
+    const std::function<dealii::Tensor<1, dim>(const double              time,
+                                               const dealii::Point<dim> &place)>
+      &traction);
 } // namespace Ricochet
 
 #endif

@@ -187,6 +187,16 @@ namespace Ricochet
 
 
 
+  LinearElastic
+  MaterialParameters::at_small_strains() const
+  {
+    if (law == "Ciarlet-Geymonat")
+      return {4. * (c2 + d), 2. * (c1 + c2)};
+    return LinearElastic::from_young(young_modulus, poisson_ratio);
+  }
+
+
+
   template <int dim>
   Material<dim>
   MaterialParameters::make() const

@@ -46,6 +46,10 @@ namespace Ricochet
     template <int dim>
     Material<dim>
     make() const;
+
+    /// Lamé's parameters at small strains, in 3D (Pa).
+    LinearElastic
+    at_small_strains() const;
   };
 } // namespace Ricochet
 

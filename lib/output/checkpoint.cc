@@ -19,7 +19,7 @@ namespace Ricochet
 
   namespace
   {
-    const std::string magic     = "Ricochet checkpoint, format 7\n";
+    const std::string magic     = "Ricochet checkpoint, format 8\n";
     const std::string file_name = "checkpoint.bin";
 
     /// The vectors of a state, in the order in which they are stored.
@@ -31,9 +31,10 @@ namespace Ricochet
       visit(state.velocity);
       visit(state.acceleration);
       visit(state.contact_force);
-      visit(state.force_between_surfaces);
       visit(state.mean_velocity);
       visit(state.scheme_force);
+      for (auto &share : state.contact_shares)
+        visit(share);
     }
 
     /// What is in the file, apart from magic, size and checksum.
@@ -159,11 +160,15 @@ namespace Ricochet
       }
 
     Checkpoint checkpoint;
-    checkpoint.step       = payload.step;
-    checkpoint.sums       = payload.sums;
-    checkpoint.ledger     = {payload.n_rows, payload.checksum};
-    checkpoint.state.time = payload.time;
-    auto stored           = payload.values.begin();
+    checkpoint.step               = payload.step;
+    checkpoint.sums               = payload.sums;
+    checkpoint.ledger             = {payload.n_rows, payload.checksum};
+    checkpoint.state.time         = payload.time;
+    unsigned int n_without_shares = 0;
+    for_each_vector(checkpoint.state, [&](Vector &) { ++n_without_shares; });
+    checkpoint.state.contact_shares.resize(payload.values.size() -
+                                           n_without_shares);
+    auto stored = payload.values.begin();
     for_each_vector(checkpoint.state, [&](Vector &vector) {
       vector.reinit(empty_vector);
       AssertThrow(stored != payload.values.end(), ExcInternalError());

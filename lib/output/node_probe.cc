@@ -10,14 +10,19 @@ namespace Ricochet
   using namespace dealii;
 
   template <int dim>
-  NodeProbe<dim>::NodeProbe(const Body<dim> &body, const Point<dim> &point)
+  NodeProbe<dim>::NodeProbe(const Body<dim>   &body,
+                            const Point<dim>  &point,
+                            const unsigned int n_parts,
+                            const unsigned int begin,
+                            const unsigned int end)
     : communicator(body.communicator)
   {
     double nearest = std::numeric_limits<double>::max();
     std::vector<types::global_dof_index> candidate(dim);
     for (const auto &cell : body.dof_handler().active_cell_iterators())
       {
-        if (cell->is_artificial())
+        if (cell->is_artificial() || body.part(cell, n_parts) < begin ||
+            body.part(cell, n_parts) >= end)
           continue;
         for (const unsigned int v : cell->vertex_indices())
           {

@@ -11,7 +11,17 @@ namespace Ricochet
   class NodeProbe
   {
   public:
-    NodeProbe(const Body<dim> &body, const dealii::Point<dim> &point);
+    NodeProbe(const Body<dim> &body, const dealii::Point<dim> &point)
+      : NodeProbe(body, point, 1, 0, 1)
+    {}
+
+    /// The same among the vertices of the parts from @p begin to before @p end, of
+    /// @p n_parts, see Body::part().
+    NodeProbe(const Body<dim>          &body,
+              const dealii::Point<dim> &point,
+              const unsigned int        n_parts,
+              const unsigned int        begin,
+              const unsigned int        end);
 
     /// Component @p component of @p vector in the node; collective.
     double

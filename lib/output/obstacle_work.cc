@@ -9,27 +9,34 @@ namespace Ricochet
   using namespace dealii;
 
   template <int dim>
-  ObstacleWork<dim>::ObstacleWork(const Body<dim>           &body,
-                                  const Ricochet::Obstacles &all_obstacles)
+  ObstacleWork<dim>::ObstacleWork(
+    const Body<dim>                        &body,
+    const std::vector<Ricochet::Obstacles> &obstacles_of_contacts)
     : communicator(body.communicator)
   {
-    const ContactPoints points =
-      make_contact_nodes(body, all_obstacles, /* with multipliers */ false);
-    std::set<types::global_dof_index> seen;
-    for (const auto &[id, obstacle] : all_obstacles)
+    for (unsigned int k = 0; k < obstacles_of_contacts.size(); ++k)
       {
-        obstacles.push_back(obstacle);
-        nodes.emplace_back();
-        for (const ContactPoint &point : points.points)
-          if (point.boundary_id == id &&
-              seen.insert(points.index[point.begin]).second)
-            {
-              Node node;
-              for (unsigned int k = point.begin; k < point.end; ++k)
-                node.index[points.component[k]] = points.index[k];
-              node.position = point.reference_position;
-              nodes.back().push_back(node);
-            }
+        const Ricochet::Obstacles &all = obstacles_of_contacts[k];
+        if (all.empty())
+          continue;
+        const ContactPoints points =
+          make_contact_nodes(body, all, /* with multipliers */ false);
+        std::set<types::global_dof_index> seen;
+        for (const auto &[id, obstacle] : all)
+          {
+            Touched touched{obstacle, k, {}};
+            for (const ContactPoint &point : points.points)
+              if (point.boundary_id == id &&
+                  seen.insert(points.index[point.begin]).second)
+                {
+                  Node node;
+                  for (unsigned int i = point.begin; i < point.end; ++i)
+                    node.index[points.component[i]] = points.index[i];
+                  node.position = point.reference_position;
+                  touched.nodes.push_back(node);
+                }
+            obstacles.push_back(touched);
+          }
       }
   }
 
@@ -37,19 +44,20 @@ namespace Ricochet
 
   template <int dim>
   double
-  ObstacleWork<dim>::operator()(const Vector &old_solution,
-                                const Vector &new_solution,
-                                const Vector &contact_force,
-                                const double  begin,
-                                const double  end) const
+  ObstacleWork<dim>::operator()(const Vector              &old_solution,
+                                const Vector              &new_solution,
+                                const std::vector<Vector> &contact_forces,
+                                const double               begin,
+                                const double               end) const
   {
     double work = 0.;
-    for (unsigned int i = 0; i < obstacles.size(); ++i)
+    for (const Touched &touched : obstacles)
       {
         // What the body does to the obstacle, which stands on the side of the
         // internal forces.
-        Tensor<1, 3> force, moment;
-        for (const Node &node : nodes[i])
+        const Vector &contact_force = contact_forces[touched.contact];
+        Tensor<1, 3>  force, moment;
+        for (const Node &node : touched.nodes)
           {
             Tensor<1, 3> node_force, position = node.position;
             for (unsigned int c = 0; c < dim; ++c)
@@ -63,7 +71,7 @@ namespace Ricochet
           }
         force  = Utilities::MPI::sum(force, communicator);
         moment = Utilities::MPI::sum(moment, communicator);
-        work -= obstacles[i]->motion().work(force, moment, begin, end);
+        work -= touched.obstacle->motion().work(force, moment, begin, end);
       }
     return work;
   }

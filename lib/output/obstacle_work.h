@@ -19,23 +19,24 @@ namespace Ricochet
   class ObstacleWork
   {
   public:
-    /// A node between two parts of the boundary counts for the one with the
-    /// smaller id.
-    ObstacleWork(const Body<dim> &body, const Obstacles &obstacles);
+    /// @param obstacles those of each contact; none for contact between bodies. A node
+    /// between two parts of the boundary counts for the one with the smaller id.
+    ObstacleWork(const Body<dim>              &body,
+                 const std::vector<Obstacles> &obstacles);
 
     /**
      * @param old_solution displacement at the time @p begin (s).
      * @param new_solution displacement at the time @p end (s).
-     * @param contact_force the mean of it over the step, on the side of the
-     * internal forces (N).
+     * @param contact_forces the means of them over the step, on the side of the
+     * internal forces, for each contact (N).
      * @return J
      */
     double
-    operator()(const Vector &old_solution,
-               const Vector &new_solution,
-               const Vector &contact_force,
-               const double  begin,
-               const double  end) const;
+    operator()(const Vector              &old_solution,
+               const Vector              &new_solution,
+               const std::vector<Vector> &contact_forces,
+               const double               begin,
+               const double               end) const;
 
   private:
     struct Node
@@ -45,9 +46,14 @@ namespace Ricochet
     };
 
     const MPI_Comm communicator;
-    // In the order of the boundary ids; on each rank its own nodes.
-    std::vector<std::shared_ptr<const RigidObstacle>> obstacles;
-    std::vector<std::vector<Node>>                    nodes;
+    /// An obstacle, and the nodes of this rank that can touch it.
+    struct Touched
+    {
+      std::shared_ptr<const RigidObstacle> obstacle;
+      unsigned int                         contact;
+      std::vector<Node>                    nodes;
+    };
+    std::vector<Touched> obstacles;
   };
 } // namespace Ricochet
 

@@ -83,7 +83,8 @@ namespace Ricochet
                                                     state.velocity)[c];
                         });
     };
-    for (unsigned int p = 0; p < names.size(); ++p)
+    // One part is all.
+    for (unsigned int p = 0; p < names.size() && names.size() > 1; ++p)
       {
         loop.add_column("kinetic_energy_" + names[p],
                         "J",

@@ -287,11 +287,11 @@ namespace Ricochet
     contact_force *= -1.;
     const Vector force_on_body = body.displacement_part(contact_force);
 
-    const Vector pressure = body.displacement_part(
-      contact.pressure_field({state.solution,
-                              state.contact_force,
-                              state.time,
-                              &state.force_between_surfaces}));
+    const Vector pressure =
+      body.displacement_part(contact.pressure_field({state.solution,
+                                                     state.contact_force,
+                                                     state.time,
+                                                     &state.contact_shares}));
 
     const StressPostprocessor<dim> stress(materials);
     const FirstComponent<dim>      contact_pressure("contact_pressure");

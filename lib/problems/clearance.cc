@@ -75,12 +75,42 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    /// Material ids of the cells at the boundary @p id. Collective.
+    template <int dim>
+    std::set<types::material_id>
+    materials_at(const Body<dim> &body, const types::boundary_id id)
+    {
+      std::set<types::material_id> own;
+      for (const auto &cell : body.dof_handler().active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary() && face->boundary_id() == id)
+              own.insert(cell->material_id());
+      std::set<types::material_id> all;
+      for (const auto &list : Utilities::MPI::all_gather(
+             body.communicator,
+             std::vector<types::material_id>(own.begin(), own.end())))
+        all.insert(list.begin(), list.end());
+      return all;
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
-  check_clearance(const Body<dim> &body, const Obstacles &obstacles)
+  check_clearance(const Body<dim>   &body,
+                  const Obstacles   &obstacles,
+                  const std::string &contact,
+                  const bool         only_what_may_touch)
   {
     for (const auto &entry : obstacles)
       {
+        std::set<types::material_id> parts;
+        if (only_what_may_touch)
+          parts = materials_at(body, entry.first);
         const RigidObstacle &obstacle  = *entry.second;
         const Placement      placement = obstacle.motion().placement(0.);
         double               overlap   = 0.;
@@ -90,7 +120,8 @@ namespace Ricochet
         const bool has_inside = obstacle.gap(centre, 0.) < 0.;
         for (const auto &cell : body.dof_handler().active_cell_iterators())
           {
-            if (!cell->is_locally_owned())
+            if (!cell->is_locally_owned() ||
+                (only_what_may_touch && parts.count(cell->material_id()) == 0))
               continue;
             for (const unsigned int v : cell->vertex_indices())
               {
@@ -111,10 +142,10 @@ namespace Ricochet
         overlap = Utilities::MPI::max(overlap, body.communicator);
         if (overlap > 0.)
           throw InputError(
-            "At the start the body overlaps with the obstacle "
-            "of boundary " +
-            std::to_string(entry.first) + " by " + to_text(overlap) +
-            " m. Move one of them away.");
+            "At the start the body overlaps with the obstacle of " +
+            (contact.empty() ? "boundary " + std::to_string(entry.first)
+                             : "the contact '" + contact + "'") +
+            " by " + to_text(overlap) + " m. Move one of them away.");
       }
   }
 
@@ -250,9 +281,18 @@ namespace Ricochet
   template void
   check_clearance(const Body<3> &, const std::vector<ContactPair> &);
   template void
-  check_clearance(const Body<1> &, const Obstacles &);
+  check_clearance(const Body<1> &,
+                  const Obstacles &,
+                  const std::string &,
+                  const bool);
   template void
-  check_clearance(const Body<2> &, const Obstacles &);
+  check_clearance(const Body<2> &,
+                  const Obstacles &,
+                  const std::string &,
+                  const bool);
   template void
-  check_clearance(const Body<3> &, const Obstacles &);
+  check_clearance(const Body<3> &,
+                  const Obstacles &,
+                  const std::string &,
+                  const bool);
 } // namespace Ricochet

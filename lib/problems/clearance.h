@@ -19,11 +19,17 @@ namespace Ricochet
    * start would be kept for ever by persistent contact, or push the body away
    * with an energy from nowhere.
    *
+   * @param contact its name, for messages; empty where there is only one.
+   * @param only_what_may_touch leave out parts of the body, see Body::part(), that
+   * have none of the boundaries.
    * @throws InputError if they do, or a shape has a problem in a vertex.
    */
   template <int dim>
   void
-  check_clearance(const Body<dim> &body, const Obstacles &obstacles);
+  check_clearance(const Body<dim>   &body,
+                  const Obstacles   &obstacles,
+                  const std::string &contact             = "",
+                  const bool         only_what_may_touch = false);
 
   /**
    * No node of a surface of the @p pairs is within a cell of another body: parts do

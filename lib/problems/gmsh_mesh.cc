@@ -9,9 +9,14 @@
 
 #include <gmsh.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <map>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace Ricochet
@@ -274,8 +279,137 @@ namespace Ricochet
   }
 
 
+  std::map<std::string, unsigned int>
+  physical_groups(const std::string &file_name, const unsigned int dim)
+  {
+    std::map<std::string, unsigned int> groups;
+    std::ifstream                       file(file_name);
+    std::string                         line;
+    while (std::getline(file, line) && line.rfind("$PhysicalNames", 0) != 0)
+      ;
+    std::getline(file, line);
+    while (std::getline(file, line) && line.rfind("$End", 0) != 0)
+      {
+        std::istringstream words(line);
+        unsigned int       group_dim = 0, number = 0;
+        const std::size_t  begin = line.find('"'), end = line.rfind('"');
+        if (words >> group_dim >> number && group_dim == dim && begin < end)
+          groups[line.substr(begin + 1, end - begin - 1)] = number;
+      }
+    return groups;
+  }
+
+
+
+  void
+  convert_to_gmsh_mesh(const std::string &file_name,
+                       const std::string &msh_file,
+                       const unsigned int dim,
+                       const double       mesh_size)
+  {
+    with_gmsh<bool>("read '" + file_name + "'", [&]() {
+      if (mesh_size > 0.)
+        for (const std::string bound : {"Min", "Max"})
+          gmsh::option::setNumber("Mesh.MeshSize" + bound, mesh_size);
+      gmsh::open(file_name);
+      gmsh::vectorpair bodies;
+      gmsh::model::getEntities(bodies, dim);
+      if (bodies.empty())
+        throw std::runtime_error("there is nothing of dimension " +
+                                 std::to_string(dim) + " in it.");
+      if (get_elements(dim).empty())
+        gmsh::model::mesh::generate(dim);
+      gmsh::vectorpair groups;
+      gmsh::model::getPhysicalGroups(groups, dim);
+      if (groups.empty())
+        {
+          std::vector<int> tags;
+          for (const auto &entity : bodies)
+            tags.push_back(entity.second);
+          gmsh::model::addPhysicalGroup(dim, tags);
+        }
+      gmsh::model::getPhysicalGroups(groups, dim - 1);
+      gmsh::vectorpair boundaries;
+      gmsh::model::getBoundary(bodies,
+                               boundaries,
+                               /* combined */ true,
+                               /* oriented */ false);
+      if (groups.empty())
+        for (const auto &entity : boundaries)
+          gmsh::model::addPhysicalGroup(dim - 1,
+                                        {entity.second},
+                                        entity.second);
+      gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
+      gmsh::option::setNumber("Mesh.Binary", 0);
+      gmsh::write(msh_file);
+      return true;
+    });
+  }
+
+
+
+  template <int dim>
+  CellNodes<dim>
+  read_any_mesh(const std::string                         &file_name,
+                const double                               mesh_size,
+                Triangulation<dim>                        &triangulation,
+                std::map<std::string, types::boundary_id> &boundary_names)
+  {
+    namespace fs        = std::filesystem;
+    const auto read_msh = [&](const std::string &msh_file) {
+      CellNodes<dim> nodes = read_gmsh_mesh(msh_file, triangulation);
+      boundary_names.clear();
+      for (const auto &[name, number] : physical_groups(msh_file, dim - 1))
+        boundary_names[name] = number;
+      return nodes;
+    };
+    std::string ending = fs::path(file_name).extension().string();
+    for (char &c : ending)
+      c = std::tolower(static_cast<unsigned char>(c));
+    if (ending == ".msh")
+      return read_msh(file_name);
+    if (ending != ".inp" && ending != ".vtk" && ending != ".geo" &&
+        ending != ".step" && ending != ".stp")
+      throw InputError("The mesh file '" + file_name +
+                       "' should end with .msh, .inp, .vtk, .geo, .step or "
+                       ".stp.");
+    if (!fs::exists(file_name))
+      throw InputError("The mesh file '" + file_name + "' does not exist.");
+    // Each process its own.
+    const std::string converted =
+      (fs::temp_directory_path() /
+       ("ricochet-" + std::to_string(getpid()) + ".msh"))
+        .string();
+    try
+      {
+        convert_to_gmsh_mesh(file_name, converted, dim, mesh_size);
+        CellNodes<dim>  nodes = read_msh(converted);
+        std::error_code error;
+        fs::remove(converted, error);
+        return nodes;
+      }
+    catch (const InputError &error)
+      {
+        std::error_code ignored;
+        fs::remove(converted, ignored);
+        throw InputError("The mesh file '" + file_name +
+                         "' cannot be taken: " + error.what());
+      }
+  }
+
+
   template CellNodes<2>
   read_gmsh_mesh(const std::string &, Triangulation<2> &);
   template CellNodes<3>
   read_gmsh_mesh(const std::string &, Triangulation<3> &);
+  template CellNodes<2>
+  read_any_mesh(const std::string &,
+                const double,
+                Triangulation<2> &,
+                std::map<std::string, types::boundary_id> &);
+  template CellNodes<3>
+  read_any_mesh(const std::string &,
+                const double,
+                Triangulation<3> &,
+                std::map<std::string, types::boundary_id> &);
 } // namespace Ricochet

@@ -7,6 +7,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <functional>
+#include <map>
 #include <string>
 
 namespace Ricochet
@@ -37,6 +38,41 @@ namespace Ricochet
   CellNodes<dim>
   read_gmsh_mesh(const std::string          &file_name,
                  dealii::Triangulation<dim> &triangulation);
+
+  /// The numbers of the physical groups of dimension @p dim by their names, from a file
+  /// that check_gmsh_file() has passed.
+  std::map<std::string, unsigned int>
+  physical_groups(const std::string &file_name, const unsigned int dim);
+
+  /**
+   * Have Gmsh read @p file_name, mesh it if it is a geometry, and write the mesh as
+   * @p msh_file (format 2.2). Without physical groups boundaries get the numbers that
+   * Gmsh has given to their curves or surfaces.
+   *
+   * @param mesh_size length of an element (m); 0 for what the file says.
+   * @throws InputError naming the file.
+   */
+  void
+  convert_to_gmsh_mesh(const std::string &file_name,
+                       const std::string &msh_file,
+                       const unsigned int dim,
+                       const double       mesh_size);
+
+  /**
+   * Read a mesh, or mesh a geometry, as convert_to_gmsh_mesh() does for what is not a
+   * .msh file.
+   *
+   * @param boundary_names gets the boundary ids by the names of physical groups.
+   * @return see read_gmsh_mesh().
+   * @throws InputError naming the file; also for an ending that is not known.
+   */
+  template <int dim>
+  CellNodes<dim>
+  read_any_mesh(
+    const std::string                                 &file_name,
+    const double                                       mesh_size,
+    dealii::Triangulation<dim>                        &triangulation,
+    std::map<std::string, dealii::types::boundary_id> &boundary_names);
 } // namespace Ricochet
 
 #endif

@@ -2,6 +2,7 @@
 #include <contact/obstacles/half_space.h>
 #include <base/exceptions.h>
 #include <contact/treatments/contact_sum.h>
+#include <contact/treatments/pair_contact.h>
 #include <discretization/boundary_load.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
@@ -9,7 +10,11 @@
 #include <problems/impact.h>
 #include <time_integration/mass_redistribution.h>
 
+#include <deal.II/base/function.h>
+#include <deal.II/dofs/dof_tools.h>
+
 #include <algorithm>
+#include <limits>
 
 
 namespace Ricochet
@@ -18,17 +23,97 @@ namespace Ricochet
 
   namespace
   {
-    /// The boundaries on which contact is formulated.
+    using BoundaryIds = std::set<types::boundary_id>;
+
+    /// All contacts of a set-up: those with the treatment of the @p parameters, and
+    /// those with their own.
     template <int dim>
-    typename Body<dim>::BoundaryIds
-    contact_ids(const ImpactSetup<dim> &setup)
+    std::vector<Contact>
+    contacts_of(const ContactParameters &parameters,
+                const ImpactSetup<dim>  &setup)
     {
-      typename Body<dim>::BoundaryIds ids;
-      for (const auto &obstacle : setup.obstacles)
+      std::vector<Contact> contacts;
+      if (!setup.obstacles.empty())
+        contacts.push_back({"", parameters, setup.obstacles});
+      if (!setup.pairs.empty())
+        contacts.push_back({"", parameters, {}, setup.pairs});
+      contacts.insert(contacts.end(),
+                      setup.contacts.begin(),
+                      setup.contacts.end());
+      return contacts;
+    }
+
+    /// The boundaries on which a contact is formulated.
+    BoundaryIds
+    contact_ids(const Contact &contact)
+    {
+      BoundaryIds ids;
+      for (const auto &obstacle : contact.obstacles)
         ids.insert(obstacle.first);
-      for (const ContactPair &pair : setup.pairs)
+      for (const ContactPair &pair : contact.pairs)
         ids.insert(pair.slave.begin(), pair.slave.end());
       return ids;
+    }
+
+    BoundaryIds
+    contact_ids(const std::vector<Contact> &contacts)
+    {
+      BoundaryIds all;
+      for (const Contact &contact : contacts)
+        {
+          const BoundaryIds ids = contact_ids(contact);
+          all.insert(ids.begin(), ids.end());
+        }
+      return all;
+    }
+
+    MultiplierSpace
+    multipliers_of(const Contact &contact)
+    {
+      return contact.is_between_bodies()
+        ? pair_multiplier_space(contact.parameters)
+        : multiplier_space(contact.parameters);
+    }
+
+    /// The space of the multipliers of all contacts.
+    MultiplierSpace
+    multipliers_of(const std::vector<Contact> &contacts)
+    {
+      MultiplierSpace all = MultiplierSpace::none;
+      for (const Contact &contact : contacts)
+        all = std::max(all, multipliers_of(contact));
+      if (all == MultiplierSpace::linear_vector)
+        for (const Contact &contact : contacts)
+          if (!contact.is_between_bodies() &&
+              multipliers_of(contact) != MultiplierSpace::none)
+            throw InputError(
+              "The treatment '" + contact.parameters.treatment +
+              "' of the contact '" + contact.name +
+              "' brings multipliers for a rigid obstacle, which cannot be "
+              "combined with those of another contact between bodies. Choose an "
+              "active set, penalty or normal compliance for it.");
+      return all;
+    }
+
+    BoundaryIds
+    ids_with_multipliers(const std::vector<Contact> &contacts)
+    {
+      std::vector<Contact> some;
+      for (const Contact &contact : contacts)
+        if (multipliers_of(contact) != MultiplierSpace::none)
+          some.push_back(contact);
+      return contact_ids(some);
+    }
+
+    /// The obstacles of all contacts, for output.
+    Obstacles
+    obstacles_of(const std::vector<Contact> &contacts)
+    {
+      Obstacles all;
+      for (unsigned int k = 0; k < contacts.size(); ++k)
+        for (const auto &[id, obstacle] : contacts[k].obstacles)
+          all[ContactSum::id_of(k, id)] = obstacle;
+      return all;
     }
 
     /// All boundaries that something is said about.
@@ -36,14 +121,18 @@ namespace Ricochet
     typename Body<dim>::BoundaryIds
     named_ids(const ImpactSetup<dim> &setup)
     {
-      typename Body<dim>::BoundaryIds ids = contact_ids(setup);
+      const std::vector<Contact>      contacts = contacts_of({}, setup);
+      typename Body<dim>::BoundaryIds ids      = contact_ids(contacts);
       ids.insert(setup.clamped.begin(), setup.clamped.end());
-      for (const ContactPair &pair : setup.pairs)
-        ids.insert(pair.master.begin(), pair.master.end());
+      for (const Contact &contact : contacts)
+        for (const ContactPair &pair : contact.pairs)
+          ids.insert(pair.master.begin(), pair.master.end());
       for (const auto &entry : setup.imposed)
         ids.insert(entry.first);
       for (const auto &entry : setup.tractions)
         ids.insert(entry.first);
+      for (const BoundarySprings<dim> &spring : setup.springs)
+        ids.insert(spring.boundary_id);
       return ids;
     }
 
@@ -57,27 +146,6 @@ namespace Ricochet
       return held;
     }
 
-    /// Where conditions meet, zero comes first, then the smaller boundary id.
-    template <int dim>
-    std::vector<typename Impact<dim>::Prescription>
-    make_prescriptions(const Body<dim> &body, const ImpactSetup<dim> &setup)
-    {
-      std::map<types::global_dof_index, typename Impact<dim>::Prescription> all;
-      for (const auto &[id, imposed] : setup.imposed)
-        for (unsigned int c = 0; c < dim; ++c)
-          if (imposed.components[c])
-            for (const auto unknown : body.boundary_displacements(id, c))
-              all.insert({unknown, {unknown, c, imposed.value}});
-      for (const auto id : setup.clamped)
-        for (unsigned int c = 0; c < dim; ++c)
-          for (const auto unknown : body.boundary_displacements(id, c))
-            all.erase(unknown);
-      std::vector<typename Impact<dim>::Prescription> list;
-      for (const auto &entry : all)
-        list.push_back(entry.second);
-      return list;
-    }
-
     template <int dim>
     bool
     is_moved(const ImpactSetup<dim> &setup)
@@ -86,6 +154,38 @@ namespace Ricochet
         if (entry.second.value)
           return true;
       return false;
+    }
+
+    /// Where conditions meet, zero comes first, then the smaller boundary id.
+    template <int dim>
+    std::vector<typename Impact<dim>::Prescription>
+    make_prescriptions(const Body<dim> &body, const ImpactSetup<dim> &setup)
+    {
+      std::map<types::global_dof_index, Point<dim>> places;
+      if (is_moved(setup))
+        {
+          std::map<types::global_dof_index, Point<dim>> points;
+          DoFTools::map_dofs_to_support_points(body.mapping(),
+                                               body.dof_handler(),
+                                               points);
+          for (const auto &[dof, place] : points)
+            places[body.system_index(dof)] = place;
+        }
+      std::map<types::global_dof_index, typename Impact<dim>::Prescription> all;
+      for (const auto &[id, imposed] : setup.imposed)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (imposed.components[c])
+            for (const auto unknown : body.boundary_displacements(id, c))
+              all.insert(
+                {unknown, {unknown, c, places[unknown], imposed.value}});
+      for (const auto id : setup.clamped)
+        for (unsigned int c = 0; c < dim; ++c)
+          for (const auto unknown : body.boundary_displacements(id, c))
+            all.erase(unknown);
+      std::vector<typename Impact<dim>::Prescription> list;
+      for (const auto &entry : all)
+        list.push_back(entry.second);
+      return list;
     }
 
     template <int dim>
@@ -168,10 +268,39 @@ namespace Ricochet
       return weight;
     }
 
+    /// Set the entries of @p result that belong to part @p p to those of @p field.
+    void
+    copy_part(const unsigned int               p,
+              const std::vector<unsigned int> &part_of_unknown,
+              const Vector                    &field,
+              Vector                          &result)
+    {
+      // Nodes of parts that touch are in one place and move differently.
+      for (unsigned int i = 0; i < part_of_unknown.size(); ++i)
+        if (part_of_unknown[i] == p)
+          result.trilinos_vector()[0][i] = field.trilinos_vector()[0][i];
+    }
+
+    template <int dim>
+    Vector
+    interpolated(
+      const Body<dim>                                              &body,
+      const std::function<Tensor<1, dim>(const Point<dim> &place)> &function)
+    {
+      std::vector<std::function<double(const Point<dim> &)>> components;
+      for (unsigned int c = 0; c < dim; ++c)
+        components.emplace_back([&function, c](const Point<dim> &place) {
+          return function(place)[c];
+        });
+      Vector result;
+      body.interpolate(FunctionFromFunctionObjects<dim>(components), result);
+      return result;
+    }
+
     template <int dim>
     std::unique_ptr<BulkOperator>
-    make_bulk(const Body<dim>                  &body,
-              const std::vector<Material<dim>> &materials)
+    make_body_bulk(const Body<dim>                  &body,
+                   const std::vector<Material<dim>> &materials)
     {
       // Each cell has a material.
       body.parts_of_unknowns(materials.size());
@@ -182,11 +311,35 @@ namespace Ricochet
     }
 
     template <int dim>
-    std::unique_ptr<ContactOperator>
-    make_contact_on_cut_faces(const ImpactParameters &parameters,
-                              const Body<dim>        &body,
-                              const ImpactSetup<dim> &setup)
+    std::unique_ptr<BulkOperator>
+    make_bulk(const Body<dim>        &body,
+              const ImpactSetup<dim> &setup,
+              const std::string      &scheme)
     {
+      const std::vector<Material<dim>> materials = materials_of(setup);
+      auto                             bulk = make_body_bulk(body, materials);
+      if (setup.springs.empty())
+        return bulk;
+      for (const BoundarySprings<dim> &spring : setup.springs)
+        if (spring.damping > 0. && !scheme_traits(scheme).contact_over_step)
+          throw InputError(
+            "Dashpots cannot be combined with the time scheme '" + scheme +
+            "'.\nAllowed with them: midpoint, over whose steps "
+            "they never make energy.");
+      return std::make_unique<BulkOnSprings<dim>>(body,
+                                                  std::move(bulk),
+                                                  setup.springs,
+                                                  materials.size());
+    }
+
+    template <int dim>
+    std::unique_ptr<ContactOperator>
+    make_contact_on_cut_faces(const ImpactParameters     &parameters,
+                              const Body<dim>            &body,
+                              const ImpactSetup<dim>     &setup,
+                              const std::vector<Contact> &contacts)
+    {
+      const Contact             &contact = contacts.back();
       std::vector<LinearElastic> materials;
       for (const Material<dim> &material : materials_of(setup))
         {
@@ -196,93 +349,162 @@ namespace Ricochet
               "displacements are small. For others take points or mortar.");
           materials.push_back(*material.linear);
         }
-      if (!setup.obstacles.empty())
+      if (contacts.size() > 1)
         throw InputError(
           "Contact/Coupling = cut faces cannot be combined with "
-          "rigid obstacles.");
+          "rigid obstacles or other contacts.");
       if (setup.degree > 1)
         throw InputError(
           "Contact/Coupling = cut faces needs displacements of degree 1.");
-      for (const ContactPair &pair : setup.pairs)
+      for (const ContactPair &pair : contact.pairs)
         if (pair.is_self)
           throw InputError(
             "A surface that may touch itself goes with Contact/Coupling = points "
             "only.");
       if constexpr (dim == 2)
-        return make_cut_face_contact(parameters.contact,
+        return make_cut_face_contact(contact.parameters,
                                      scheme_traits(parameters.scheme.name),
                                      body,
                                      materials,
-                                     setup.pairs);
+                                     contact.pairs);
       else
         throw InputError("Contact/Coupling = cut faces is there in 2D only.");
     }
 
     template <int dim>
     std::unique_ptr<ContactOperator>
-    make_any_contact(const ImpactParameters &parameters,
+    make_one_contact(const ImpactParameters &parameters,
                      const Body<dim>        &body,
-                     const ImpactSetup<dim> &setup)
+                     const ImpactSetup<dim> &setup,
+                     const Contact          &contact)
     {
       const SchemeTraits &scheme = scheme_traits(parameters.scheme.name);
-      const auto          with_obstacles = [&]() {
-        return make_contact(parameters.contact,
-                            scheme,
-                            body,
-                            setup.material.linear
-                                       ? LinearStress<dim>(*setup.material.linear)
-                                       : LinearStress<dim>(),
-                            setup.obstacles);
-      };
-      if (setup.pairs.empty())
-        return with_obstacles();
-      check_pair_combination(parameters.contact,
-                             scheme,
-                             setup.pairs.front().is_self);
-      if (parameters.contact.coupling == "cut faces")
-        return make_contact_on_cut_faces(parameters, body, setup);
-      auto between = make_pair_contact(parameters.contact, body, setup.pairs);
-      if (setup.obstacles.empty())
-        return between;
-      // Multipliers are where surfaces touch each other.
-      if (body.has_multipliers())
-        for (const auto &obstacle : setup.obstacles)
-          if (std::none_of(setup.pairs.begin(),
-                           setup.pairs.end(),
-                           [&](const ContactPair &pair) {
-                             return pair.slave.count(obstacle.first) > 0;
-                           }))
-            throw InputError(
-              "With constraints between surfaces a boundary that can touch a "
-              "rigid obstacle has to be a slave, too; the boundary " +
-              std::to_string(obstacle.first) + " is not.");
-      return std::make_unique<ContactSum<dim>>(with_obstacles(),
-                                               std::move(between),
-                                               body.communicator);
+      if (contact.is_between_bodies())
+        {
+          check_pair_combination(contact.parameters,
+                                 scheme,
+                                 contact.pairs.front().is_self);
+          return make_pair_contact(contact.parameters, body, contact.pairs);
+        }
+      const Material<dim> material = materials_of(setup)[contact.part];
+      return make_contact(contact.parameters,
+                          scheme,
+                          body,
+                          material.linear ? LinearStress<dim>(*material.linear)
+                                          : LinearStress<dim>(),
+                          contact.obstacles);
     }
 
-    /// What @p setup adds to the external loads, but for the weight.
+    /// A node can be held by one constraint against obstacles and by one between
+    /// bodies. @throws InputError
+    template <int dim>
+    void
+    check_shared_nodes(const Body<dim>            &body,
+                       const std::vector<Contact> &contacts)
+    {
+      const auto nodes_of = [&](const Contact &contact) {
+        IndexSet nodes(body.owned_indices().size());
+        for (const auto id : contact_ids(contact))
+          nodes.add_indices(body.boundary_displacements(id, 0));
+        return nodes;
+      };
+      for (unsigned int j = 0; j < contacts.size(); ++j)
+        for (unsigned int i = 0; i < j; ++i)
+          {
+            const Contact &a = contacts[i], &b = contacts[j];
+            if (a.is_between_bodies() != b.is_between_bodies() ||
+                !is_constraint(a.parameters) || !is_constraint(b.parameters))
+              continue;
+            const bool shared = (nodes_of(a) & nodes_of(b)).n_elements() > 0;
+            if (Utilities::MPI::max(shared ? 1 : 0, body.communicator) == 1)
+              throw InputError(
+                "The contacts '" + a.name + "' and '" + b.name +
+                "' are constraints on the same nodes, which can follow one of "
+                "them only. " +
+                (a.is_between_bodies()
+                   ? "Name all surfaces in one contact, make another surface "
+                     "the first one of it, or take a law for one of them: "
+                   : "Take a law for one of them: ") +
+                names_of_laws() + ".");
+          }
+    }
+
+    template <int dim>
+    std::unique_ptr<ContactOperator>
+    make_any_contact(const ImpactParameters     &parameters,
+                     const Body<dim>            &body,
+                     const ImpactSetup<dim>     &setup,
+                     const std::vector<Contact> &contacts)
+    {
+      if (contacts.empty())
+        return make_one_contact(parameters,
+                                body,
+                                setup,
+                                {"", parameters.contact});
+      if (contacts.back().is_between_bodies() &&
+          contacts.back().parameters.coupling == "cut faces")
+        return make_contact_on_cut_faces(parameters, body, setup, contacts);
+      check_shared_nodes(body, contacts);
+      std::vector<std::unique_ptr<ContactOperator>> operators;
+      for (const Contact &contact : contacts)
+        operators.push_back(make_one_contact(parameters, body, setup, contact));
+      if (operators.size() == 1)
+        return std::move(operators.front());
+      return std::make_unique<ContactSum>(std::move(operators));
+    }
+
+    /// All external loads of @p setup (N).
     template <int dim>
     SemiDiscreteSystem::Load
-    make_load(const Body<dim> &body, const ImpactSetup<dim> &setup)
+    make_load(const Body<dim>        &body,
+              const Matrix           &mass,
+              const Vector           &weight,
+              const ImpactSetup<dim> &setup)
     {
-      if (setup.tractions.empty())
-        return setup.load;
-      struct Term
-      {
-        Vector                                              shape;
-        unsigned int                                        component;
-        std::function<dealii::Tensor<1, dim>(const double)> traction;
-      };
-      std::vector<Term> terms;
+      std::vector<SemiDiscreteSystem::Load> terms;
+      if (setup.load)
+        terms.push_back(setup.load);
       for (const auto &[id, traction] : setup.tractions)
-        for (unsigned int c = 0; c < dim; ++c)
-          terms.push_back({boundary_load(body, id, c), c, traction});
-      return [terms, load = setup.load](const double time, Vector &result) {
-        if (load)
-          load(time, result);
-        for (const Term &term : terms)
-          result.add(term.traction(time)[term.component], term.shape);
+        terms.push_back(boundary_load(body, id, traction));
+      const bool any = std::any_of(setup.parts.begin(),
+                                   setup.parts.end(),
+                                   [](const Part<dim> &part) {
+                                     return bool(part.acceleration);
+                                   });
+      if (any)
+        terms.push_back([&body,
+                         &mass,
+                         parts   = setup.parts,
+                         part_of = body.parts_of_unknowns(setup.parts.size()),
+                         time_known = std::numeric_limits<double>::quiet_NaN(),
+                         known      = body.make_vector()](const double time,
+                                                     Vector &result) mutable {
+          if (time != time_known)
+            {
+              Vector field = body.make_vector();
+              for (unsigned int p = 0; p < parts.size(); ++p)
+                if (parts[p].acceleration)
+                  copy_part(p,
+                            part_of,
+                            interpolated<dim>(
+                              body,
+                              [&](const Point<dim> &place) {
+                                return parts[p].acceleration(time, place);
+                              }),
+                            field);
+              mass.vmult(known, field);
+              time_known = time;
+            }
+          result += known;
+        });
+      if (setup.gravity != Tensor<1, dim>())
+        terms.push_back(
+          [&weight](const double, Vector &result) { result += weight; });
+      if (terms.empty())
+        return {};
+      return [terms](const double time, Vector &result) {
+        for (const SemiDiscreteSystem::Load &term : terms)
+          term(time, result);
       };
     }
   } // namespace
@@ -297,22 +519,22 @@ namespace Ricochet
     : body(with_boundaries(triangulation, named_ids(setup), communicator),
            setup.degree,
            setup.clamped,
-           contact_ids(setup),
-           setup.pairs.empty() ? multiplier_space(parameters.contact)
-                               : pair_multiplier_space(parameters.contact),
+           contact_ids(contacts_of(parameters.contact, setup)),
+           multipliers_of(contacts_of(parameters.contact, setup)),
            communicator,
            held_components(setup),
-           setup.geometry.get())
-    , bulk(make_bulk(body, materials_of(setup)))
+           setup.geometry.get(),
+           ids_with_multipliers(contacts_of(parameters.contact, setup)))
+    , bulk(make_bulk(body, setup, parameters.scheme.name))
     , consistent_mass(assemble_mass_matrix(body, densities_of(setup)))
     , redistributed_mass(
         parameters.redistributed_mass()
           ? std::make_unique<Matrix>(redistribute_mass(body, consistent_mass))
           : nullptr)
-    , obstacles(setup.obstacles)
-    , pairs(setup.pairs)
+    , contacts(contacts_of(parameters.contact, setup))
+    , obstacles(obstacles_of(contacts))
     , parts(setup.parts)
-    , contact(make_any_contact(parameters, body, setup))
+    , contact(make_any_contact(parameters, body, setup, contacts))
     , weight(weight_of(body, consistent_mass, setup.gravity))
     , prescriptions(make_prescriptions(body, setup))
     , system(redistributed_mass ? *redistributed_mass : consistent_mass,
@@ -331,18 +553,11 @@ namespace Ricochet
               is_moved(setup) ? [this](const double time,
                                        Vector &vector) { impose(time, vector); }
                               : std::function<void(const double, Vector &)>(),
-              [this, step = 1e-3 * parameters.time.time_step](
-                const double time, Vector &vector) {
+              [this, step = 1e-3 * parameters.time.time_step](const double time,
+                                                              Vector &vector) {
                 impose_rate(time, step, vector);
               }},
-             setup.gravity == Tensor<1, dim>()
-               ? make_load(body, setup)
-               : [this, load = make_load(body, setup)](const double time,
-                                                       Vector &result) {
-                   if (load)
-                     load(time, result);
-                   result += weight;
-                 },
+             make_load(body, consistent_mass, weight, setup),
              parameters.newton,
              parameters.linear_solver)
     , scheme(make_time_scheme(parameters.scheme))
@@ -366,7 +581,7 @@ namespace Ricochet
   {
     for (const Prescription &prescription : prescriptions)
       vector(prescription.unknown) = prescription.value
-        ? prescription.value(time)[prescription.component]
+        ? prescription.value(time, prescription.place)[prescription.component]
         : 0.;
     vector.compress(VectorOperation::insert);
   }
@@ -381,12 +596,17 @@ namespace Ricochet
   {
     // A motion need not be known before it begins.
     for (const Prescription &prescription : prescriptions)
-      vector(prescription.unknown) = prescription.value
-        ? ((-1.5 * prescription.value(time) +
-            2. * prescription.value(time + step) -
-            .5 * prescription.value(time + 2. * step)) /
-           step)[prescription.component]
-        : 0.;
+      {
+        const auto value = [&](const double t) {
+          return prescription.value(t,
+                                    prescription.place)[prescription.component];
+        };
+        vector(prescription.unknown) = prescription.value
+          ? (-1.5 * value(time) + 2. * value(time + step) -
+             .5 * value(time + 2. * step)) /
+            step
+          : 0.;
+      }
     vector.compress(VectorOperation::insert);
   }
 
@@ -425,16 +645,30 @@ namespace Ricochet
   State
   Impact<dim>::state_of_parts()
   {
-    // Nodes of parts that touch are in one place and move differently.
     const std::vector<unsigned int> part_of =
       body.parts_of_unknowns(parts.size());
     Vector start = body.make_vector();
     for (unsigned int p = 0; p < parts.size(); ++p)
       {
-        const Vector velocity = uniform(parts[p].velocity);
-        for (unsigned int i = 0; i < part_of.size(); ++i)
-          if (part_of[i] == p)
-            start.trilinos_vector()[0][i] = velocity.trilinos_vector()[0][i];
+        const Part<dim> &part = parts[p];
+        // Of one that does not spin the same everywhere, to the last digit.
+        copy_part(p,
+                  part_of,
+                  part.spin == Tensor<1, 3>()
+                    ? uniform(part.velocity)
+                    : interpolated<dim>(body,
+                                        [&](const Point<dim> &place) {
+                                          Tensor<1, dim> result = part.velocity;
+                                          const Tensor<1, 3> turning =
+                                            cross_product_3d(
+                                              part.spin,
+                                              in_space<dim>(place) -
+                                                in_space<dim>(part.centre));
+                                          for (unsigned int c = 0; c < dim; ++c)
+                                            result[c] += turning[c];
+                                          return result;
+                                        }),
+                  start);
       }
     return state_with(start);
   }
@@ -445,8 +679,14 @@ namespace Ricochet
   State
   Impact<dim>::state_with(const Vector &velocity)
   {
-    check_clearance(body, obstacles);
-    check_clearance(body, pairs);
+    for (const Contact &own : contacts)
+      {
+        check_clearance(body,
+                        own.obstacles,
+                        own.name,
+                        /* only what may touch */ !own.name.empty());
+        check_clearance(body, own.pairs);
+      }
     return system.initial_state(uniform(Tensor<1, dim>()),
                                 velocity,
                                 /* time */ 0.);

@@ -3,6 +3,7 @@
 #define ricochet_problems_impact_h
 
 #include <discretization/body.h>
+#include <discretization/boundary_springs.h>
 #include <discretization/bulk_operator.h>
 #include <materials/material.h>
 #include <problems/impact_parameters.h>
@@ -11,6 +12,12 @@
 
 namespace Ricochet
 {
+  /// A vector that depends on the time (s) and on the place in the undeformed body (m).
+  template <int dim>
+  using VectorField =
+    std::function<dealii::Tensor<1, dim>(const double              time,
+                                         const dealii::Point<dim> &place)>;
+
   /// One of several bodies in one mesh: the cells whose material id is its number.
   template <int dim>
   struct Part
@@ -19,8 +26,15 @@ namespace Ricochet
     Material<dim> material;
     /// kg/m^dim
     double density = 1.;
-    /// At the start (m/s).
+    /// At the start, of the point #centre (m/s).
     dealii::Tensor<1, dim> velocity = {};
+    /// Angular velocity at the start (rad/s); in 2D the third component is the only
+    /// one.
+    dealii::Tensor<1, 3> spin = {};
+    /// The point about which it spins (m).
+    dealii::Point<dim> centre = {};
+    /// Force per mass (m/s^2) beside that of gravity; empty for none.
+    VectorField<dim> acceleration = {};
   };
 
   /// A displacement that is prescribed on a part of the boundary.
@@ -29,9 +43,27 @@ namespace Ricochet
   {
     /// Which components.
     std::array<bool, dim> components{};
-    /// Displacement (m) at a time (s), whose other components do not matter; zero if
-    /// empty.
-    std::function<dealii::Tensor<1, dim>(const double time)> value;
+    /// Displacement (m), whose other components do not matter; zero if empty.
+    VectorField<dim> value;
+  };
+
+  /// One of several contacts, each with a treatment of its own.
+  struct Contact
+  {
+    std::string       name;
+    ContactParameters parameters;
+    /// The obstacle of each boundary that takes part; or
+    Obstacles obstacles = {};
+    /// surfaces that may touch each other or themselves.
+    std::vector<ContactPair> pairs = {};
+    /// Of contact with obstacles, the part whose stress Nitsche's method takes.
+    unsigned int part = 0;
+
+    bool
+    is_between_bodies() const
+    {
+      return !pairs.empty();
+    }
   };
 
   /// What is to hit what.
@@ -46,7 +78,7 @@ namespace Ricochet
     unsigned int degree = 1;
     /// Boundary ids with zero displacement.
     typename Body<dim>::BoundaryIds clamped = {};
-    /// The obstacle of each contact boundary.
+    /// The obstacle of each contact boundary, with the treatment of the parameters.
     Obstacles obstacles = {};
     /// Acceleration of gravity (m/s^2).
     dealii::Tensor<1, dim> gravity = {};
@@ -55,14 +87,16 @@ namespace Ricochet
 
     /// Several bodies, with as many material ids; empty for one.
     std::vector<Part<dim>> parts = {};
-    /// Surfaces that may touch each other or themselves.
+    /// Surfaces that may touch each other or themselves, with that treatment.
     std::vector<ContactPair> pairs = {};
+    /// Contacts with treatments of their own.
+    std::vector<Contact> contacts = {};
     /// Prescribed displacements, by boundary id.
     std::map<dealii::types::boundary_id, ImposedDisplacement<dim>> imposed = {};
-    /// Tractions on the undeformed boundary (Pa) at a time (s), by boundary id.
-    std::map<dealii::types::boundary_id,
-             std::function<dealii::Tensor<1, dim>(const double time)>>
-      tractions = {};
+    /// Tractions on the undeformed boundary (Pa), by boundary id.
+    std::map<dealii::types::boundary_id, VectorField<dim>> tractions = {};
+    /// What parts of the boundary are held by.
+    std::vector<BoundarySprings<dim>> springs = {};
     /// The geometry of curved cells (see curved_geometry.h), with degree 2; null for
     /// cells with straight edges.
     std::shared_ptr<const dealii::Mapping<dim>> geometry = {};
@@ -88,20 +122,23 @@ namespace Ricochet
     const std::unique_ptr<BulkOperator> bulk;
     const Matrix                        consistent_mass;
     /// Null with the consistent mass.
-    const std::unique_ptr<const Matrix>    redistributed_mass;
+    const std::unique_ptr<const Matrix> redistributed_mass;
+    /// All contacts, in the order of ContactSum.
+    const std::vector<Contact> contacts;
+    /// The obstacles of all of them; of several contacts by ContactSum::id_of().
     const Obstacles                        obstacles;
-    const std::vector<ContactPair>         pairs;
     const std::vector<Part<dim>>           parts;
     const std::unique_ptr<ContactOperator> contact;
     /// The weight of the body (N).
     const Vector weight;
-    /// What the prescribed unknowns are prescribed by: component and value, none
-    /// for zero.
+    /// What the prescribed unknowns are prescribed by: component, place and value,
+    /// none for zero.
     struct Prescription
     {
-      dealii::types::global_dof_index                     unknown;
-      unsigned int                                        component;
-      std::function<dealii::Tensor<1, dim>(const double)> value;
+      dealii::types::global_dof_index unknown;
+      unsigned int                    component;
+      dealii::Point<dim>              place;
+      VectorField<dim>                value;
     };
     const std::vector<Prescription>   prescriptions;
     SemiDiscreteSystem                system;
@@ -131,7 +168,7 @@ namespace Ricochet
     State
     state_in_motion(const dealii::Function<dim> &velocity);
 
-    /// The same with each part in flight with its own velocity.
+    /// The same with each part in flight with its own velocity and spin.
     State
     state_of_parts();
 

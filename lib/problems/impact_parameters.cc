@@ -11,6 +11,14 @@ namespace Ricochet
   ImpactParameters::add_parameters(ParameterHandler &parameters)
   {
     contact.add_parameters(parameters);
+    add_parameters_without_contact(parameters);
+  }
+
+
+
+  void
+  ImpactParameters::add_parameters_without_contact(ParameterHandler &parameters)
+  {
     scheme.add_parameters(parameters);
     time.add_parameters(parameters);
     newton.add_parameters(parameters);
@@ -38,6 +46,14 @@ namespace Ricochet
                       redistributed_mass(),
                       linear_material,
                       viscous);
+    validate_times();
+  }
+
+
+
+  void
+  ImpactParameters::validate_times() const
+  {
     if (time.final_time > 1e8 * time.time_step)
       throw InputError("The final time " + to_text(time.final_time) +
                        " s is more than 1e8 time steps of " +
@@ -54,7 +70,18 @@ namespace Ricochet
   ImpactParameters::unused_parameters() const
   {
     std::vector<UnusedParameter> unused = contact.unused_parameters();
-    const auto                   need   = [&](const std::string &name,
+    const auto                   more   = unused_parameters_of_scheme();
+    unused.insert(unused.end(), more.begin(), more.end());
+    return unused;
+  }
+
+
+
+  std::vector<UnusedParameter>
+  ImpactParameters::unused_parameters_of_scheme() const
+  {
+    std::vector<UnusedParameter> unused;
+    const auto                   need = [&](const std::string &name,
                           const std::string &scheme_name) {
       if (scheme.name != scheme_name)
         unused.push_back({"Time/" + name,

@@ -26,6 +26,10 @@ namespace Ricochet
     void
     add_parameters(dealii::ParameterHandler &parameters);
 
+    /// All but those of contact.
+    void
+    add_parameters_without_contact(dealii::ParameterHandler &parameters);
+
     /// Refuse combinations without meaning. @param linear_material the body is
     /// linear elastic. @param viscous it is viscous. @throws InputError
     void
@@ -35,6 +39,14 @@ namespace Ricochet
     /// The parameters that have no effect with the others as they are.
     std::vector<UnusedParameter>
     unused_parameters() const;
+
+    /// Those of the time scheme only.
+    std::vector<UnusedParameter>
+    unused_parameters_of_scheme() const;
+
+    /// Refuse steps that do not go with the final time. @throws InputError
+    void
+    validate_times() const;
 
     /// Refuse what does not fit into memory: SizeLimit::check() for the number
     /// of steps of the run.

@@ -388,7 +388,8 @@ namespace Ricochet
   template <int dim>
   void
   join_parts(const std::vector<const Triangulation<dim> *> &bodies,
-             Triangulation<dim>                            &triangulation)
+             Triangulation<dim>                            &triangulation,
+             const bool                                     keep_material_ids)
   {
     std::vector<Point<dim>>    points;
     std::vector<CellData<dim>> cells;
@@ -401,7 +402,7 @@ namespace Ricochet
         for (const auto &cell : bodies[p]->active_cell_iterators())
           {
             CellData<dim> data(cell->n_vertices());
-            data.material_id = p;
+            data.material_id = keep_material_ids ? cell->material_id() : p;
             for (const unsigned int v : cell->vertex_indices())
               data.vertices[v] = first + cell->vertex_index(v);
             cells.push_back(data);
@@ -424,7 +425,11 @@ namespace Ricochet
 
 
   template void
-  join_parts(const std::vector<const Triangulation<2> *> &, Triangulation<2> &);
+  join_parts(const std::vector<const Triangulation<2> *> &,
+             Triangulation<2> &,
+             const bool);
   template void
-  join_parts(const std::vector<const Triangulation<3> *> &, Triangulation<3> &);
+  join_parts(const std::vector<const Triangulation<3> *> &,
+             Triangulation<3> &,
+             const bool);
 } // namespace Ricochet

@@ -52,11 +52,14 @@ namespace Ricochet
    * Bodies that are meshed already, side by side. Part p is @p bodies[p]; its boundary
    * ids stay what they are, its vertices come after those of the parts before. Meshes
    * must not be refined.
+   *
+   * @param keep_material_ids where bodies know already which part their cells are.
    */
   template <int dim>
   void
   join_parts(const std::vector<const dealii::Triangulation<dim> *> &bodies,
-             dealii::Triangulation<dim> &triangulation);
+             dealii::Triangulation<dim> &triangulation,
+             const bool                  keep_material_ids = false);
 
   /// A stent below the wall of an artery, with lengths in mm: see
   /// make_stent_artery().

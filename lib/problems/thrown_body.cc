@@ -116,7 +116,7 @@ namespace Ricochet
         for (const auto &[id, name] : self_contact)
           {
             ids.insert(id);
-            contacts[ContactSum<2>::id_between_surfaces(id)] = name;
+            contacts[ContactSum::id_of(/* between surfaces */ 1, id)] = name;
           }
         setup.pairs.push_back(touching_itself(ids));
       }

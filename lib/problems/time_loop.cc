@@ -65,57 +65,95 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    std::vector<std::pair<std::string, std::vector<types::boundary_id>>>
+    boundaries_by_name(const std::map<types::boundary_id, std::string> &names)
+    {
+      std::vector<std::pair<std::string, std::vector<types::boundary_id>>> list;
+      for (const auto &[id, name] : names)
+        {
+          const auto known = std::find_if(list.begin(),
+                                          list.end(),
+                                          [&name = name](const auto &entry) {
+                                            return entry.first == name;
+                                          });
+          if (known == list.end())
+            list.push_back({name, {id}});
+          else
+            known->second.push_back(id);
+        }
+      return list;
+    }
+  } // namespace
+
+
+
   TimeLoop::TimeLoop(
     const Parameters                                        &parameters,
     RunFolder                                               &folder,
     SemiDiscreteSystem                                      &system,
     TimeScheme                                              &scheme,
-    const std::map<dealii::types::boundary_id, std::string> &contact_names)
+    const std::map<dealii::types::boundary_id, std::string> &contact_names,
+    const Units                                             &units)
     : parameters(parameters)
     , folder(folder)
     , system(system)
     , scheme(scheme)
-    , contact_names(contact_names)
+    , contact_names(boundaries_by_name(contact_names))
+    , units(units)
     , ledger(folder)
   {
-    ledger.add_column("time", "s");
-    ledger.add_column("kinetic_energy", "J");
-    ledger.add_column("elastic_energy", "J");
-    ledger.add_column("energy", "J");
-    ledger.add_column("modified_energy",
-                      "J",
-                      /* may be empty */ !system.contact.has_modified_energy());
-    ledger.add_column("external_work", "J");
-    ledger.add_column("contact_work", "J");
-    ledger.add_column("friction_work", "J");
-    ledger.add_column("viscous_dissipation", "J");
-    ledger.add_column("numerical_dissipation", "J");
+    const auto add = [this](const std::string &name,
+                            const std::string &unit,
+                            const bool         may_be_empty = false) {
+      ledger.add_column(name, this->units.name(unit), may_be_empty);
+    };
+    add("time", "s");
+    add("kinetic_energy", "J");
+    add("elastic_energy", "J");
+    add("energy", "J");
+    add("modified_energy",
+        "J",
+        /* may be empty */ !system.contact.has_modified_energy());
+    add("external_work", "J");
+    add("contact_work", "J");
+    add("friction_work", "J");
+    add("viscous_dissipation", "J");
+    add("numerical_dissipation", "J");
     if (system.contact.has_moving_obstacles())
-      ledger.add_column("obstacle_work", "J");
+      add("obstacle_work", "J");
     if (system.has_imposed_displacements())
-      ledger.add_column("imposed_work", "J");
-    ledger.add_column("balance_residual", "1");
-    ledger.add_column("newton_iterations", "1");
-    ledger.add_column("linear_solves", "1");
-    ledger.add_column("step_halvings", "1");
-    for (const auto &[id, name] : contact_names)
+      add("imposed_work", "J");
+    add("balance_residual", "1");
+    add("newton_iterations", "1");
+    add("linear_solves", "1");
+    add("step_halvings", "1");
+    for (const auto &[name, ids] : this->contact_names)
       {
         const bool may_be_empty = system.contact.gaps_may_be_unknown();
-        ledger.add_column("mean_gap_" + name, "m", may_be_empty);
-        ledger.add_column("smallest_gap_" + name, "m", may_be_empty);
-        ledger.add_column("penetration_" + name, "m");
-        ledger.add_column("contact_force_" + name, "N");
-        ledger.add_column("contact_pressure_" + name, "Pa");
+        add("mean_gap_" + name, "m", may_be_empty);
+        add("smallest_gap_" + name, "m", may_be_empty);
+        add("penetration_" + name, "m");
+        add("contact_force_" + name, "N");
+        add("contact_pressure_" + name, "Pa");
         if (system.contact.knows_stress_pressure())
-          ledger.add_column("stress_pressure_" + name, "Pa");
-        ledger.add_column("active_points_" + name, "1");
+          add("stress_pressure_" + name, "Pa");
+        add("active_points_" + name, "1");
       }
     if (system.contact.knows_work_of_contacts())
-      for (const auto &contact : contact_names)
+      for (const auto &contact : this->contact_names)
         {
-          const auto &[id, name] = contact;
-          const auto work_of     = [this, id = id]() {
-            return this->system.contact.contact_work(id);
+          const auto &[name, ids] = contact;
+          const auto work_of      = [this, ids = ids]() {
+            ContactWork sum;
+            for (const auto id : ids)
+              {
+                const ContactWork work = this->system.contact.contact_work(id);
+                sum.normal += work.normal;
+                sum.friction += work.friction;
+              }
+            return sum;
           };
           add_sum("normal_work_" + name,
                   "J",
@@ -137,7 +175,7 @@ namespace Ricochet
                        const std::string                          &unit,
                        const std::function<double(const State &)> &value)
   {
-    ledger.add_column(name, unit);
+    ledger.add_column(name, units.name(unit));
     own_columns.push_back(value);
   }
 
@@ -169,17 +207,21 @@ namespace Ricochet
           scheme.step(system, old_state, time_step, new_state);
         if (obstacle_work && system.contact.has_moving_obstacles())
           {
-            // What surfaces of bodies do to each other is not the obstacles' work.
-            Vector force(new_state.contact_force);
-            force -= new_state.force_between_surfaces;
+            const auto forces_of = [](const State &state) {
+              return state.contact_shares.empty()
+                ? std::vector<Vector>{state.contact_force}
+                : state.contact_shares;
+            };
+            std::vector<Vector> forces = forces_of(new_state);
             if (!scheme.contact_force_is_of_step())
               {
-                force.sadd(.5, .5, old_state.contact_force);
-                force.add(-.5, old_state.force_between_surfaces);
+                const std::vector<Vector> old_forces = forces_of(old_state);
+                for (unsigned int k = 0; k < forces.size(); ++k)
+                  forces[k].sadd(.5, .5, old_forces[k]);
               }
             report.obstacle_work = obstacle_work(old_state.solution,
                                                  new_state.solution,
-                                                 force,
+                                                 forces,
                                                  old_state.time,
                                                  new_state.time);
           }
@@ -206,9 +248,8 @@ namespace Ricochet
     if (scheme.contact_force_is_of_step())
       {
         new_state.contact_force.sadd(.5, .5, middle.contact_force);
-        new_state.force_between_surfaces.sadd(.5,
-                                              .5,
-                                              middle.force_between_surfaces);
+        for (unsigned int k = 0; k < new_state.contact_shares.size(); ++k)
+          new_state.contact_shares[k].sadd(.5, .5, middle.contact_shares[k]);
       }
     return report;
   }
@@ -290,14 +331,13 @@ namespace Ricochet
                 static_cast<double>(report.newton_iterations),
                 static_cast<double>(report.linear_solves),
                 static_cast<double>(sums.n_halvings)});
-    const auto summaries =
-      system.contact.summary({state.solution,
-                              state.contact_force,
-                              state.time,
-                              &state.force_between_surfaces});
+    const auto summaries = system.contact.summary(
+      {state.solution, state.contact_force, state.time, &state.contact_shares});
     for (const auto &entry : contact_names)
       {
-        const ContactSummary &contact = summaries.at(entry.first);
+        ContactSummary contact = summaries.at(entry.second.front());
+        for (unsigned int k = 1; k < entry.second.size(); ++k)
+          contact.unite(summaries.at(entry.second[k]));
         row.insert(row.end(),
                    {contact.mean_gap,
                     contact.smallest_gap,
@@ -341,8 +381,8 @@ namespace Ricochet
     double force = 0., active = 0.;
     for (const auto &entry : contact_names)
       {
-        force += value("contact_force_" + entry.second);
-        active += value("active_points_" + entry.second);
+        force += value("contact_force_" + entry.first);
+        active += value("active_points_" + entry.first);
       }
     char modified_energy[40] = "-";
     if (system.contact.has_modified_energy())

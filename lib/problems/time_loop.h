@@ -3,6 +3,7 @@
 #define ricochet_problems_time_loop_h
 
 #include <base/run_folder.h>
+#include <base/units.h>
 #include <output/energy_ledger.h>
 #include <time_integration/time_scheme.h>
 
@@ -40,14 +41,16 @@ namespace Ricochet
 
     /**
      * @param contact_names names of the contact boundaries for the columns of
-     * the ledger.
+     * the ledger; those with the same name are told of together.
+     * @param units of the ledger.
      */
     TimeLoop(
       const Parameters                                        &parameters,
       RunFolder                                               &folder,
       SemiDiscreteSystem                                      &system,
       TimeScheme                                              &scheme,
-      const std::map<dealii::types::boundary_id, std::string> &contact_names);
+      const std::map<dealii::types::boundary_id, std::string> &contact_names,
+      const Units                                             &units = {});
 
     /// Add a column of the benchmark's own to the ledger.
     void
@@ -67,12 +70,14 @@ namespace Ricochet
     std::function<void(const State &, const unsigned int)> write_fields;
 
     /// Where obstacles move, what they do to the body from one state to the next,
-    /// see ObstacleWork; the column obstacle_work is zero without.
-    std::function<double(const Vector &old_solution,
-                         const Vector &new_solution,
-                         const Vector &contact_force,
-                         const double  begin,
-                         const double  end)>
+    /// see ObstacleWork; the column obstacle_work is zero without. The contact
+    /// forces are the means over the step of each of several contacts, or that of
+    /// the only one (N).
+    std::function<double(const Vector              &old_solution,
+                         const Vector              &new_solution,
+                         const std::vector<Vector> &contact_forces,
+                         const double               begin,
+                         const double               end)>
       obstacle_work;
 
     /**
@@ -157,11 +162,15 @@ namespace Ricochet
     conclude(dealii::TimerOutput &timer,
              std::ostringstream  &timing_table) const;
 
-    const Parameters                                        parameters;
-    RunFolder                                              &folder;
-    SemiDiscreteSystem                                     &system;
-    TimeScheme                                             &scheme;
-    const std::map<dealii::types::boundary_id, std::string> contact_names;
+    const Parameters    parameters;
+    RunFolder          &folder;
+    SemiDiscreteSystem &system;
+    TimeScheme         &scheme;
+    // By name, in the order of the ledger, the boundaries of each contact.
+    const std::vector<
+      std::pair<std::string, std::vector<dealii::types::boundary_id>>>
+                contact_names;
+    const Units units;
     // Values of the benchmark's own columns, in the order of the ledger.
     std::vector<std::function<double(const State &)>> own_columns;
     std::vector<std::function<double(const State &, const State &)>> own_sums;

@@ -143,7 +143,6 @@ namespace Ricochet
         unknowns.impose_rate(time, state.velocity);
       }
     state.contact_force.reinit(displacement);
-    state.force_between_surfaces.reinit(displacement);
     state.acceleration.reinit(displacement);
     state.scheme_force.reinit(displacement);
     state.mean_velocity = state.velocity;
@@ -162,8 +161,16 @@ namespace Ricochet
   SemiDiscreteSystem::set_contact_force(State &state) const
   {
     contact.force_at(state.solution, state.time, state.contact_force);
-    if (const Vector *share = contact.force_between_surfaces())
-      state.force_between_surfaces = *share;
+    take_shares(state);
+  }
+
+  void
+  SemiDiscreteSystem::take_shares(State &state) const
+  {
+    const std::vector<const Vector *> shares = contact.shares();
+    state.contact_shares.resize(shares.size());
+    for (unsigned int k = 0; k < shares.size(); ++k)
+      state.contact_shares[k] = *shares[k];
   }
 
   unsigned int
@@ -206,7 +213,7 @@ namespace Ricochet
                              old_state.mean_velocity,
                              stage.time_step,
                              stage.end_time,
-                             &old_state.force_between_surfaces};
+                             &old_state.contact_shares};
     const auto                  solve_all_passes = [&]() {
       problem.forget_tangents();
       contact.begin_stage(start, stage.contact_weight_new);
@@ -244,8 +251,7 @@ namespace Ricochet
           }
       }
     new_state.contact_force = contact.contact_force();
-    if (const Vector *share = contact.force_between_surfaces())
-      new_state.force_between_surfaces = *share;
+    take_shares(new_state);
     return problem.n_iterations();
   }
 

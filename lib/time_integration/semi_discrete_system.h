@@ -31,9 +31,9 @@ namespace Ricochet
     /// Contact force at this instant (two-point treatments: over the last
     /// step), on the side of the internal forces (N).
     Vector contact_force;
-    /// The part of contact_force between surfaces of bodies, where obstacles have
-    /// a share in it too; zero otherwise (N).
-    Vector force_between_surfaces;
+    /// What several contacts have of contact_force (N), see StageContact::shares();
+    /// empty where there is only one.
+    std::vector<Vector> contact_shares;
     /// Mean velocity over the last step, (u_new - u_old)/dt (m/s), which
     /// predictors of the gap need; kept by the midpoint scheme.
     Vector mean_velocity;
@@ -201,6 +201,10 @@ namespace Ricochet
       newton_observer;
 
   private:
+    /// The forces of contact are those of the operator's last call.
+    void
+    take_shares(State &state) const;
+
     const Matrix &mass;
     const Matrix &invertible_mass;
     std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type> clamped_list;

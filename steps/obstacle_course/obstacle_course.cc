@@ -272,7 +272,7 @@ ObstacleCourse::run(RunFolder &folder)
   if (touches_itself)
     {
       setup.pairs = {touching_itself({surface})};
-      contacts[ContactSum<2>::id_between_surfaces(surface)] = "itself";
+      contacts[ContactSum::id_of(/* between surfaces */ 1, surface)] = "itself";
     }
   Impact<2> course(impact, triangulation, setup, folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
@@ -302,7 +302,7 @@ ObstacleCourse::run(RunFolder &folder)
     return momenta.linear(state.solution)[0] / mass;
   });
 
-  const ObstacleWork<2> obstacle_work(course.body, course.obstacles);
+  const ObstacleWork<2> obstacle_work(course.body, {course.obstacles});
   loop.obstacle_work = obstacle_work;
 
   VtuSeries<2> fields(course.body,

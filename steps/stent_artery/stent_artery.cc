@@ -250,7 +250,7 @@ StentArtery::run(RunFolder &folder)
   setup.clamped = {StentArteryGeometry::artery_outer_side,
                    StentArteryGeometry::artery_ends};
   setup.imposed[StentArteryGeometry::stent_lower_side] =
-    {{{true, true}}, [this](const double time) { return deployment(time); }};
+    {{{true, true}}, [this](const double time, const Point<2> &) { return deployment(time); }};
   setup.pairs = {
     {"wall",
      {StentArteryGeometry::artery_inner_wall},

@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(work_of_moving_obstacles)
           {
             Throw                 cube(target.shape, treatment, .3, motion);
             const ObstacleWork<3> obstacle_work(cube.impact->body,
-                                                cube.impact->obstacles);
+                                                {cube.impact->obstacles});
             double                by_balance = 0., by_resultants = 0.;
             for (unsigned int n = 0; n < 10 * refinement; ++n)
               {
@@ -246,7 +246,7 @@ BOOST_AUTO_TEST_CASE(work_of_moving_obstacles)
                 by_balance += cube.energy() - old + report.friction_work;
                 by_resultants += obstacle_work(cube.previous.solution,
                                                cube.state.solution,
-                                               cube.state.contact_force,
+                                               {cube.state.contact_force},
                                                cube.previous.time,
                                                cube.state.time);
               }

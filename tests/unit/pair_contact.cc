@@ -449,7 +449,7 @@ namespace
                       {rectangle_side(0, Rectangle::lower)},
                       {rectangle_side(1, Rectangle::upper)}}};
       setup.imposed[rectangle_side(0, Rectangle::upper)] =
-        {{{true, true}}, [](const double t) {
+        {{{true, true}}, [](const double t, const Point<2> &) {
            return Tensor<1, 2>({2. * t * t, -4. * t * t});
          }};
       // Rollers: held across, free along.
@@ -457,7 +457,7 @@ namespace
                                                             {}};
       setup.clamped = {rectangle_side(1, Rectangle::left)};
       setup.tractions[rectangle_side(1, Rectangle::right)] =
-        [](const double t) {
+        [](const double t, const Point<2> &) {
           return Tensor<1, 2>({3. * t, 1.});
         };
       setup.gravity = Tensor<1, 2>({.5, -1.});
@@ -848,8 +848,12 @@ BOOST_AUTO_TEST_CASE(parts_have_data_of_their_own)
       BOOST_CHECK_CLOSE(energies[1] / energies[0], 1.25, 1e-8);
 
       // The load of 1 Pa on a side of 1 m, in one direction.
-      const Vector load =
-        boundary_load(impact.body, rectangle_side(0, Rectangle::upper), 1);
+      Vector load = impact.body.make_vector();
+      boundary_load<2>(impact.body,
+                       rectangle_side(0, Rectangle::upper),
+                       [](const double, const Point<2> &) {
+                         return Tensor<1, 2>({0., 1.});
+                       })(/* time */ 0., load);
       BOOST_CHECK_CLOSE(load * impact.uniform(Tensor<1, 2>({0., 1.})),
                         2.,
                         1e-10);

@@ -47,8 +47,8 @@ namespace
     const Vector zero = impact.body.make_vector();
     State        rest;
     rest.solution = rest.velocity = rest.acceleration = rest.contact_force =
-      rest.force_between_surfaces = rest.mean_velocity = rest.scheme_force =
-        zero;
+      rest.mean_velocity = rest.scheme_force = zero;
+    rest.contact_shares.assign(impact.contact->shares().size(), zero);
     Stage stage;
     stage.inertia_origin = zero;
     stage.load           = zero;
@@ -285,7 +285,7 @@ namespace
            {"cylinders", {slave}, {rectangle_side(0, Rectangle::lower)}}};
     setup.clamped = {rectangle_side(1, Rectangle::lower)};
     setup.imposed[rectangle_side(0, Rectangle::upper)] =
-      {{{true, true}}, [](const double time) {
+      {{{true, true}}, [](const double time, const dealii::Point<2> &) {
          return dealii::Tensor<1, 2>({0., -approach * time});
        }};
     Impact<2> impact(parameters, mesh, setup, MPI_COMM_WORLD);
@@ -432,7 +432,7 @@ namespace
     setup.pairs              = {{"blocks",
                                  {lower_is_slave ? side_of_lower : side_of_upper},
                                  {lower_is_slave ? side_of_upper : side_of_lower}}};
-    const std::function<dealii::Tensor<1, 2>(const double)> at_rest;
+    const VectorField<2> at_rest;
     for (const unsigned int part : {0U, 1U})
       for (const auto side : {Rectangle::left, Rectangle::right})
         setup.imposed[rectangle_side(part, side)] = {{{true, false}}, at_rest};
@@ -442,7 +442,7 @@ namespace
                                                           at_rest};
     if (!is_still)
       setup.imposed[rectangle_side(1, Rectangle::upper)].value =
-        [](const double time) {
+        [](const double time, const dealii::Point<2> &) {
           return dealii::Tensor<1, 2>({0., -press * time});
         };
     Impact<2> impact(parameters, mesh, setup, MPI_COMM_WORLD);

@@ -23,9 +23,8 @@ namespace Ricochet
     double time_step = 0.;
     /// The end of the step, or the instant (s).
     double end_time = 0.;
-    /// The part of contact_force between surfaces of bodies, where obstacles have
-    /// a share in it too; null otherwise.
-    const Vector *force_between_surfaces = nullptr;
+    /// What several contacts have of contact_force; none where there is only one.
+    const std::vector<Vector> *shares = nullptr;
   };
 
   /// What laws and conditions may know of the geometry in a point, over a step.

@@ -18,7 +18,9 @@ namespace Ricochet
   {
     ObstacleParameters();
 
-    std::string shape = "half space";
+    /// Of the parameter file; several obstacles have sections of their own.
+    std::string section = "Obstacle";
+    std::string shape   = "half space";
     /// m
     dealii::Tensor<1, dim> centre;
     dealii::Tensor<1, dim> direction;

@@ -112,7 +112,7 @@ namespace Ricochet
     for (const Entry<dim> &entry : table<dim>())
       shapes += (shapes.empty() ? "" : "|") + entry.name;
 
-    parameters.enter_subsection("Obstacle");
+    parameters.enter_subsection(section);
     parameters.add_parameter("Shape",
                              shape,
                              "Surface of the rigid obstacle.",
@@ -199,15 +199,15 @@ namespace Ricochet
           for (const Entry<dim> &entry : table<dim>())
             if (entry.uses.count(name) > 0)
               owners += (owners.empty() ? "" : " and ") + entry.name;
-          unused.push_back(
-            {"Obstacle/" + name, owners + "; Obstacle/Shape is " + shape});
+          unused.push_back({section + "/" + name,
+                            owners + "; " + section + "/Shape is " + shape});
         }
     if (Utilities::trim(rotation) == "0")
       {
-        const std::string owner = "rotation; Obstacle/Rotation is 0";
-        unused.push_back({"Obstacle/Rotation centre", owner});
+        const std::string owner = "rotation; " + section + "/Rotation is 0";
+        unused.push_back({section + "/Rotation centre", owner});
         if (dim == 3)
-          unused.push_back({"Obstacle/Rotation axis", owner});
+          unused.push_back({section + "/Rotation axis", owner});
       }
     return unused;
   }
@@ -220,12 +220,12 @@ namespace Ricochet
   {
     const Entry<dim> &own = find(*this);
     if (own.uses.count("Direction") > 0 && direction.norm() == 0.)
-      throw InputError("Obstacle/Direction is a vector of no length.");
+      throw InputError(section + "/Direction is a vector of no length.");
     if (rotation_axis.norm() == 0.)
-      throw InputError("Obstacle/Rotation axis is a vector of no length.");
+      throw InputError(section + "/Rotation axis is a vector of no length.");
     std::vector<std::string> way = split_expressions(translation);
     if (way.size() != dim)
-      throw InputError("Obstacle/Translation needs " + std::to_string(dim) +
+      throw InputError(section + "/Translation needs " + std::to_string(dim) +
                        " expressions, separated by semicolons; it has " +
                        std::to_string(way.size()) + ".");
     way.resize(3, "0");

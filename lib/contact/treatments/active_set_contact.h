@@ -107,6 +107,12 @@ namespace Ricochet
       return force;
     }
 
+    bool
+    takes_rows() const override
+    {
+      return true;
+    }
+
     double
     round_off() const override;
 

@@ -1,188 +1,217 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <contact/treatments/active_set_signature.h>
 #include <contact/treatments/contact_sum.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Ricochet
 {
   using namespace dealii;
 
-  namespace
+  ContactSum::ContactSum(
+    std::vector<std::unique_ptr<ContactOperator>> all_contacts)
+    : contacts(std::move(all_contacts))
+    , force(contacts.front()->row_scaling())
+    , friction(force)
+    , scaling(force)
+    , instant_forces(contacts.size(), force)
   {
-    Vector
-    difference(const Vector &a, const Vector &b)
-    {
-      Vector result(a);
-      result -= b;
-      return result;
-    }
-  } // namespace
-
-
-
-  template <int dim>
-  ContactSum<dim>::ContactSum(std::unique_ptr<ContactOperator> obstacle_contact,
-                              std::unique_ptr<PairContact<dim>> pair_contact,
-                              const MPI_Comm                    communicator)
-    : obstacles(std::move(obstacle_contact))
-    , pairs(std::move(pair_contact))
-    , communicator(communicator)
-    , has_friction(obstacles->friction_force() || pairs->friction_force())
-    , force(pairs->contact_force())
-    , between_surfaces(pairs->contact_force())
-    , friction(pairs->contact_force())
-    , old_force_of_obstacles(pairs->contact_force())
-  {}
-
-
-
-  template <int dim>
-  void
-  ContactSum<dim>::begin_stage(const ContactStart &start, const double weight)
-  {
-    // Obstacles tell by the force in a node whether it was pressed.
-    old_force_of_obstacles = start.contact_force;
-    old_force_of_obstacles -= *start.force_between_surfaces;
-    pairs->begin_stage({start.solution,
-                        *start.force_between_surfaces,
-                        start.mean_velocity,
-                        start.time_step,
-                        start.end_time},
-                       weight);
-    obstacles->begin_stage({start.solution,
-                            old_force_of_obstacles,
-                            start.mean_velocity,
-                            start.time_step,
-                            start.end_time},
-                           weight);
+    for (const bool takes_rows : {false, true})
+      for (const auto &contact : contacts)
+        if (contact->takes_rows() == takes_rows)
+          in_order.push_back(contact.get());
+    force   = 0.;
+    scaling = 1.;
+    for (const ContactOperator *contact : in_order)
+      {
+        has_friction = has_friction || contact->friction_force();
+        scaling.scale(contact->row_scaling());
+      }
   }
 
 
 
-  template <int dim>
   void
-  ContactSum<dim>::complete_residual(const Vector &solution, Vector &residual)
+  ContactSum::begin_stage(const ContactStart &start, const double weight)
   {
-    pairs->complete_residual(solution, residual);
-    obstacles->complete_residual(solution, residual);
-    between_surfaces = pairs->contact_force();
-    force            = between_surfaces;
-    force += obstacles->contact_force();
+    // Each knows by its own force what was pressed.
+    for (unsigned int k = 0; k < contacts.size(); ++k)
+      contacts[k]->begin_stage({start.solution,
+                                (*start.shares)[k],
+                                start.mean_velocity,
+                                start.time_step,
+                                start.end_time},
+                               weight);
+    at_instant = false;
+  }
+
+
+
+  void
+  ContactSum::complete_residual(const Vector &solution, Vector &residual)
+  {
+    force = 0.;
+    for (ContactOperator *contact : in_order)
+      {
+        contact->complete_residual(solution, residual);
+        force += contact->contact_force();
+      }
     if (!has_friction)
       return;
     friction = 0.;
-    for (const Vector *part :
-         {pairs->friction_force(), obstacles->friction_force()})
-      if (part)
+    for (const ContactOperator *contact : in_order)
+      if (const Vector *part = contact->friction_force())
         friction += *part;
   }
 
 
 
-  template <int dim>
   void
-  ContactSum<dim>::accept_iterate()
+  ContactSum::accept_iterate()
   {
-    pairs->accept_iterate();
-    obstacles->accept_iterate();
+    for (ContactOperator *contact : in_order)
+      contact->accept_iterate();
   }
 
 
 
-  template <int dim>
   bool
-  ContactSum<dim>::next_pass()
+  ContactSum::next_pass()
   {
-    // Both are of one treatment, and have as many passes.
-    const bool of_pairs     = pairs->next_pass();
-    const bool of_obstacles = obstacles->next_pass();
-    return of_pairs || of_obstacles;
+    // Those with fewer passes than others solve their last one again.
+    bool another = false;
+    for (ContactOperator *contact : in_order)
+      another = contact->next_pass() || another;
+    return another;
   }
 
 
 
-  template <int dim>
+  std::vector<const Vector *>
+  ContactSum::shares() const
+  {
+    std::vector<const Vector *> list;
+    for (unsigned int k = 0; k < contacts.size(); ++k)
+      list.push_back(at_instant ? &instant_forces[k]
+                                : &contacts[k]->contact_force());
+    return list;
+  }
+
+
+
   double
-  ContactSum<dim>::friction_dissipation() const
+  ContactSum::friction_dissipation() const
   {
-    return pairs->friction_dissipation() + obstacles->friction_dissipation();
+    double sum = 0.;
+    for (const ContactOperator *contact : in_order)
+      sum += contact->friction_dissipation();
+    return sum;
   }
 
 
 
-  template <int dim>
   double
-  ContactSum<dim>::linearisation_error() const
+  ContactSum::linearisation_error() const
   {
-    return std::hypot(pairs->linearisation_error(),
-                      obstacles->linearisation_error());
+    double sum = 0.;
+    for (const ContactOperator *contact : in_order)
+      sum = std::hypot(sum, contact->linearisation_error());
+    return sum;
   }
 
 
 
-  template <int dim>
   double
-  ContactSum<dim>::round_off() const
+  ContactSum::round_off() const
   {
-    return std::hypot(pairs->round_off(), obstacles->round_off());
+    double sum = 0.;
+    for (const ContactOperator *contact : in_order)
+      sum = std::hypot(sum, contact->round_off());
+    return sum;
   }
 
 
 
-  template <int dim>
-  const Vector &
-  ContactSum<dim>::row_scaling() const
-  {
-    // Multipliers are those between surfaces.
-    return pairs->row_scaling();
-  }
-
-
-
-  template <int dim>
   std::string
-  ContactSum<dim>::active_set_description() const
+  ContactSum::active_set_description() const
   {
-    return obstacles->active_set_description() + " and " +
-      pairs->active_set_description();
+    std::string text;
+    for (const auto &contact : contacts)
+      text += (text.empty() ? "" : " and ") + contact->active_set_description();
+    return text;
   }
 
 
 
-  template <int dim>
   void
-  ContactSum<dim>::complete_tangent(Matrix &tangent) const
+  ContactSum::complete_tangent(Matrix &tangent) const
   {
-    pairs->complete_tangent(tangent);
-    obstacles->complete_tangent(tangent);
+    for (const ContactOperator *contact : in_order)
+      contact->complete_tangent(tangent);
   }
 
 
 
-  template <int dim>
   void
-  ContactSum<dim>::complete_open_tangent(Matrix &tangent) const
+  ContactSum::complete_open_tangent(Matrix &tangent) const
   {
-    pairs->complete_open_tangent(tangent);
+    for (const ContactOperator *contact : in_order)
+      contact->complete_open_tangent(tangent);
   }
 
 
 
-  template <int dim>
   ContactStructure
-  ContactSum<dim>::tangent_structure() const
+  ContactSum::tangent_structure() const
   {
-    return pairs->tangent_structure();
+    ContactStructure sum;
+    sum.is_nearly_symmetric = true;
+    for (const ContactOperator *contact : in_order)
+      {
+        const ContactStructure own = contact->tangent_structure();
+        sum.rows.insert(sum.rows.end(), own.rows.begin(), own.rows.end());
+        sum.is_nearly_symmetric =
+          sum.is_nearly_symmetric && own.is_nearly_symmetric;
+        sum.has_multipliers  = sum.has_multipliers || own.has_multipliers;
+        sum.couplings_change = sum.couplings_change || own.couplings_change;
+      }
+    // Each row once, where it comes first.
+    std::vector<types::global_dof_index> rows;
+    std::vector<types::global_dof_index> sorted = sum.rows;
+    std::sort(sorted.begin(), sorted.end());
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    std::vector<bool> taken(sorted.size(), false);
+    for (const auto row : sum.rows)
+      {
+        const auto place =
+          std::lower_bound(sorted.begin(), sorted.end(), row) - sorted.begin();
+        if (!taken[place])
+          rows.push_back(row);
+        taken[place] = true;
+      }
+    sum.rows = rows;
+    return sum;
   }
 
 
 
-  template <int dim>
   const Couplings *
-  ContactSum<dim>::couplings()
+  ContactSum::couplings()
   {
-    return pairs->couplings();
+    all_couplings.lists.clear();
+    // Versions only grow; so does their sum whenever one changes.
+    all_couplings.version = 0;
+    bool any              = false;
+    for (ContactOperator *contact : in_order)
+      if (const Couplings *own = contact->couplings())
+        {
+          any = true;
+          all_couplings.version += own->version;
+          all_couplings.lists.insert(all_couplings.lists.end(),
+                                     own->lists.begin(),
+                                     own->lists.end());
+        }
+    return any ? &all_couplings : nullptr;
   }
 
 
@@ -198,101 +227,111 @@ namespace Ricochet
 
 
 
-  template <int dim>
   std::optional<std::uint64_t>
-  ContactSum<dim>::tangent_signature() const
+  ContactSum::tangent_signature() const
   {
-    const auto of_pairs     = pairs->tangent_signature();
-    const auto of_obstacles = obstacles->tangent_signature();
-    if (!of_pairs || !of_obstacles)
-      return {};
-    return hash_of_both(*of_pairs, *of_obstacles);
-  }
-
-
-
-  template <int dim>
-  std::uint64_t
-  ContactSum<dim>::active_set_signature() const
-  {
-    return hash_of_both(pairs->active_set_signature(),
-                        obstacles->active_set_signature());
-  }
-
-
-
-  template <int dim>
-  void
-  ContactSum<dim>::force_at(const Vector &solution,
-                            const double  time,
-                            Vector       &result)
-  {
-    pairs->force_at(solution, time, between_surfaces);
-    obstacles->force_at(solution, time, result);
-    result += between_surfaces;
-  }
-
-
-
-  template <int dim>
-  double
-  ContactSum<dim>::potential(const Vector &solution, const double time)
-  {
-    return pairs->potential(solution, time) +
-      obstacles->potential(solution, time);
-  }
-
-
-
-  template <int dim>
-  bool
-  ContactSum<dim>::has_modified_energy() const
-  {
-    return obstacles->has_modified_energy() && pairs->has_modified_energy();
-  }
-
-
-
-  template <int dim>
-  bool
-  ContactSum<dim>::has_moving_obstacles() const
-  {
-    return obstacles->has_moving_obstacles();
-  }
-
-
-
-  template <int dim>
-  Vector
-  ContactSum<dim>::pressure_field(const ContactInstant &instant)
-  {
-    const Vector of_obstacles =
-      difference(instant.contact_force, *instant.force_between_surfaces);
-    Vector sum =
-      obstacles->pressure_field({instant.solution, of_obstacles, instant.time});
-    sum += pairs->pressure_field(
-      {instant.solution, *instant.force_between_surfaces, instant.time});
+    std::uint64_t sum = 0;
+    for (const ContactOperator *contact : in_order)
+      {
+        const auto own = contact->tangent_signature();
+        if (!own)
+          return {};
+        sum = hash_of_both(sum, *own);
+      }
     return sum;
   }
 
 
 
-  template <int dim>
-  ContactSummaries
-  ContactSum<dim>::summary(const ContactInstant &instant)
+  std::uint64_t
+  ContactSum::active_set_signature() const
   {
-    const Vector of_obstacles =
-      difference(instant.contact_force, *instant.force_between_surfaces);
-    ContactSummaries all =
-      obstacles->summary({instant.solution, of_obstacles, instant.time});
-    for (const auto &[id, summary] : pairs->summary(
-           {instant.solution, *instant.force_between_surfaces, instant.time}))
-      all[id_between_surfaces(id)] = summary;
-    return all;
+    std::uint64_t sum = 0;
+    for (const ContactOperator *contact : in_order)
+      sum = hash_of_both(sum, contact->active_set_signature());
+    return sum;
   }
 
 
-  template class ContactSum<1>;
-  template class ContactSum<2>;
-  template class ContactSum<3>;
+
+  void
+  ContactSum::force_at(const Vector &solution,
+                       const double  time,
+                       Vector       &result)
+  {
+    result = 0.;
+    for (unsigned int k = 0; k < contacts.size(); ++k)
+      {
+        contacts[k]->force_at(solution, time, instant_forces[k]);
+        result += instant_forces[k];
+      }
+    at_instant = true;
+  }
+
+
+
+  double
+  ContactSum::potential(const Vector &solution, const double time)
+  {
+    double sum = 0.;
+    for (ContactOperator *contact : in_order)
+      sum += contact->potential(solution, time);
+    return sum;
+  }
+
+
+
+  bool
+  ContactSum::has_modified_energy() const
+  {
+    return std::all_of(contacts.begin(), contacts.end(), [](const auto &own) {
+      return own->has_modified_energy();
+    });
+  }
+
+
+
+  bool
+  ContactSum::has_moving_obstacles() const
+  {
+    return std::any_of(contacts.begin(), contacts.end(), [](const auto &own) {
+      return own->has_moving_obstacles();
+    });
+  }
+
+
+
+  bool
+  ContactSum::gaps_may_be_unknown() const
+  {
+    return std::any_of(contacts.begin(), contacts.end(), [](const auto &own) {
+      return own->gaps_may_be_unknown();
+    });
+  }
+
+
+
+  Vector
+  ContactSum::pressure_field(const ContactInstant &instant)
+  {
+    Vector sum(force);
+    sum = 0.;
+    for (unsigned int k = 0; k < contacts.size(); ++k)
+      sum += contacts[k]->pressure_field(
+        {instant.solution, share(instant, k), instant.time});
+    return sum;
+  }
+
+
+
+  ContactSummaries
+  ContactSum::summary(const ContactInstant &instant)
+  {
+    ContactSummaries all;
+    for (unsigned int k = 0; k < contacts.size(); ++k)
+      for (const auto &[id, summary] : contacts[k]->summary(
+             {instant.solution, share(instant, k), instant.time}))
+        all[id_of(k, id)] = summary;
+    return all;
+  }
 } // namespace Ricochet

@@ -2,32 +2,39 @@
 #ifndef ricochet_contact_treatments_contact_sum_h
 #define ricochet_contact_treatments_contact_sum_h
 
-#include <contact/treatments/pair_contact.h>
+#include <contact/contact_operator.h>
+
+#include <memory>
+#include <vector>
 
 namespace Ricochet
 {
   /**
-   * Contact with rigid obstacles and contact of surfaces with each other, or with
-   * themselves, in one computation.
+   * Several contacts in one computation, each with a treatment of its own: with rigid
+   * obstacles, of surfaces with each other, or of surfaces with themselves.
    *
    * Active sets against obstacles take rows out of the equations of motion, whatever
-   * stands in them; so the forces between surfaces come first.
+   * stands in them; so the other forces come first.
    *
-   * A boundary may take part in both. Summaries of contact between surfaces are under
-   * id_between_surfaces() of their boundary ids.
+   * A boundary may take part in several of them; but only in one that takes rows, and
+   * in one that brings multipliers. Summaries are under id_of() of a contact and its
+   * boundary ids. The state keeps the force of each (State::contact_shares), by which
+   * a contact knows what was pressed in the step before.
    */
-  template <int dim>
   class ContactSum : public ContactOperator
   {
   public:
-    ContactSum(std::unique_ptr<ContactOperator>  obstacles,
-               std::unique_ptr<PairContact<dim>> pairs,
-               const MPI_Comm                    communicator);
+    explicit ContactSum(std::vector<std::unique_ptr<ContactOperator>> contacts);
 
+    /// The key in summaries of the boundary @p boundary_id in contact number @p
+    /// contact.
     static dealii::types::boundary_id
-    id_between_surfaces(const dealii::types::boundary_id boundary_id)
+    id_of(const unsigned int               contact,
+          const dealii::types::boundary_id boundary_id)
     {
-      return (1U << 24) + boundary_id;
+      AssertThrow(contact < (1U << 8) && boundary_id < (1U << 24),
+                  dealii::ExcMessage("Too many contacts or boundaries."));
+      return (contact << 24) + boundary_id;
     }
 
     void
@@ -48,11 +55,8 @@ namespace Ricochet
       return force;
     }
 
-    const Vector *
-    force_between_surfaces() const override
-    {
-      return &between_surfaces;
-    }
+    std::vector<const Vector *>
+    shares() const override;
 
     const Vector *
     friction_force() const override
@@ -70,7 +74,10 @@ namespace Ricochet
     round_off() const override;
 
     const Vector &
-    row_scaling() const override;
+    row_scaling() const override
+    {
+      return scaling;
+    }
 
     std::string
     active_set_description() const override;
@@ -106,10 +113,7 @@ namespace Ricochet
     has_moving_obstacles() const override;
 
     bool
-    gaps_may_be_unknown() const override
-    {
-      return true;
-    }
+    gaps_may_be_unknown() const override;
 
     bool
     knows_stress_pressure() const override
@@ -124,13 +128,22 @@ namespace Ricochet
     summary(const ContactInstant &instant) override;
 
   private:
-    const std::unique_ptr<ContactOperator>  obstacles;
-    const std::unique_ptr<PairContact<dim>> pairs;
-    const MPI_Comm                          communicator;
-    const bool                              has_friction;
-    Vector                                  force, between_surfaces, friction;
-    /// What obstacles did to the bodies in the step before (N).
-    Vector old_force_of_obstacles;
+    /// The share of contact @p k at an instant.
+    static const Vector &
+    share(const ContactInstant &instant, const unsigned int k)
+    {
+      return (*instant.shares)[k];
+    }
+
+    const std::vector<std::unique_ptr<ContactOperator>> contacts;
+    // The same, those that take rows last.
+    std::vector<ContactOperator *> in_order;
+    bool                           has_friction = false;
+    Vector                         force, friction, scaling;
+    // After force_at() these are the shares; otherwise contacts know them.
+    std::vector<Vector> instant_forces;
+    bool                at_instant = false;
+    Couplings           all_couplings;
   };
 } // namespace Ricochet
 

@@ -21,6 +21,8 @@ namespace Ricochet
   /// Everything about the contact treatment that a user chooses.
   struct ContactParameters
   {
+    /// Of the parameter file; several contacts have sections of their own.
+    std::string section           = "Contact";
     std::string treatment         = "Nitsche";
     double      nitsche_gamma_0   = 5.;
     double      nitsche_theta     = 1.;
@@ -34,6 +36,38 @@ namespace Ricochet
     double tangential_compliance = 1e3;
     /// Between bodies: "points", "mortar", "dual mortar" or "cut faces".
     std::string coupling = "points";
+
+    /// What the values that have a unit are measured by.
+    struct Scales
+    {
+      /// Young's modulus of the softer body (Pa).
+      double young_modulus;
+      /// lambda + 2 mu of the softer body (Pa).
+      double wave_modulus;
+      /// kg/m^dim
+      double density;
+      /// Mean diameter of the cells at the surface (m).
+      double cell_diameter;
+      /// Of the displacement.
+      unsigned int degree;
+    };
+
+    /// Let the values that have a unit be zero, which stands for set_missing().
+    void
+    leave_open();
+
+    /**
+     * Give the values that are zero: what enters the solution is ten times as stiff as
+     * the layer of cells at the surface, what steers Newton's method as stiff as the
+     * body, friction as stiff as waves in it. So results do not depend on units.
+     */
+    void
+    set_missing(const Scales &scales);
+
+    /// Names and values of the parameters that have a unit and that the treatment makes
+    /// use of.
+    std::vector<std::pair<std::string, double>>
+    used_values() const;
 
     void
     add_parameters(dealii::ParameterHandler &parameters);
@@ -81,6 +115,15 @@ namespace Ricochet
   check_pair_combination(const ContactParameters &parameters,
                          const SchemeTraits      &scheme,
                          const bool               is_self = false);
+
+  /// Whether the treatment is a constraint in nodes: an active set or multipliers, of
+  /// which a node can follow one only.
+  bool
+  is_constraint(const ContactParameters &parameters);
+
+  /// Names of the treatments that are none.
+  std::string
+  names_of_laws();
 
   /// The multiplier space that the treatment of @p parameters needs.
   MultiplierSpace

@@ -18,6 +18,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace Ricochet
@@ -188,6 +189,15 @@ namespace Ricochet
 
 
 
+  bool
+  is_constraint(const ContactParameters &parameters)
+  {
+    const Treatment &treatment = find(parameters);
+    return !treatment.make_law || treatment.traits.needs_multiplier;
+  }
+
+
+
   std::vector<std::string>
   schemes_allowed(const ContactParameters &parameters,
                   const bool               redistributed_mass)
@@ -227,6 +237,18 @@ namespace Ricochet
       return join(names);
     }
   } // namespace
+
+
+
+  std::string
+  names_of_laws()
+  {
+    std::vector<std::string> names;
+    for (const Treatment &treatment : table())
+      if (treatment.make_law && !treatment.traits.needs_multiplier)
+        names.push_back(treatment.name);
+    return join(names);
+  }
 
 
 
@@ -417,7 +439,8 @@ namespace Ricochet
       [&](const bool used, const std::string &name, const std::string &owner) {
         if (!used)
           unused.push_back(
-            {"Contact/" + name, owner + "; Contact/Treatment is " + treatment});
+            {section + "/" + name,
+             owner + "; " + section + "/Treatment is " + treatment});
       };
     const bool compliant        = own.make_law && !own.traits.piecewise_linear;
     const bool exponent_is_free = treatment != "Hauret-Le Tallec";
@@ -433,8 +456,8 @@ namespace Ricochet
          "Augmentation",
          "multipliers, active sets, normal compliance and friction");
     if (!friction)
-      unused.push_back({"Contact/Tangential compliance",
-                        "friction; Contact/Friction coefficient is 0"});
+      unused.push_back({section + "/Tangential compliance",
+                        "friction; " + section + "/Friction coefficient is 0"});
     else
       need(bool(own.make_law), "Tangential compliance", "regularised friction");
     return unused;
@@ -456,7 +479,8 @@ namespace Ricochet
       if (parameters.nitsche_gamma_0 > (1. + 1e-9) * bound)
         return;
       throw InputError(
-        "Contact/Nitsche gamma0 = " + to_text(parameters.nitsche_gamma_0) +
+        parameters.section +
+        "/Nitsche gamma0 = " + to_text(parameters.nitsche_gamma_0) +
         " Pa is too small for theta = " + to_text(theta) +
         ", this material and this mesh: the method is not stable. It must be "
         "larger than " +
@@ -573,10 +597,65 @@ namespace Ricochet
 
 
 
+  std::vector<std::pair<std::string, double>>
+  ContactParameters::used_values() const
+  {
+    std::vector<std::pair<std::string, double>> values = {
+      {"Nitsche gamma0", nitsche_gamma_0},
+      {"Penalty epsilon0", penalty_epsilon_0},
+      {"Augmentation", augmentation},
+      {"Compliance coefficient", compliance_coefficient},
+      {"Tangential compliance", tangential_compliance}};
+    for (const UnusedParameter &unused : unused_parameters())
+      values.erase(std::remove_if(values.begin(),
+                                  values.end(),
+                                  [&](const auto &value) {
+                                    return unused.name ==
+                                      section + "/" + value.first;
+                                  }),
+                   values.end());
+    return values;
+  }
+
+
+
+  void
+  ContactParameters::leave_open()
+  {
+    nitsche_gamma_0 = penalty_epsilon_0 = augmentation =
+      compliance_coefficient = tangential_compliance = 0.;
+  }
+
+
+
+  void
+  ContactParameters::set_missing(const Scales &scales)
+  {
+    const auto set = [](double &value, const double other) {
+      if (value == 0.)
+        value = other;
+    };
+    const double h = scales.cell_diameter;
+    set(nitsche_gamma_0,
+        20. * scales.degree * scales.degree * scales.wave_modulus);
+    set(penalty_epsilon_0, .1 / scales.young_modulus);
+    set(augmentation, scales.young_modulus);
+    set(compliance_coefficient,
+        10. * scales.young_modulus / std::pow(h, compliance_exponent - 1.));
+    set(tangential_compliance,
+        std::sqrt(scales.young_modulus * scales.density));
+  }
+
+
+
   void
   ContactParameters::add_parameters(ParameterHandler &parameters)
   {
-    parameters.enter_subsection("Contact");
+    // Zero is for what is still to be found.
+    const auto at_least = [](const double &value) {
+      return Patterns::Double(value == 0. ? 0. : 1e-30);
+    };
+    parameters.enter_subsection(section);
     parameters.add_parameter("Treatment",
                              treatment,
                              "How the Signorini condition is treated.",
@@ -586,7 +665,7 @@ namespace Ricochet
       nitsche_gamma_0,
       "Parameter gamma_0 (Pa) of Nitsche's method; gamma = gamma_0/h_T (paper "
       "C, (7)). Used by Nitsche and Nitsche-hybrid.",
-      Patterns::Double(1e-30));
+      at_least(nitsche_gamma_0));
     parameters.add_parameter(
       "Nitsche theta",
       nitsche_theta,
@@ -598,21 +677,21 @@ namespace Ricochet
       penalty_epsilon_0,
       "Parameter epsilon_0 (1/Pa) of the penalty method; epsilon = epsilon_0 "
       "h_T (paper C, (14)). Used by penalty.",
-      Patterns::Double(1e-30));
+      at_least(penalty_epsilon_0));
     parameters.add_parameter(
       "Augmentation",
       augmentation,
       "Parameter gamma_a (Pa) of the proximal augmented Lagrangian (paper C, "
       "(18)). For the other treatments it steers Newton's method, best with "
       "about Young's modulus, and leaves the solution alone.",
-      Patterns::Double(1e-30));
+      at_least(augmentation));
     parameters.add_parameter(
       "Compliance coefficient",
       compliance_coefficient,
       "Parameter c_nu (Pa/m^(alpha-1)) of normal compliance: pressure c_nu "
       "alpha/2 penetration^(alpha-1) (paper A, (2.10)). Used by standard and "
       "improved normal compliance and, with alpha = 2, Hauret-Le Tallec.",
-      Patterns::Double(1e-30));
+      at_least(compliance_coefficient));
     parameters.add_parameter(
       "Compliance exponent",
       compliance_exponent,
@@ -640,7 +719,7 @@ namespace Ricochet
   void
   ContactParameters::add_pair_parameters(ParameterHandler &parameters)
   {
-    parameters.enter_subsection("Contact");
+    parameters.enter_subsection(section);
     parameters.add_parameter(
       "Coupling",
       coupling,

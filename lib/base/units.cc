@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <base/units.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cctype>
+#include <map>
+#include <vector>
+
+namespace Ricochet
+{
+  Units::Units(const std::string &text)
+  {
+    const std::vector<std::string> parts =
+      dealii::Utilities::split_string_list(text, ',');
+    bool good = parts.size() == 3;
+    for (const std::string &part : parts)
+      {
+        good = good && !part.empty() && part.size() < 20;
+        for (const char c : part)
+          good = good && std::isalpha(static_cast<unsigned char>(c));
+      }
+    if (!good)
+      throw InputError(
+        "Units are those of length, mass and time, separated by "
+        "commas, such as 'mm, t, s'; not '" +
+        text.substr(0, 100) + "'.");
+    length = parts[0];
+    mass   = parts[1];
+    time   = parts[2];
+  }
+
+
+
+  namespace
+  {
+    /// Exponents of length, mass and time.
+    struct Dimension
+    {
+      int length, mass, time;
+    };
+
+    const std::map<std::string, Dimension> &
+    dimensions()
+    {
+      static const std::map<std::string, Dimension> table = {
+        {"m", {1, 0, 0}},
+        {"m^2", {2, 0, 0}},
+        {"kg", {0, 1, 0}},
+        {"s", {0, 0, 1}},
+        {"1/s", {0, 0, -1}},
+        {"m/s", {1, 0, -1}},
+        {"m/s^2", {1, 0, -2}},
+        {"rad/s", {0, 0, -1}},
+        {"N", {1, 1, -2}},
+        {"N s", {1, 1, -1}},
+        {"J", {2, 1, -2}},
+        {"Pa", {-1, 1, -2}},
+        {"kg m/s", {1, 1, -1}},
+        {"kg m^2/s", {2, 1, -1}}};
+      return table;
+    }
+
+    /// Systems whose units of force, pressure and energy have names.
+    const std::map<std::vector<std::string>, std::map<std::string, std::string>>
+      &
+      named()
+    {
+      using Names = std::map<std::string, std::string>;
+      static const std::map<std::vector<std::string>, Names> table = {
+        {{"mm", "t", "s"}, {{"N", "N"}, {"Pa", "MPa"}, {"J", "mJ"}}},
+        {{"mm", "kg", "ms"}, {{"N", "kN"}, {"Pa", "GPa"}, {"J", "J"}}},
+        {{"mm", "g", "ms"}, {{"N", "N"}, {"Pa", "MPa"}, {"J", "mJ"}}},
+        {{"cm", "g", "s"}, {{"N", "dyn"}, {"Pa", "Ba"}, {"J", "erg"}}}};
+      return table;
+    }
+
+    std::string
+    power(const std::string &unit, const int exponent)
+    {
+      return exponent == 1 ? unit : unit + "^" + std::to_string(exponent);
+    }
+  } // namespace
+
+
+
+  std::string
+  Units::name(const std::string &si_unit) const
+  {
+    if (length == "m" && mass == "kg" && time == "s")
+      return si_unit;
+    const auto system = named().find({length, mass, time});
+    if (system != named().end())
+      {
+        const auto name = system->second.find(si_unit);
+        if (name != system->second.end())
+          return name->second;
+      }
+    const auto dimension = dimensions().find(si_unit);
+    if (dimension == dimensions().end())
+      return si_unit;
+    const Dimension &d = dimension->second;
+    std::string      above, below;
+    unsigned int     n_below = 0;
+    for (const auto &[unit, exponent] :
+         {std::pair<std::string, int>{mass, d.mass},
+          {length, d.length},
+          {time, d.time}})
+      {
+        if (exponent > 0)
+          above += (above.empty() ? "" : " ") + power(unit, exponent);
+        if (exponent < 0)
+          {
+            below += (below.empty() ? "" : " ") + power(unit, -exponent);
+            ++n_below;
+          }
+      }
+    if (below.empty())
+      return above;
+    return (above.empty() ? "1" : above) + "/" +
+      (n_below > 1 ? "(" + below + ")" : below);
+  }
+} // namespace Ricochet

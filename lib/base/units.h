@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_base_units_h
+#define ricochet_base_units_h
+
+#include <string>
+
+namespace Ricochet
+{
+  /**
+   * What lengths, masses and times are measured in. Nothing is converted: numbers are
+   * the user's, in any consistent system, and only names change.
+   */
+  class Units
+  {
+  public:
+    /// Those of the SI.
+    Units() = default;
+
+    /// @param text units of length, mass and time, separated by commas: "mm, t, s".
+    /// @throws InputError for another number of them.
+    explicit Units(const std::string &text);
+
+    /// The unit that is @p si_unit in the SI, one of those in the ledger: "J" becomes
+    /// "mJ" in mm, t and s, and "t furlong^2/s^2" in units that nobody else uses.
+    std::string
+    name(const std::string &si_unit) const;
+
+  private:
+    std::string length = "m", mass = "kg", time = "s";
+  };
+} // namespace Ricochet
+
+#endif

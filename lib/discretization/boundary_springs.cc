@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <discretization/boundary_springs.h>
+
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <algorithm>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The boundary's mass matrix, weighted with the @p density of each of the
+    /// @p springs (Pa/m, or Pa s/m).
+    template <int dim>
+    void
+    assemble(const Body<dim>                         &body,
+             const std::vector<BoundarySprings<dim>> &springs,
+             double BoundarySprings<dim>::*density,
+             Matrix                       &matrix)
+    {
+      const FiniteElement<dim> &element = body.dof_handler().get_fe();
+      FEFaceValues<dim>         values(body.mapping(),
+                               element,
+                               body.face_quadrature(),
+                               update_values | update_JxW_values);
+      const unsigned int        n = element.n_dofs_per_cell();
+      FullMatrix<double>        cell_matrix(n, n);
+      std::vector<types::global_dof_index> indices(n);
+      matrix.reinit(body.sparsity_pattern());
+      for (const auto &cell : body.dof_handler().active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int f : cell->face_indices())
+            for (const BoundarySprings<dim> &spring : springs)
+              if (cell->face(f)->at_boundary() &&
+                  cell->face(f)->boundary_id() == spring.boundary_id)
+                {
+                  values.reinit(cell, f);
+                  cell_matrix = 0.;
+                  for (unsigned int i = 0; i < n; ++i)
+                    for (unsigned int j = 0; j < n; ++j)
+                      {
+                        const unsigned int c =
+                          element.system_to_component_index(i).first;
+                        if (c != element.system_to_component_index(j).first ||
+                            !spring.components[c])
+                          continue;
+                        for (const unsigned int q :
+                             values.quadrature_point_indices())
+                          cell_matrix(i, j) += spring.*density *
+                            values.shape_value(i, q) *
+                            values.shape_value(j, q) * values.JxW(q);
+                      }
+                  cell->get_dof_indices(indices);
+                  for (types::global_dof_index &index : indices)
+                    index = body.system_index(index);
+                  matrix.add(indices, cell_matrix, /* elide zeros */ true);
+                }
+      matrix.compress(VectorOperation::add);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  BulkOnSprings<dim>::BulkOnSprings(
+    const Body<dim>                         &body,
+    std::unique_ptr<BulkOperator>            body_bulk,
+    const std::vector<BoundarySprings<dim>> &springs,
+    const unsigned int                       n_parts)
+    : bulk(std::move(body_bulk))
+    , part_of_unknown(body.parts_of_unknowns(n_parts))
+    , communicator(body.communicator)
+    , has_damping(
+        std::any_of(springs.begin(),
+                    springs.end(),
+                    [](const auto &spring) { return spring.damping > 0.; }))
+    , work(body.make_vector())
+    , product(body.make_vector())
+  {
+    assemble(body, springs, &BoundarySprings<dim>::stiffness, stiffness);
+    if (has_damping)
+      assemble(body, springs, &BoundarySprings<dim>::damping, damping);
+    scale = stiffness.linfty_norm();
+  }
+
+
+
+  template <int dim>
+  void
+  BulkOnSprings<dim>::force(const Vector &solution, Vector &force) const
+  {
+    bulk->force(solution, force);
+    stiffness.vmult(product, solution);
+    force += product;
+  }
+
+
+
+  template <int dim>
+  void
+  BulkOnSprings<dim>::add_tangent(const double  factor,
+                                  const Vector &solution,
+                                  Matrix       &tangent) const
+  {
+    bulk->add_tangent(factor, solution, tangent);
+    tangent.add(factor, stiffness);
+  }
+
+
+
+  template <int dim>
+  void
+  BulkOnSprings<dim>::step_force(const Vector &old_solution,
+                                 const Vector &new_solution,
+                                 const double  time_step,
+                                 Vector       &force) const
+  {
+    bulk->step_force(old_solution, new_solution, time_step, force);
+    work = old_solution;
+    work.sadd(.5, .5, new_solution);
+    stiffness.vmult(product, work);
+    force += product;
+    if (!has_damping)
+      return;
+    work = new_solution;
+    work -= old_solution;
+    damping.vmult(product, work);
+    force.add(1. / time_step, product);
+  }
+
+
+
+  template <int dim>
+  void
+  BulkOnSprings<dim>::add_step_tangent(const Vector &old_solution,
+                                       const Vector &new_solution,
+                                       const double  time_step,
+                                       Matrix       &tangent) const
+  {
+    bulk->add_step_tangent(old_solution, new_solution, time_step, tangent);
+    tangent.add(.5, stiffness);
+    if (has_damping)
+      tangent.add(1. / time_step, damping);
+  }
+
+
+
+  template <int dim>
+  MatrixSum
+  BulkOnSprings<dim>::tangent_terms(const double factor) const
+  {
+    MatrixSum terms = bulk->tangent_terms(factor);
+    if (!terms.empty())
+      terms.push_back({factor, &stiffness});
+    return terms;
+  }
+
+
+
+  template <int dim>
+  MatrixSum
+  BulkOnSprings<dim>::step_tangent_terms(const double time_step) const
+  {
+    MatrixSum terms = bulk->step_tangent_terms(time_step);
+    if (terms.empty())
+      return terms;
+    terms.push_back({.5, &stiffness});
+    if (has_damping)
+      terms.push_back({1. / time_step, &damping});
+    return terms;
+  }
+
+
+
+  template <int dim>
+  double
+  BulkOnSprings<dim>::energy(const Vector &solution) const
+  {
+    stiffness.vmult(product, solution);
+    return bulk->energy(solution) + .5 * (product * solution);
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  BulkOnSprings<dim>::energies_of_parts(const Vector &solution) const
+  {
+    std::vector<double> energies = bulk->energies_of_parts(solution);
+    std::vector<double> own(energies.size(), 0.);
+    stiffness.vmult(product, solution);
+    for (unsigned int i = 0; i < part_of_unknown.size(); ++i)
+      if (part_of_unknown[i] < own.size())
+        own[part_of_unknown[i]] += .5 * product.trilinos_vector()[0][i] *
+          solution.trilinos_vector()[0][i];
+    for (unsigned int p = 0; p < own.size(); ++p)
+      energies[p] += Utilities::MPI::sum(own[p], communicator);
+    return energies;
+  }
+
+
+
+  template <int dim>
+  double
+  BulkOnSprings<dim>::viscous_dissipation(const Vector &old_solution,
+                                          const Vector &new_solution,
+                                          const double  time_step) const
+  {
+    double taken =
+      bulk->viscous_dissipation(old_solution, new_solution, time_step);
+    if (has_damping)
+      {
+        work = new_solution;
+        work -= old_solution;
+        damping.vmult(product, work);
+        taken += (product * work) / time_step;
+      }
+    return taken;
+  }
+
+
+  template class BulkOnSprings<1>;
+  template class BulkOnSprings<2>;
+  template class BulkOnSprings<3>;
+} // namespace Ricochet

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_discretization_boundary_springs_h
+#define ricochet_discretization_boundary_springs_h
+
+#include <discretization/body.h>
+#include <discretization/bulk_operator.h>
+
+#include <memory>
+#include <vector>
+
+namespace Ricochet
+{
+  /// Springs and dashpots between a part of the undeformed boundary and where it is at
+  /// the start: a traction -k u - c u_t in some directions.
+  template <int dim>
+  struct BoundarySprings
+  {
+    dealii::types::boundary_id boundary_id;
+    std::array<bool, dim>      components;
+    /// k (Pa/m)
+    double stiffness = 0.;
+    /// c (Pa s/m)
+    double damping = 0.;
+  };
+
+  /**
+   * A body on springs: what they store and take is part of its energy and of its
+   * viscous dissipation. Both are linear, so that the balance of a step is exact: with
+   * the matrices K and C of the springs, u_m the mean and d the difference of both ends,
+   *
+   *     K u_m . d = 1/2 u_1 . K u_1 - 1/2 u_0 . K u_0,     C d/dt . d >= 0.
+   */
+  template <int dim>
+  class BulkOnSprings : public BulkOperator
+  {
+  public:
+    /// @param n_parts of the @p body, see Body::part().
+    BulkOnSprings(const Body<dim>                         &body,
+                  std::unique_ptr<BulkOperator>            bulk,
+                  const std::vector<BoundarySprings<dim>> &springs,
+                  const unsigned int                       n_parts);
+
+    void
+    force(const Vector &solution, Vector &force) const override;
+
+    void
+    add_tangent(const double  factor,
+                const Vector &solution,
+                Matrix       &tangent) const override;
+
+    void
+    step_force(const Vector &old_solution,
+               const Vector &new_solution,
+               const double  time_step,
+               Vector       &force) const override;
+
+    void
+    add_step_tangent(const Vector &old_solution,
+                     const Vector &new_solution,
+                     const double  time_step,
+                     Matrix       &tangent) const override;
+
+    MatrixSum
+    tangent_terms(const double factor) const override;
+
+    MatrixSum
+    step_tangent_terms(const double time_step) const override;
+
+    double
+    energy(const Vector &solution) const override;
+
+    std::vector<double>
+    energies_of_parts(const Vector &solution) const override;
+
+    double
+    viscous_dissipation(const Vector &old_solution,
+                        const Vector &new_solution,
+                        const double  time_step) const override;
+
+    double
+    stiffness_scale() const override
+    {
+      return bulk->stiffness_scale() + scale;
+    }
+
+    double
+    strain_round_off() const override
+    {
+      return bulk->strain_round_off();
+    }
+
+    bool
+    is_linear() const override
+    {
+      return bulk->is_linear();
+    }
+
+    std::string
+    failure() const override
+    {
+      return bulk->failure();
+    }
+
+  private:
+    const std::unique_ptr<BulkOperator> bulk;
+    const std::vector<unsigned int>     part_of_unknown;
+    const MPI_Comm                      communicator;
+    Matrix                              stiffness, damping;
+    double                              scale = 0.;
+    bool                                has_damping;
+    mutable Vector                      work, product;
+  };
+} // namespace Ricochet
+
+#endif

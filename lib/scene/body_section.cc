@@ -1,0 +1,522 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <problems/ball_mesh.h>
+#include <problems/gmsh_mesh.h>
+#include <problems/round_meshes.h>
+#include <scene/body_section.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/physics/transformations.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// A body that is made by its name.
+    template <int dim>
+    struct Shape
+    {
+      std::string name;
+      /// The parameters that it takes.
+      std::set<std::string> uses;
+      /// Names of its boundary ids.
+      std::map<std::string, types::boundary_id> boundary_names;
+      std::function<
+        void(const BodySection<dim> &, Triangulation<dim> &, CellNodes<dim> &)>
+        make;
+    };
+
+    template <typename Number>
+    void
+    check_list(const std::vector<Number> &list,
+               const unsigned int         n,
+               const std::string         &name)
+    {
+      bool good = list.size() == n;
+      for (const Number number : list)
+        good = good && number > 0;
+      if (!good)
+        throw InputError(name + " needs " + std::to_string(n) +
+                         " positive numbers, separated by commas.");
+    }
+
+    /// A block with a corner at the origin.
+    template <int dim>
+    void
+    make_block(const BodySection<dim> &p, Triangulation<dim> &cells)
+    {
+      check_list(p.size, dim, p.name_of("Size"));
+      check_list(p.cells_along, dim, p.name_of("Cells along"));
+      Point<dim> end;
+      for (unsigned int c = 0; c < dim; ++c)
+        end[c] = p.size[c];
+      GridGenerator::subdivided_hyper_rectangle(cells,
+                                                p.cells_along,
+                                                Point<dim>(),
+                                                end,
+                                                /* colorize */ true);
+    }
+
+    template <int dim>
+    void
+    make_by_generator(const BodySection<dim> &p, Triangulation<dim> &cells)
+    {
+      try
+        {
+          GridGenerator::generate_from_name_and_arguments(
+            cells,
+            p.generator,
+            p.generator_arguments);
+        }
+      catch (const std::exception &)
+        {
+          throw InputError(
+            "deal.II's GridGenerator cannot make '" + p.generator +
+            "' with the arguments '" + p.generator_arguments + "' in " +
+            std::to_string(dim) + "D (" + p.name_of("Generator") +
+            "). Names and arguments are those of its functions, the arguments "
+            "separated by colons: hyper_shell with 0, 0 : 1 : 2 : 12.");
+        }
+    }
+
+    bool
+    wants_simplices(const std::string &cells)
+    {
+      return cells == "triangles or tetrahedra";
+    }
+
+    // The table of all shapes: a new one is one entry here.
+    template <int dim>
+    const std::vector<Shape<dim>> &
+    table()
+    {
+      using P                                     = BodySection<dim>;
+      using Cells                                 = Triangulation<dim>;
+      using Nodes                                 = CellNodes<dim>;
+      static const std::vector<Shape<dim>> shapes = [] {
+        std::vector<Shape<dim>> list;
+        const auto              block = [](const P &p, Cells &cells, Nodes &) {
+          make_block(p, cells);
+        };
+        if constexpr (dim == 2)
+          {
+            list.push_back({"disk",
+                            {"Radius", "Nodes around", "Nodes"},
+                            {{"outer", 0}},
+                            [](const P &p, Cells &cells, Nodes &) {
+                              if (wants_simplices(p.cells))
+                                make_disk_of_triangles(
+                                  Point<2>(),
+                                  p.radius,
+                                  p.nodes_around,
+                                  p.nodes > 0
+                                    ? p.nodes
+                                    // As the disks of papers A and B have them.
+                                    : static_cast<unsigned int>(std::ceil(
+                                        .09 * p.nodes_around * p.nodes_around +
+                                        .5 * p.nodes_around)),
+                                  cells);
+                              else
+                                make_disk_of_quadrilaterals(Point<2>(),
+                                                            p.radius,
+                                                            p.nodes_around,
+                                                            cells);
+                            }});
+            list.push_back(
+              {"ring",
+               {"Radius", "Inner radius", "Nodes around", "Nodes across"},
+               {{"outer", 0}, {"inner", 1}},
+               [](const P &p, Cells &cells, Nodes &) {
+                 make_ring(Point<2>(),
+                           p.inner_radius,
+                           p.radius,
+                           p.nodes_around,
+                           p.nodes_across,
+                           wants_simplices(p.cells) ? CellShape::triangles
+                                                    : CellShape::quadrilaterals,
+                           cells);
+               }});
+            list.push_back(
+              {"rectangle",
+               {"Size", "Cells along"},
+               {{"left", 0}, {"right", 1}, {"lower", 2}, {"upper", 3}},
+               block});
+          }
+        else
+          {
+            list.push_back(
+              {"ball",
+               {"Radius", "Mesh size", "Curved cells"},
+               {{"lower", BallBoundary::lower_half},
+                {"upper", BallBoundary::upper_half}},
+               [](const P &p, Cells &cells, Nodes &nodes) {
+                 if (p.cells == "automatic" || wants_simplices(p.cells))
+                   make_ball_of_tetrahedra(Point<3>(),
+                                           p.radius,
+                                           p.mesh_size,
+                                           cells,
+                                           p.curved ? &nodes : nullptr);
+                 else
+                   make_ball_of_hexahedra(Point<3>(),
+                                          p.radius,
+                                          p.mesh_size,
+                                          cells);
+               }});
+            list.push_back({"block",
+                            {"Size", "Cells along"},
+                            {{"left", 0},
+                             {"right", 1},
+                             {"front", 2},
+                             {"back", 3},
+                             {"lower", 4},
+                             {"upper", 5}},
+                            block});
+          }
+        list.push_back({"generator",
+                        {"Generator", "Generator arguments"},
+                        {},
+                        [](const P &p, Cells &cells, Nodes &) {
+                          make_by_generator(p, cells);
+                        }});
+        return list;
+      }();
+      return shapes;
+    }
+
+    /// Null for "none".
+    template <int dim>
+    const Shape<dim> *
+    find(const std::string &name)
+    {
+      for (const Shape<dim> &shape : table<dim>())
+        if (shape.name == name)
+          return &shape;
+      return nullptr;
+    }
+
+    /// The mesh without its history of refinement; simplices if wanted.
+    template <int dim>
+    void
+    flatten(Triangulation<dim> &fine,
+            const bool          to_simplices,
+            Triangulation<dim> &flat)
+    {
+      if (!to_simplices || fine.all_reference_cells_are_simplex())
+        return GridGenerator::flatten_triangulation(fine, flat);
+      Triangulation<dim> quadrilaterals;
+      GridGenerator::flatten_triangulation(fine, quadrilaterals);
+      GridGenerator::convert_hypercube_to_simplex_mesh(quadrilaterals, flat);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  BodySection<dim>::BodySection(const NamedSection &section)
+    : section(section)
+    , size(dim, 1.)
+    , cells_along(dim, 8)
+  {
+    axis[2]                = 1.;
+    material.section       = section.full_name();
+    material.law           = "neo-Hookean";
+    material.plane_state   = "plane strain";
+    material.poisson_ratio = .3;
+    material.young_modulus = 1e6;
+  }
+
+
+
+  template <int dim>
+  void
+  BodySection<dim>::add_parameters(ParameterHandler &parameters)
+  {
+    material.add_parameters(parameters);
+    std::string shapes = "none";
+    for (const Shape<dim> &entry : table<dim>())
+      shapes += "|" + entry.name;
+
+    parameters.enter_subsection(section.full_name());
+    parameters.add_parameter(
+      "File",
+      file,
+      "Mesh file: of Gmsh (.msh, format 2.2 or 4.1), or .inp or .vtk, or a "
+      "geometry (.geo, .step) that Gmsh is to mesh. Boundaries are known by the "
+      "numbers and names of physical groups. In a parameter file the path counts "
+      "from the folder of that file.",
+      Patterns::FileName());
+    parameters.add_parameter("Shape",
+                             shape,
+                             "What to make where there is no file. generator: "
+                             "one of deal.II's GridGenerator.",
+                             Patterns::Selection(shapes));
+    parameters.add_parameter("Radius",
+                             radius,
+                             "Radius of the shape, the outer one (m).",
+                             Patterns::Double(1e-30));
+    parameters.add_parameter("Size",
+                             size,
+                             "Extents of the block along x, y and z (m); one "
+                             "corner is at the origin.");
+    parameters.add_parameter("Cells along",
+                             cells_along,
+                             "Numbers of cells along x, y and z.");
+    if constexpr (dim == 2)
+      {
+        parameters.add_parameter("Inner radius",
+                                 inner_radius,
+                                 "Inner radius of the ring (m).",
+                                 Patterns::Double(1e-30));
+        parameters.add_parameter(
+          "Nodes around",
+          nodes_around,
+          "Vertices on the circle; of a disk of quadrilaterals 8, 16, 32, ...",
+          Patterns::Integer(8, 100000));
+        parameters.add_parameter("Nodes across",
+                                 nodes_across,
+                                 "Vertices through the wall of the ring.",
+                                 Patterns::Integer(2, 10000));
+        parameters.add_parameter(
+          "Nodes",
+          nodes,
+          "All vertices of a disk of triangles; 0 for as "
+          "many as make them nearly equilateral.",
+          Patterns::Integer(0, 10000000));
+      }
+    else
+      parameters.add_parameter("Curved cells",
+                               curved,
+                               "Whether the edges of tetrahedra are curved, so "
+                               "that the ball is round; takes Mesh/Degree = 2. "
+                               "In a file the order of the elements tells.");
+    parameters.add_parameter(
+      "Mesh size",
+      mesh_size,
+      "Length of elements where Gmsh makes the mesh (m).",
+      Patterns::Double(0.));
+    parameters.add_parameter("Generator",
+                             generator,
+                             "Name of a function of GridGenerator.",
+                             Patterns::Anything());
+    parameters.add_parameter("Generator arguments",
+                             generator_arguments,
+                             "Its arguments after the mesh, separated by "
+                             "colons: 0, 0 : 1 : 2 : 12.",
+                             Patterns::Anything());
+    parameters.add_parameter(
+      "Refinements",
+      refinements,
+      "How often all cells are halved in each direction; "
+      "boundaries of shapes stay round.",
+      Patterns::Integer(0, 8));
+    parameters.add_parameter(
+      "Cells",
+      cells,
+      "Kind of the cells that are made. automatic: tetrahedra of a ball, "
+      "otherwise quadrilaterals or hexahedra; those of the file.",
+      Patterns::Selection("automatic|quadrilaterals or hexahedra|triangles or "
+                          "tetrahedra"));
+    parameters.add_parameter("Scale",
+                             scale,
+                             "Factor by which the mesh is made larger, before "
+                             "it is turned and moved.",
+                             Patterns::Double(1e-30));
+    parameters.add_parameter("Rotation",
+                             angle,
+                             "Angle by which it is then turned about the "
+                             "origin, against the clock (rad).");
+    if constexpr (dim == 3)
+      parameters.add_parameter("Rotation axis",
+                               axis,
+                               "The axis about which it is turned, of any "
+                               "length.");
+    parameters.add_parameter("Translation",
+                             translation,
+                             "By how much it is then moved (m).");
+    parameters.add_parameter("Velocity",
+                             velocity,
+                             "Velocity of the middle of its mass at the start "
+                             "(m/s).");
+    if constexpr (dim == 2)
+      parameters.add_parameter("Spin",
+                               spin[2],
+                               "Angular velocity at the start about the middle "
+                               "of its mass, against the clock (rad/s).");
+    else
+      parameters.add_parameter("Spin",
+                               spin,
+                               "Angular velocity at the start about the middle "
+                               "of its mass (rad/s).");
+    parameters.add_parameter(
+      "Acceleration",
+      acceleration,
+      "Force per mass beside gravity (m/s^2): expressions of x, y, z and the "
+      "time t, separated by semicolons; empty for none.",
+      Patterns::Anything());
+    parameters.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  std::vector<UnusedParameter>
+  BodySection<dim>::unused_parameters() const
+  {
+    std::vector<UnusedParameter> unused = material.unused_parameters();
+    const Shape<dim>            *own    = find<dim>(shape);
+    std::set<std::string>        names;
+    for (const Shape<dim> &entry : table<dim>())
+      names.insert(entry.uses.begin(), entry.uses.end());
+    for (const std::string &name : names)
+      if (!own || own->uses.count(name) == 0)
+        {
+          if (name == "Mesh size" && !file.empty())
+            continue;
+          std::string owners;
+          for (const Shape<dim> &entry : table<dim>())
+            if (entry.uses.count(name) > 0)
+              owners += (owners.empty() ? "" : " and ") + entry.name;
+          unused.push_back(
+            {name_of(name), owners + "; " + name_of("Shape") + " is " + shape});
+        }
+    if (angle == 0. && dim == 3)
+      unused.push_back({name_of("Rotation axis"),
+                        "rotation; " + name_of("Rotation") + " is 0"});
+    return unused;
+  }
+
+
+
+  template <int dim>
+  void
+  BodySection<dim>::make_mesh(BodyMesh<dim> &mesh) const
+  {
+    const Shape<dim> *own = find<dim>(shape);
+    if (file.empty() == (own == nullptr))
+      throw InputError(section.where + ": the body '" + section.name +
+                       "' needs either a " + name_of("File") + " or a " +
+                       name_of("Shape") + ".");
+    if (own && own->uses.count("Mesh size") > 0 && mesh_size == 0.)
+      throw InputError(name_of("Mesh size") +
+                       " has to be given for the shape '" + shape + "'.");
+    if (curved && (refinements > 0 || cells == "quadrilaterals or hexahedra"))
+      throw InputError(name_of("Curved cells") +
+                       " is for tetrahedra that are not refined.");
+
+    Triangulation<dim> fine;
+    if (own)
+      {
+        own->make(*this, fine, mesh.nodes);
+        mesh.boundary_names = own->boundary_names;
+      }
+    else
+      mesh.nodes = read_any_mesh(file, mesh_size, fine, mesh.boundary_names);
+    if (!mesh.nodes.empty() && refinements > 0)
+      throw InputError("The mesh '" + file +
+                       "' has elements of second order, which cannot be "
+                       "refined: set " +
+                       name_of("Refinements") + " to 0.");
+    fine.refine_global(refinements);
+    flatten(fine, own && wants_simplices(cells), mesh.cells);
+    place(mesh);
+  }
+
+
+
+  template <int dim>
+  void
+  BodySection<dim>::place(BodyMesh<dim> &mesh) const
+  {
+    if (axis.norm() == 0.)
+      throw InputError(name_of("Rotation axis") + " is a vector of no length.");
+    const Tensor<2, 3> rotation =
+      Physics::Transformations::Rotations::rotation_matrix_3d(
+        Point<3>(axis / axis.norm()),
+        angle);
+    const auto placed = [&](const Point<dim> &x) {
+      Tensor<1, 3> scaled;
+      for (unsigned int c = 0; c < dim; ++c)
+        scaled[c] = scale * x[c];
+      const Tensor<1, 3> turned = angle == 0. ? scaled : rotation * scaled;
+      Point<dim>         result;
+      for (unsigned int c = 0; c < dim; ++c)
+        result[c] = turned[c] + translation[c];
+      return result;
+    };
+    GridTools::transform(placed, mesh.cells);
+    for (auto &cell : mesh.nodes)
+      for (Point<dim> &node : cell)
+        node = placed(node);
+
+    // Measures with straight cells are good enough to be printed, and to find the
+    // middle.
+    const bool simplices = mesh.cells.all_reference_cells_are_simplex();
+    std::unique_ptr<Mapping<dim>>        mapping;
+    std::unique_ptr<Quadrature<dim>>     rule;
+    std::unique_ptr<Quadrature<dim - 1>> face_rule;
+    std::unique_ptr<FiniteElement<dim>>  element;
+    if (simplices)
+      {
+        mapping   = std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
+        rule      = std::make_unique<QGaussSimplex<dim>>(2);
+        face_rule = std::make_unique<QGaussSimplex<dim - 1>>(2);
+        element   = std::make_unique<FE_Nothing<dim>>(
+          dim == 2 ? ReferenceCells::Triangle : ReferenceCells::Tetrahedron);
+      }
+    else
+      {
+        mapping   = std::make_unique<MappingQ<dim>>(1);
+        rule      = std::make_unique<QGauss<dim>>(2);
+        face_rule = std::make_unique<QGauss<dim - 1>>(2);
+        element   = std::make_unique<FE_Nothing<dim>>();
+      }
+    FEValues<dim>     values(*mapping,
+                         *element,
+                         *rule,
+                         update_JxW_values | update_quadrature_points);
+    FEFaceValues<dim> face_values(*mapping,
+                                  *element,
+                                  *face_rule,
+                                  update_JxW_values);
+    Tensor<1, dim>    moment;
+    for (const auto &cell : mesh.cells.active_cell_iterators())
+      {
+        values.reinit(cell);
+        for (const unsigned int q : values.quadrature_point_indices())
+          {
+            mesh.measure += values.JxW(q);
+            moment +=
+              values.JxW(q) * Tensor<1, dim>(values.quadrature_point(q));
+          }
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary())
+            {
+              face_values.reinit(cell, f);
+              for (const unsigned int q :
+                   face_values.quadrature_point_indices())
+                mesh.boundary_areas[cell->face(f)->boundary_id()] +=
+                  face_values.JxW(q);
+            }
+      }
+    mesh.centre = Point<dim>(moment / mesh.measure);
+  }
+
+
+  template struct BodySection<2>;
+  template struct BodySection<3>;
+} // namespace Ricochet

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_scene_body_section_h
+#define ricochet_scene_body_section_h
+
+#include <discretization/curved_geometry.h>
+#include <materials/material_parameters.h>
+#include <scene/named_sections.h>
+
+#include <deal.II/grid/tria.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Ricochet
+{
+  /// The mesh of one body, placed.
+  template <int dim>
+  struct BodyMesh
+  {
+    /// Not refined.
+    dealii::Triangulation<dim> cells;
+    /// Nodes of cells of second order, otherwise nothing.
+    CellNodes<dim> nodes;
+    /// Boundary ids by the names that the shape or the file has for them.
+    std::map<std::string, dealii::types::boundary_id> boundary_names;
+    /// m^dim
+    double measure = 0.;
+    /// Middle of the mass (m).
+    dealii::Point<dim> centre;
+    /// Areas by boundary id (m^(dim-1)).
+    std::map<dealii::types::boundary_id, double> boundary_areas;
+  };
+
+  /// What a user says of a body, in a section `Body NAME`: where its mesh comes from,
+  /// where it is put, what it is made of, how it moves at the start.
+  template <int dim>
+  struct BodySection
+  {
+    explicit BodySection(const NamedSection &section);
+
+    const NamedSection section;
+
+    std::string file;
+    std::string shape = "none";
+    /// m
+    double                    radius = 1., inner_radius = .5;
+    std::vector<double>       size;
+    std::vector<unsigned int> cells_along;
+    unsigned int              nodes_around = 64, nodes_across = 4, nodes = 0;
+    double                    mesh_size   = 0.;
+    std::string               generator   = "hyper_cube", generator_arguments;
+    unsigned int              refinements = 0;
+    /// "quadrilaterals or hexahedra", "triangles or tetrahedra"; of files and shapes
+    /// that have one kind only "automatic".
+    std::string cells  = "automatic";
+    bool        curved = false;
+
+    double scale = 1.;
+    /// rad
+    double                 angle = 0.;
+    dealii::Tensor<1, 3>   axis;
+    dealii::Tensor<1, dim> translation;
+
+    MaterialParameters     material;
+    dealii::Tensor<1, dim> velocity;
+    dealii::Tensor<1, 3>   spin;
+    /// Expressions of x, y, z and t (m/s^2); empty for none.
+    std::string acceleration;
+
+    void
+    add_parameters(dealii::ParameterHandler &parameters);
+
+    std::vector<UnusedParameter>
+    unused_parameters() const;
+
+    /**
+     * Make, or read, and place the mesh.
+     * @throws InputError when it cannot be made.
+     */
+    void
+    make_mesh(BodyMesh<dim> &mesh) const;
+
+    /// The name of this section's parameter @p name, for messages.
+    std::string
+    name_of(const std::string &name) const
+    {
+      return section.full_name() + "/" + name;
+    }
+
+  private:
+    void
+    place(BodyMesh<dim> &mesh) const;
+  };
+} // namespace Ricochet
+
+#endif

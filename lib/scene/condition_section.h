@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_scene_condition_section_h
+#define ricochet_scene_condition_section_h
+
+#include <problems/impact.h>
+#include <scene/named_sections.h>
+#include <scene/surface_names.h>
+
+namespace Ricochet
+{
+  /// What a user says of a part of the boundary, in a section `Condition NAME`: what
+  /// holds, moves or loads it.
+  template <int dim>
+  struct ConditionSection
+  {
+    explicit ConditionSection(const NamedSection &section)
+      : section(section)
+    {}
+
+    const NamedSection section;
+
+    /// As SurfaceNames knows it.
+    std::string boundary;
+    std::string kind = "fixed";
+    /// "x, y"; empty for all.
+    std::string components;
+    /// Expressions of x, y, z and t, separated by semicolons.
+    std::string value;
+    /// Pa/m, Pa s/m
+    double stiffness = 0., damping = 0.;
+
+    void
+    add_parameters(dealii::ParameterHandler &parameters);
+
+    std::vector<UnusedParameter>
+    unused_parameters() const;
+
+    /// Enter it into @p setup. @throws InputError for a boundary that does not exist,
+    /// expressions that cannot be read, and a direction that is prescribed twice.
+    void
+    add_to(const SurfaceNames &surfaces, ImpactSetup<dim> &setup) const;
+
+    std::string
+    name_of(const std::string &name) const
+    {
+      return section.full_name() + "/" + name;
+    }
+
+  private:
+    std::array<bool, dim>
+    which_components() const;
+  };
+
+  /// The vector field that @p text, dim expressions of x, y, z and t separated by
+  /// semicolons, describes. @param name of the parameter. @throws InputError
+  template <int dim>
+  VectorField<dim>
+  parse_vector_field(const std::string &text, const std::string &name);
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_scene_probe_section_h
+#define ricochet_scene_probe_section_h
+
+#include <problems/impact.h>
+#include <scene/named_sections.h>
+#include <scene/surface_names.h>
+
+namespace Ricochet
+{
+  /// What a user wants to know at each time, in a section `Probe NAME`: columns of the
+  /// ledger.
+  template <int dim>
+  struct ProbeSection
+  {
+    explicit ProbeSection(const NamedSection &section)
+      : section(section)
+    {}
+
+    const NamedSection section;
+
+    std::string quantity = "displacement";
+    std::string body;
+    /// m; empty for the mean over the body.
+    std::vector<double> point;
+
+    void
+    add_parameters(dealii::ParameterHandler &parameters);
+
+    /**
+     * Add the columns to @p loop, which @p impact must outlive.
+     * @param materials of all parts.
+     * @param parts first part of each body, and their number.
+     * @throws InputError for a body that does not exist, or a point that is not in it.
+     */
+    void
+    add_to(TimeLoop                        &loop,
+           const Impact<dim>               &impact,
+           const SurfaceNames              &surfaces,
+           const std::vector<unsigned int> &first_part) const;
+
+    /// @throws InputError see add_to().
+    unsigned int
+    find_body(const SurfaceNames &surfaces) const;
+
+    std::string
+    name_of(const std::string &name) const
+    {
+      return section.full_name() + "/" + name;
+    }
+  };
+} // namespace Ricochet
+
+#endif

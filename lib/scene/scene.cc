@@ -1,0 +1,695 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <base/units.h>
+#include <contact/surfaces/closest_point.h>
+#include <contact/treatments/contact_sum.h>
+#include <discretization/curved_geometry.h>
+#include <discretization/distributed_mesh.h>
+#include <output/obstacle_work.h>
+#include <output/part_columns.h>
+#include <output/vtu_series.h>
+#include <problems/clearance.h>
+#include <problems/impact.h>
+#include <problems/part_meshes.h>
+#include <scene/scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  unsigned int
+  dimension_of(const ParameterText &text)
+  {
+    const ParameterText::Assignment *found = text.find("Dimension");
+    // Without any section there is nothing to compute, but parameters can be printed.
+    if (!found && text.sections.empty())
+      return 2;
+    if (!found)
+      throw InputError(
+        "The parameter file has to say 'set Dimension = 2' or 'set "
+        "Dimension = 3'.");
+    if (found->value != "2" && found->value != "3")
+      throw InputError(found->where + ": Dimension is 2 or 3, not '" +
+                       found->value.substr(0, 100) + "'.");
+    return found->value == "2" ? 2 : 3;
+  }
+
+
+
+  template <int dim>
+  Scene<dim>::Scene(const ParameterText &text)
+  {
+    impact.time.final_time   = 1.;
+    impact.time.time_step    = 1e-2;
+    impact.time.fields_every = 5;
+    impact.scheme.name       = "midpoint";
+
+    std::vector<NamedSection> sections = find_named_sections(
+      text,
+      {"Body", "Obstacle", "Contact", "Condition", "Probe"},
+      {"Time", "Output", "Newton", "Linear solver", "Limits", "Mesh", "Start"});
+    // To print parameters, one of each kind.
+    if (text.sections.empty())
+      for (const std::string kind :
+           {"Body", "Obstacle", "Contact", "Condition", "Probe"})
+        sections.push_back({kind, "NAME", "no file"});
+    for (const NamedSection &section : sections)
+      if (section.kind == "Body")
+        bodies.emplace_back(section);
+      else if (section.kind == "Obstacle")
+        {
+          obstacles.emplace_back(section, ObstacleParameters<dim>());
+          obstacles.back().second.section = section.full_name();
+        }
+      else if (section.kind == "Contact")
+        contacts.emplace_back(section);
+      else if (section.kind == "Condition")
+        conditions.emplace_back(section);
+      else
+        probes.emplace_back(section);
+    for (const auto &obstacle : obstacles)
+      for (const BodySection<dim> &body : bodies)
+        if (obstacle.first.name == body.section.name &&
+            body.section.name != "NAME")
+          throw InputError(obstacle.first.where + ": a body is called '" +
+                           body.section.name +
+                           "', too; contacts could not tell them apart.");
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::add_parameters(ParameterHandler &parameters)
+  {
+    handler = &parameters;
+    parameters.declare_entry("Dimension",
+                             std::to_string(dim),
+                             Patterns::Selection("2|3"),
+                             "Of the space: 2 or 3.");
+    parameters.add_parameter(
+      "Units",
+      units_text,
+      "Units of length, mass and time of all numbers in this file. Any three will "
+      "do, since nothing is converted; the table of energies is headed by them. "
+      "What is said of units here and in messages means the ones of the SI, and "
+      "stands for yours.",
+      Patterns::Anything());
+    impact.add_parameters_without_contact(parameters);
+
+    parameters.enter_subsection("Mesh");
+    parameters.add_parameter(
+      "Degree",
+      degree,
+      "Polynomial degree of the displacement, of all bodies; 2 for a body alone, "
+      "against obstacles.",
+      Patterns::Integer(1, 2));
+    parameters.leave_subsection();
+    parameters.enter_subsection("Start");
+    parameters.add_parameter("Gravity",
+                             gravity,
+                             "Acceleration of gravity (m/s^2).");
+    parameters.leave_subsection();
+
+    for (auto &body : bodies)
+      body.add_parameters(parameters);
+    for (auto &obstacle : obstacles)
+      obstacle.second.add_parameters(parameters);
+    for (auto &contact : contacts)
+      contact.add_parameters(parameters);
+    for (auto &condition : conditions)
+      condition.add_parameters(parameters);
+    for (auto &probe : probes)
+      probe.add_parameters(parameters);
+  }
+
+
+
+  template <int dim>
+  std::vector<UnusedParameter>
+  Scene<dim>::unused_parameters() const
+  {
+    std::vector<UnusedParameter> unused = impact.unused_parameters_of_scheme();
+    const auto add = [&](const std::vector<UnusedParameter> &more) {
+      unused.insert(unused.end(), more.begin(), more.end());
+    };
+    for (const auto &body : bodies)
+      add(body.unused_parameters());
+    for (const auto &obstacle : obstacles)
+      add(obstacle.second.unused_parameters());
+    for (const auto &contact : contacts)
+      add(contact.parameters.unused_parameters());
+    for (const auto &condition : conditions)
+      add(condition.unused_parameters());
+    return unused;
+  }
+
+
+
+  // ### What the sections mean together
+  template <int dim>
+  void
+  Scene<dim>::validate()
+  {
+    if (bodies.empty() || bodies.front().section.where == "no file")
+      throw InputError(
+        "There is no body: the parameter file needs a section "
+        "'subsection Body NAME'.");
+    Units{units_text};
+    impact.validate_times();
+    bool is_linear = true, is_viscous = false;
+    for (const BodySection<dim> &body : bodies)
+      {
+        body.material.validate(dim, impact.scheme.name);
+        is_linear  = is_linear && body.material.law == "linear elastic";
+        is_viscous = is_viscous ||
+          (body.material.viscosity != "none" &&
+           body.material.viscosity_eta > 0.);
+        if (!body.acceleration.empty())
+          parse_vector_field<dim>(body.acceleration,
+                                  body.name_of("Acceleration"));
+      }
+    make_meshes();
+
+    for (const auto &obstacle : obstacles)
+      check_motions(scheme_traits(impact.scheme.name),
+                    {{0, obstacle.second.make(impact.time.final_time)}});
+    find_missing_values();
+    for (const ContactSection &contact : contacts)
+      {
+        const Touching touching = find_touching(contact);
+        check_combination(contact.parameters,
+                          scheme_traits(impact.scheme.name),
+                          impact.redistributed_mass(),
+                          is_linear,
+                          is_viscous);
+        if (touching.obstacles.empty())
+          {
+            check_pair_combination(contact.parameters,
+                                   scheme_traits(impact.scheme.name),
+                                   touching.is_self);
+            if (degree > 1)
+              throw InputError(contact.section.where +
+                               ": between bodies and of a surface with itself, "
+                               "contact takes Mesh/Degree = 1.");
+          }
+      }
+    ImpactSetup<dim> setup{bodies.front().material.template make<dim>()};
+    for (const ConditionSection<dim> &condition : conditions)
+      condition.add_to(surfaces, setup);
+    for (const ProbeSection<dim> &probe : probes)
+      probe.find_body(surfaces);
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::make_meshes()
+  {
+    meshes.clear();
+    surfaces          = SurfaceNames();
+    double n_unknowns = 0.;
+    bool   is_simplex = false, is_curved = false;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        meshes.push_back(std::make_unique<BodyMesh<dim>>());
+        BodyMesh<dim> &mesh = *meshes.back();
+        bodies[b].make_mesh(mesh);
+        const bool simplex = mesh.cells.all_reference_cells_are_simplex();
+        if (b > 0 && simplex != is_simplex)
+          throw InputError(
+            "The bodies '" + bodies[0].section.name + "' and '" +
+            bodies[b].section.name +
+            "' have cells of different kinds; choose Cells so that all are "
+            "simplices, or all quadrilaterals or hexahedra.");
+        is_simplex        = simplex;
+        const bool curved = !mesh.nodes.empty();
+        if (b > 0 && curved != is_curved)
+          throw InputError("The bodies '" + bodies[0].section.name + "' and '" +
+                           bodies[b].section.name +
+                           "' have elements of different order; all need the "
+                           "same.");
+        is_curved = curved;
+        if (is_curved && degree == 1)
+          throw InputError("The body '" + bodies[b].section.name +
+                           "' has curved cells, which take Mesh/Degree = 2.");
+        n_unknowns += dim * static_cast<double>(mesh.cells.n_used_vertices()) *
+          (degree == 1 ? 1. : std::pow(2., dim));
+
+        // Numbers of the boundaries are those of the scene from here on.
+        std::set<types::boundary_id> own_ids;
+        for (const auto &area : mesh.boundary_areas)
+          own_ids.insert(area.first);
+        const auto id = surfaces.add_body(bodies[b].section.name,
+                                          own_ids,
+                                          mesh.boundary_names);
+        for (const auto &cell : mesh.cells.active_cell_iterators())
+          {
+            cell->set_material_id(b);
+            for (const auto &face : cell->face_iterators())
+              if (face->at_boundary())
+                face->set_boundary_id(id.at(face->boundary_id()));
+          }
+        std::map<types::boundary_id, double> areas;
+        for (const auto &[own, area] : mesh.boundary_areas)
+          areas[id.at(own)] = area;
+        mesh.boundary_areas = areas;
+      }
+    impact.check_size(n_unknowns, dim);
+  }
+
+
+
+  template <int dim>
+  typename Scene<dim>::Touching
+  Scene<dim>::find_touching(const ContactSection &contact) const
+  {
+    Touching touching;
+    touching.slave = surfaces.find(contact.surface, contact.name_of("Surface"));
+    if (Utilities::trim(contact.against) == "itself")
+      {
+        touching.is_self = true;
+        return touching;
+      }
+    std::vector<std::string> names    = surfaces.body_names();
+    unsigned int             n_bodies = 0;
+    const auto items = Utilities::split_string_list(contact.against, ';');
+    for (const std::string &item : items)
+      {
+        const std::string name =
+          Utilities::trim(item.substr(0, item.find(':')));
+        bool known = surfaces.find_body(name) < surfaces.n_bodies();
+        n_bodies += known;
+        for (unsigned int i = 0; i < obstacles.size(); ++i)
+          if (obstacles[i].first.name == item)
+            {
+              touching.obstacles.push_back(i);
+              known = true;
+            }
+        if (!known)
+          {
+            for (const auto &obstacle : obstacles)
+              names.push_back(obstacle.first.name);
+            std::string message = contact.name_of("Against") +
+              ": there is neither a body nor an obstacle '" +
+              name.substr(0, 100) + "'.";
+            for (const std::string &near : nearest_names(name, names, 1))
+              message += " Is '" + near + "' meant?";
+            throw InputError(message);
+          }
+      }
+    if (items.empty())
+      throw InputError(contact.section.where + ": " +
+                       contact.name_of("Against") +
+                       " has to say what the surface may touch: obstacles, "
+                       "bodies, or 'itself'.");
+    if (n_bodies > 0 && !touching.obstacles.empty())
+      throw InputError(contact.name_of("Against") +
+                       " names bodies and obstacles; make a contact for each.");
+    if (n_bodies > 0)
+      for (const auto &surface :
+           surfaces.find(contact.against, contact.name_of("Against")))
+        {
+          touching.master.insert(surface.ids.begin(), surface.ids.end());
+          for (const auto &slave : touching.slave)
+            for (const auto id : slave.ids)
+              if (surface.ids.count(id) > 0)
+                throw InputError(
+                  contact.section.where +
+                  ": the contact is between a surface and the same surface; "
+                  "for that say 'itself'.");
+        }
+    return touching;
+  }
+
+
+
+  namespace
+  {
+    /// Mean diameter of the cells of @p mesh at the boundaries @p ids (m), and their
+    /// number.
+    template <int dim>
+    std::pair<double, unsigned int>
+    sum_of_diameters(const Triangulation<dim>           &mesh,
+                     const std::set<types::boundary_id> &ids)
+    {
+      double       sum = 0.;
+      unsigned int n   = 0;
+      for (const auto &cell : mesh.active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary() && ids.count(face->boundary_id()) > 0)
+            {
+              sum += cell->diameter();
+              ++n;
+            }
+      return {sum, n};
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::find_missing_values()
+  {
+    for (ContactSection &contact : contacts)
+      {
+        // The softest of the bodies that take part.
+        const Touching         touching = find_touching(contact);
+        std::set<unsigned int> partners;
+        double                 sum = 0.;
+        unsigned int           n   = 0;
+        for (const auto &surface : touching.slave)
+          {
+            partners.insert(surface.body);
+            const auto [own_sum, own_n] =
+              sum_of_diameters(meshes[surface.body]->cells, surface.ids);
+            sum += own_sum;
+            n += own_n;
+          }
+        if (touching.obstacles.empty() && !touching.is_self)
+          for (const auto &surface :
+               surfaces.find(contact.against, contact.name_of("Against")))
+            partners.insert(surface.body);
+        ContactParameters::Scales scales{std::numeric_limits<double>::max(),
+                                         0.,
+                                         0.,
+                                         sum / n,
+                                         degree};
+        for (const unsigned int b : partners)
+          {
+            const LinearElastic elastic = bodies[b].material.at_small_strains();
+            const double        young   = elastic.mu *
+              (3. * elastic.lambda + 2. * elastic.mu) /
+              (elastic.lambda + elastic.mu);
+            if (young < scales.young_modulus)
+              {
+                scales.young_modulus = young;
+                scales.wave_modulus  = elastic.lambda + 2. * elastic.mu;
+                scales.density       = bodies[b].material.density;
+              }
+          }
+        contact.parameters.set_missing(scales);
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  Scene<dim>::initial_gap(const ContactSection &contact) const
+  {
+    const Touching touching = find_touching(contact);
+    double         smallest = std::numeric_limits<double>::infinity();
+    if (touching.is_self)
+      return smallest;
+    const auto for_each_vertex =
+      [&](const std::vector<SurfaceNames::Surface> &list, const auto &action) {
+        for (const auto &surface : list)
+          for (const auto &cell :
+               meshes[surface.body]->cells.active_cell_iterators())
+            for (const auto &face : cell->face_iterators())
+              if (face->at_boundary() &&
+                  surface.ids.count(face->boundary_id()) > 0)
+                for (const unsigned int v : face->vertex_indices())
+                  action(face->vertex(v), surface.body);
+      };
+    if (!touching.obstacles.empty())
+      {
+        for (const unsigned int i : touching.obstacles)
+          {
+            const auto obstacle =
+              obstacles[i].second.make(impact.time.final_time);
+            for_each_vertex(touching.slave,
+                            [&](const Point<dim> &x, const unsigned int) {
+                              smallest =
+                                std::min(smallest,
+                                         obstacle->gap(in_space<dim>(x), 0.));
+                            });
+          }
+        return smallest;
+      }
+    // The distance of nodes: of facets it is a little less.
+    std::vector<Point<dim>> slaves;
+    for_each_vertex(touching.slave,
+                    [&](const Point<dim> &x, const unsigned int) {
+                      slaves.push_back(x);
+                    });
+    for_each_vertex(surfaces.find(contact.against, contact.name_of("Against")),
+                    [&](const Point<dim> &y, const unsigned int) {
+                      for (const Point<dim> &x : slaves)
+                        smallest = std::min(smallest, x.distance_square(y));
+                    });
+    return std::sqrt(smallest);
+  }
+
+
+
+  template <int dim>
+  std::string
+  Scene<dim>::description() const
+  {
+    const Units        units(units_text);
+    std::ostringstream text;
+    const std::string  extents[2] = {"area", "volume"};
+    const auto with_unit = [&](const double number, const std::string &unit) {
+      return to_text(number) + " " + units.name(unit);
+    };
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const BodyMesh<dim> &mesh = *meshes[b];
+        text << "Body " << bodies[b].section.name << ": "
+             << mesh.cells.n_active_cells() << " cells, "
+             << mesh.cells.n_used_vertices() << " vertices, "
+             << extents[dim - 2] << ' ' << to_text(mesh.measure) << ", mass "
+             << with_unit(mesh.measure * bodies[b].material.density, "kg")
+             << ", middle (";
+        for (unsigned int c = 0; c < dim; ++c)
+          text << (c > 0 ? ", " : "") << to_text(mesh.centre[c]);
+        text << ")\n";
+        std::map<types::boundary_id, std::string> names;
+        for (const auto &surface :
+             surfaces.find(bodies[b].section.name, "description"))
+          for (const auto id : surface.ids)
+            text << "  boundary " << surfaces.name_of(id) << ": "
+                 << (dim == 2 ? "length " : "area ")
+                 << to_text(mesh.boundary_areas.at(id)) << '\n';
+      }
+    for (const ContactSection &contact : contacts)
+      {
+        const double gap = initial_gap(contact);
+        text << "Contact " << contact.section.name << ": "
+             << contact.parameters.treatment;
+        if (std::isfinite(gap))
+          text << ", gap at the start " << with_unit(gap, "m");
+        text << '\n';
+        for (const auto &[name, value] : contact.parameters.used_values())
+          text << "  " << name << " = " << to_text(value) << '\n';
+      }
+    // What overlaps is refused here as it is by a run.
+    Triangulation<dim> whole;
+    join(whole);
+    Impact<dim> assembly(impact, whole, make_setup(), MPI_COMM_SELF);
+    assembly.state_of_parts();
+    text << assembly.body.owned_indices().size() << " unknowns\n";
+    return text.str();
+  }
+
+
+
+  template <int dim>
+  std::vector<Material<dim>>
+  Scene<dim>::materials() const
+  {
+    std::vector<Material<dim>> list;
+    for (const BodySection<dim> &body : bodies)
+      list.push_back(body.material.template make<dim>());
+    return list;
+  }
+
+
+
+  template <int dim>
+  ImpactSetup<dim>
+  Scene<dim>::make_setup() const
+  {
+    const std::vector<Material<dim>> all_materials = materials();
+    ImpactSetup<dim>                 setup{all_materials.front()};
+    setup.degree  = degree;
+    setup.gravity = gravity;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const BodySection<dim> &body = bodies[b];
+        Part<dim>               part{body.section.column_name(),
+                       all_materials[b],
+                       body.material.density,
+                       body.velocity,
+                       body.spin,
+                       meshes[b]->centre};
+        if (!body.acceleration.empty())
+          part.acceleration =
+            parse_vector_field<dim>(body.acceleration,
+                                    body.name_of("Acceleration"));
+        setup.parts.push_back(part);
+      }
+    for (const ContactSection &contact : contacts)
+      {
+        const Touching     touching = find_touching(contact);
+        const std::string &name     = contact.section.name;
+        if (touching.obstacles.empty())
+          {
+            std::set<types::boundary_id> slave;
+            for (const auto &surface : touching.slave)
+              slave.insert(surface.ids.begin(), surface.ids.end());
+            setup.contacts.push_back(
+              {name,
+               contact.parameters,
+               {},
+               {{name,
+                 slave,
+                 touching.is_self ? slave : touching.master,
+                 touching.is_self}}});
+          }
+        // Of rigid obstacles, one for each body and obstacle: a body has its own
+        // stress, and a boundary may touch several.
+        for (const unsigned int i : touching.obstacles)
+          for (const auto &surface : touching.slave)
+            {
+              Contact own{name, contact.parameters};
+              own.part = surface.body;
+              const auto obstacle =
+                obstacles[i].second.make(impact.time.final_time);
+              for (const auto id : surface.ids)
+                own.obstacles[id] = obstacle;
+              setup.contacts.push_back(own);
+            }
+      }
+    for (const ConditionSection<dim> &condition : conditions)
+      condition.add_to(surfaces, setup);
+    return setup;
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::join(Triangulation<dim> &whole) const
+  {
+    std::vector<const Triangulation<dim> *> parts;
+    for (const auto &mesh : meshes)
+      parts.push_back(&mesh->cells);
+    join_parts(parts, whole);
+  }
+
+
+
+  // ### The run
+  template <int dim>
+  void
+  Scene<dim>::run(RunFolder &folder)
+  {
+    // What was found takes the place of the zeros in parameters.prm.
+    for (const ContactSection &contact : contacts)
+      {
+        handler->enter_subsection(contact.section.full_name());
+        for (const auto &[name, value] : contact.parameters.used_values())
+          {
+            char text[40];
+            std::snprintf(text, sizeof(text), "%.17g", value);
+            handler->set(name, std::string(text));
+            folder.log(contact.name_of(name) + " = " + to_text(value));
+          }
+        handler->leave_subsection();
+      }
+    std::ostringstream all_parameters;
+    handler->print_parameters(all_parameters, ParameterHandler::Text);
+    folder.all_parameters = all_parameters.str();
+
+    const auto cells =
+      distribute_mesh<dim>([&](Triangulation<dim> &whole) { join(whole); },
+                           folder.communicator);
+    ImpactSetup<dim> setup = make_setup();
+    CellNodes<dim>   nodes;
+    for (const auto &mesh : meshes)
+      nodes.insert(nodes.end(), mesh->nodes.begin(), mesh->nodes.end());
+    if (!nodes.empty())
+      setup.geometry = make_curved_geometry(nodes, *cells, folder.communicator);
+    Impact<dim> assembly(impact, *cells, setup, folder.communicator);
+    folder.log(std::to_string(cells->n_global_active_cells()) + " cells, " +
+               std::to_string(assembly.body.owned_indices().size()) +
+               " unknowns, " + std::to_string(bodies.size()) +
+               (bodies.size() == 1 ? " body, " : " bodies, ") +
+               std::to_string(contacts.size()) +
+               (contacts.size() == 1 ? " contact, " : " contacts, ") +
+               impact.scheme.name);
+
+    const State initial_state = assembly.state_of_parts();
+
+    // Boundaries of one contact are told of together.
+    std::map<types::boundary_id, std::string> names;
+    std::vector<Obstacles>                    obstacles_of_contacts;
+    for (unsigned int k = 0; k < assembly.contacts.size(); ++k)
+      {
+        const Contact &contact = assembly.contacts[k];
+        std::string    column  = contact.name;
+        std::replace(column.begin(), column.end(), ' ', '_');
+        const auto add = [&](const types::boundary_id id) {
+          names[assembly.contacts.size() == 1 ? id : ContactSum::id_of(k, id)] =
+            column;
+        };
+        for (const auto &obstacle : contact.obstacles)
+          add(obstacle.first);
+        for (const ContactPair &pair : contact.pairs)
+          for (const auto id : pair.slave)
+            add(id);
+        obstacles_of_contacts.push_back(contact.obstacles);
+      }
+    TimeLoop                   loop(impact.time,
+                  folder,
+                  assembly.system,
+                  *assembly.scheme,
+                  names,
+                  Units(units_text));
+    std::vector<std::string>   part_names;
+    std::vector<unsigned int>  first_part = {0};
+    std::vector<Material<dim>> all_materials;
+    for (const Part<dim> &part : assembly.parts)
+      {
+        part_names.push_back(part.name);
+        first_part.push_back(part_names.size());
+        all_materials.push_back(part.material);
+      }
+    const PartColumns<dim> parts(assembly.body,
+                                 *assembly.bulk,
+                                 assembly.system.mass_matrix(),
+                                 /* small strains */
+                                 all_materials.front().linear.has_value(),
+                                 part_names);
+    parts.add_to(loop);
+    for (const ProbeSection<dim> &probe : probes)
+      probe.add_to(loop, assembly, surfaces, first_part);
+    const ObstacleWork<dim> obstacle_work(assembly.body, obstacles_of_contacts);
+    loop.obstacle_work = obstacle_work;
+
+    VtuSeries<dim> fields(assembly.body,
+                          all_materials,
+                          *assembly.contact,
+                          assembly.obstacles,
+                          folder);
+    loop.write_fields = [&](const State &state, const unsigned int step) {
+      fields.write(state, step);
+    };
+    loop.run(initial_state);
+  }
+
+
+  template class Scene<2>;
+  template class Scene<3>;
+} // namespace Ricochet

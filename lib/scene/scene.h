@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_scene_scene_h
+#define ricochet_scene_scene_h
+
+#include <base/program.h>
+#include <contact/obstacles/obstacle_parameters.h>
+#include <scene/body_section.h>
+#include <scene/condition_section.h>
+#include <scene/contact_section.h>
+#include <scene/probe_section.h>
+#include <scene/surface_names.h>
+
+#include <memory>
+#include <vector>
+
+namespace Ricochet
+{
+  /// The dimension that @p text asks for by `set Dimension`. @throws InputError when it
+  /// is neither 2 nor 3, or missing.
+  unsigned int
+  dimension_of(const ParameterText &text);
+
+  /**
+   * Bodies, obstacles, contacts, conditions and probes as a parameter file names them,
+   * in as many sections as it wants: see the program ricochet.
+   *
+   * The steps are those of run_program(): names first, then parameters, then what they
+   * mean together.
+   */
+  template <int dim>
+  class Scene
+  {
+  public:
+    /// @throws InputError for sections that do not exist, see find_named_sections().
+    explicit Scene(const ParameterText &text);
+
+    void
+    add_parameters(dealii::ParameterHandler &parameters);
+
+    /// Meshes are made here, since only they tell whether their boundaries exist.
+    /// @throws InputError
+    void
+    validate();
+
+    std::vector<UnusedParameter>
+    unused_parameters() const;
+
+    /// What there is: bodies with measure, mass and boundaries, contacts with gaps and
+    /// the values that were found for them. After validate(). @throws InputError when
+    /// bodies overlap.
+    std::string
+    description() const;
+
+    void
+    run(RunFolder &folder);
+
+  private:
+    /// Between what a contact acts.
+    struct Touching
+    {
+      /// Names of obstacles, with surfaces; or
+      std::vector<unsigned int> obstacles;
+      /// surfaces of bodies; or
+      std::set<dealii::types::boundary_id> master;
+      bool                                 is_self = false;
+      std::vector<SurfaceNames::Surface>   slave;
+    };
+
+    Touching
+    find_touching(const ContactSection &contact) const;
+
+    void
+    make_meshes();
+
+    /// Give contacts the values that the user has left open.
+    void
+    find_missing_values();
+
+    /// The smallest gap at the start (m).
+    double
+    initial_gap(const ContactSection &contact) const;
+
+    std::vector<Material<dim>>
+    materials() const;
+
+    ImpactSetup<dim>
+    make_setup() const;
+
+    /// All bodies in one triangulation.
+    void
+    join(dealii::Triangulation<dim> &whole) const;
+
+    std::vector<BodySection<dim>>                                 bodies;
+    std::vector<std::pair<NamedSection, ObstacleParameters<dim>>> obstacles;
+    std::vector<ContactSection>                                   contacts;
+    std::vector<ConditionSection<dim>>                            conditions;
+    std::vector<ProbeSection<dim>>                                probes;
+
+    ImpactParameters       impact;
+    unsigned int           degree = 1;
+    dealii::Tensor<1, dim> gravity;
+    std::string            units_text = "m, kg, s";
+
+    // The handler that the parameters were added to, for values that are found.
+    dealii::ParameterHandler *handler = nullptr;
+
+    // After validate().
+    std::vector<std::unique_ptr<BodyMesh<dim>>> meshes;
+    SurfaceNames                                surfaces;
+  };
+} // namespace Ricochet
+
+#endif
