@@ -353,14 +353,18 @@ namespace Ricochet
   read_any_mesh(const std::string                         &file_name,
                 const double                               mesh_size,
                 Triangulation<dim>                        &triangulation,
-                std::map<std::string, types::boundary_id> &boundary_names)
+                std::map<std::string, types::boundary_id> &boundary_names,
+                std::map<std::string, types::material_id> &material_names)
   {
     namespace fs        = std::filesystem;
     const auto read_msh = [&](const std::string &msh_file) {
       CellNodes<dim> nodes = read_gmsh_mesh(msh_file, triangulation);
       boundary_names.clear();
+      material_names.clear();
       for (const auto &[name, number] : physical_groups(msh_file, dim - 1))
         boundary_names[name] = number;
+      for (const auto &[name, number] : physical_groups(msh_file, dim))
+        material_names[name] = number;
       return nodes;
     };
     std::string ending = fs::path(file_name).extension().string();
@@ -406,10 +410,12 @@ namespace Ricochet
   read_any_mesh(const std::string &,
                 const double,
                 Triangulation<2> &,
-                std::map<std::string, types::boundary_id> &);
+                std::map<std::string, types::boundary_id> &,
+                std::map<std::string, types::material_id> &);
   template CellNodes<3>
   read_any_mesh(const std::string &,
                 const double,
                 Triangulation<3> &,
-                std::map<std::string, types::boundary_id> &);
+                std::map<std::string, types::boundary_id> &,
+                std::map<std::string, types::material_id> &);
 } // namespace Ricochet

@@ -63,6 +63,7 @@ namespace Ricochet
    * .msh file.
    *
    * @param boundary_names gets the boundary ids by the names of physical groups.
+   * @param material_names gets the material ids in the same way.
    * @return see read_gmsh_mesh().
    * @throws InputError naming the file; also for an ending that is not known.
    */
@@ -72,7 +73,8 @@ namespace Ricochet
     const std::string                                 &file_name,
     const double                                       mesh_size,
     dealii::Triangulation<dim>                        &triangulation,
-    std::map<std::string, dealii::types::boundary_id> &boundary_names);
+    std::map<std::string, dealii::types::boundary_id> &boundary_names,
+    std::map<std::string, dealii::types::material_id> &material_names);
 } // namespace Ricochet
 
 #endif

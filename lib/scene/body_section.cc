@@ -6,6 +6,7 @@
 #include <scene/body_section.h>
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/utilities.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
@@ -226,18 +227,28 @@ namespace Ricochet
 
 
 
+  MaterialParameters
+  default_material()
+  {
+    MaterialParameters material;
+    material.law           = "neo-Hookean";
+    material.plane_state   = "plane strain";
+    material.poisson_ratio = .3;
+    material.young_modulus = 1e6;
+    return material;
+  }
+
+
+
   template <int dim>
   BodySection<dim>::BodySection(const NamedSection &section)
     : section(section)
     , size(dim, 1.)
     , cells_along(dim, 8)
   {
-    axis[2]                = 1.;
-    material.section       = section.full_name();
-    material.law           = "neo-Hookean";
-    material.plane_state   = "plane strain";
-    material.poisson_ratio = .3;
-    material.young_modulus = 1e6;
+    axis[2]          = 1.;
+    material         = default_material();
+    material.section = section.full_name();
   }
 
 
@@ -331,6 +342,13 @@ namespace Ricochet
       "otherwise quadrilaterals or hexahedra; those of the file.",
       Patterns::Selection("automatic|quadrilaterals or hexahedra|triangles or "
                           "tetrahedra"));
+    parameters.add_parameter(
+      "Materials",
+      materials,
+      "Which cells are of a material with a section 'Material NAME' of its own, by "
+      "the number or the name of their physical group: '3: rubber; core: steel'. All "
+      "others are of the material that is described here.",
+      Patterns::Anything());
     parameters.add_parameter("Scale",
                              scale,
                              "Factor by which the mesh is made larger, before "
@@ -425,7 +443,11 @@ namespace Ricochet
         mesh.boundary_names = own->boundary_names;
       }
     else
-      mesh.nodes = read_any_mesh(file, mesh_size, fine, mesh.boundary_names);
+      mesh.nodes = read_any_mesh(file,
+                                 mesh_size,
+                                 fine,
+                                 mesh.boundary_names,
+                                 mesh.material_names);
     if (!mesh.nodes.empty() && refinements > 0)
       throw InputError("The mesh '" + file +
                        "' has elements of second order, which cannot be "
@@ -434,6 +456,49 @@ namespace Ricochet
     fine.refine_global(refinements);
     flatten(fine, own && wants_simplices(cells), mesh.cells);
     place(mesh);
+  }
+
+
+
+  template <int dim>
+  std::map<types::material_id, std::string>
+  BodySection<dim>::named_materials(const BodyMesh<dim> &mesh) const
+  {
+    std::map<types::material_id, std::string> names;
+    for (const std::string &item : Utilities::split_string_list(materials, ';'))
+      {
+        const std::size_t colon = item.find(':');
+        const std::string group = Utilities::trim(item.substr(0, colon));
+        if (colon == std::string::npos)
+          throw InputError(
+            name_of("Materials") + ": '" + item.substr(0, 100) +
+            "' should be 'number or name of the cells: name of a "
+            "material'.");
+        std::vector<std::string> candidates;
+        bool                     found = false;
+        for (const auto &entry : mesh.shares)
+          {
+            std::vector<std::string> own = {std::to_string(entry.first)};
+            for (const auto &[name, id] : mesh.material_names)
+              if (id == entry.first)
+                own.push_back(name);
+            for (const std::string &candidate : own)
+              if (candidate == group)
+                {
+                  found              = true;
+                  names[entry.first] = Utilities::trim(item.substr(colon + 1));
+                }
+            candidates.insert(candidates.end(), own.begin(), own.end());
+          }
+        if (found)
+          continue;
+        std::string list;
+        for (const std::string &candidate : candidates)
+          list += (list.empty() ? "" : ", ") + candidate;
+        throw InputError(name_of("Materials") + ": the mesh has no cells '" +
+                         group.substr(0, 100) + "'. There is: " + list + ".");
+      }
+    return names;
   }
 
 
@@ -464,7 +529,7 @@ namespace Ricochet
         node = placed(node);
 
     // Measures with straight cells are good enough to be printed, and to find the
-    // middle.
+    // middle of the mass.
     const bool simplices = mesh.cells.all_reference_cells_are_simplex();
     std::unique_ptr<Mapping<dim>>        mapping;
     std::unique_ptr<Quadrature<dim>>     rule;
@@ -493,14 +558,14 @@ namespace Ricochet
                                   *element,
                                   *face_rule,
                                   update_JxW_values);
-    Tensor<1, dim>    moment;
     for (const auto &cell : mesh.cells.active_cell_iterators())
       {
         values.reinit(cell);
+        auto &share = mesh.shares[cell->material_id()];
         for (const unsigned int q : values.quadrature_point_indices())
           {
-            mesh.measure += values.JxW(q);
-            moment +=
+            share.measure += values.JxW(q);
+            share.moment +=
               values.JxW(q) * Tensor<1, dim>(values.quadrature_point(q));
           }
         for (const unsigned int f : cell->face_indices())
@@ -513,7 +578,6 @@ namespace Ricochet
                   face_values.JxW(q);
             }
       }
-    mesh.centre = Point<dim>(moment / mesh.measure);
   }
 
 

@@ -24,13 +24,24 @@ namespace Ricochet
     CellNodes<dim> nodes;
     /// Boundary ids by the names that the shape or the file has for them.
     std::map<std::string, dealii::types::boundary_id> boundary_names;
-    /// m^dim
-    double measure = 0.;
-    /// Middle of the mass (m).
-    dealii::Point<dim> centre;
+    /// The same for material ids.
+    std::map<std::string, dealii::types::material_id> material_names;
+    /// The cells with one material id.
+    struct Share
+    {
+      /// m^dim
+      double measure = 0.;
+      /// Integral of the position (m^(dim+1)).
+      dealii::Tensor<1, dim> moment;
+    };
+    std::map<dealii::types::material_id, Share> shares;
     /// Areas by boundary id (m^(dim-1)).
     std::map<dealii::types::boundary_id, double> boundary_areas;
   };
+
+  /// The material of a body of which nothing is said.
+  MaterialParameters
+  default_material();
 
   /// What a user says of a body, in a section `Body NAME`: where its mesh comes from,
   /// where it is put, what it is made of, how it moves at the start.
@@ -62,7 +73,9 @@ namespace Ricochet
     dealii::Tensor<1, 3>   axis;
     dealii::Tensor<1, dim> translation;
 
-    MaterialParameters     material;
+    MaterialParameters material;
+    /// Materials of their own for some material ids: "3: rubber; core: steel".
+    std::string            materials;
     dealii::Tensor<1, dim> velocity;
     dealii::Tensor<1, 3>   spin;
     /// Expressions of x, y, z and t (m/s^2); empty for none.
@@ -80,6 +93,11 @@ namespace Ricochet
      */
     void
     make_mesh(BodyMesh<dim> &mesh) const;
+
+    /// The names of the materials by material id of the @p mesh; those that are not
+    /// there are of the body's own. @throws InputError
+    std::map<dealii::types::material_id, std::string>
+    named_materials(const BodyMesh<dim> &mesh) const;
 
     /// The name of this section's parameter @p name, for messages.
     std::string

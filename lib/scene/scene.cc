@@ -52,16 +52,21 @@ namespace Ricochet
 
     std::vector<NamedSection> sections = find_named_sections(
       text,
-      {"Body", "Obstacle", "Contact", "Condition", "Probe"},
+      {"Body", "Material", "Obstacle", "Contact", "Condition", "Probe"},
       {"Time", "Output", "Newton", "Linear solver", "Limits", "Mesh", "Start"});
     // To print parameters, one of each kind.
     if (text.sections.empty())
       for (const std::string kind :
-           {"Body", "Obstacle", "Contact", "Condition", "Probe"})
+           {"Body", "Material", "Obstacle", "Contact", "Condition", "Probe"})
         sections.push_back({kind, "NAME", "no file"});
     for (const NamedSection &section : sections)
       if (section.kind == "Body")
         bodies.emplace_back(section);
+      else if (section.kind == "Material")
+        {
+          materials.emplace_back(section, default_material());
+          materials.back().second.section = section.full_name();
+        }
       else if (section.kind == "Obstacle")
         {
           obstacles.emplace_back(section, ObstacleParameters<dim>());
@@ -119,6 +124,8 @@ namespace Ricochet
 
     for (auto &body : bodies)
       body.add_parameters(parameters);
+    for (auto &material : materials)
+      material.second.add_parameters(parameters);
     for (auto &obstacle : obstacles)
       obstacle.second.add_parameters(parameters);
     for (auto &contact : contacts)
@@ -141,6 +148,8 @@ namespace Ricochet
     };
     for (const auto &body : bodies)
       add(body.unused_parameters());
+    for (const auto &material : materials)
+      add(material.second.unused_parameters());
     for (const auto &obstacle : obstacles)
       add(obstacle.second.unused_parameters());
     for (const auto &contact : contacts)
@@ -163,19 +172,20 @@ namespace Ricochet
         "'subsection Body NAME'.");
     Units{units_text};
     impact.validate_times();
-    bool is_linear = true, is_viscous = false;
     for (const BodySection<dim> &body : bodies)
-      {
-        body.material.validate(dim, impact.scheme.name);
-        is_linear  = is_linear && body.material.law == "linear elastic";
-        is_viscous = is_viscous ||
-          (body.material.viscosity != "none" &&
-           body.material.viscosity_eta > 0.);
-        if (!body.acceleration.empty())
-          parse_vector_field<dim>(body.acceleration,
-                                  body.name_of("Acceleration"));
-      }
+      if (!body.acceleration.empty())
+        parse_vector_field<dim>(body.acceleration,
+                                body.name_of("Acceleration"));
     make_meshes();
+    bool is_linear = true, is_viscous = false;
+    for (const PartOfScene &part : parts)
+      {
+        const MaterialParameters &material = part.material;
+        material.validate(dim, impact.scheme.name);
+        is_linear  = is_linear && material.law == "linear elastic";
+        is_viscous = is_viscous ||
+          (material.viscosity != "none" && material.viscosity_eta > 0.);
+      }
 
     for (const auto &obstacle : obstacles)
       check_motions(scheme_traits(impact.scheme.name),
@@ -189,6 +199,13 @@ namespace Ricochet
                           impact.redistributed_mass(),
                           is_linear,
                           is_viscous);
+        if (!touching.obstacles.empty() && uses_stress(contact.parameters))
+          for (const auto &surface : touching.slave)
+            if (parts_at(surface).size() > 1)
+              throw InputError(contact.section.where + ": the treatment '" +
+                               contact.parameters.treatment +
+                               "' takes the stress at the surface, which must "
+                               "be of one material.");
         if (touching.obstacles.empty())
           {
             check_pair_combination(contact.parameters,
@@ -200,7 +217,7 @@ namespace Ricochet
                                "contact takes Mesh/Degree = 1.");
           }
       }
-    ImpactSetup<dim> setup{bodies.front().material.template make<dim>()};
+    ImpactSetup<dim> setup{parts.front().material.template make<dim>()};
     for (const ConditionSection<dim> &condition : conditions)
       condition.add_to(surfaces, setup);
     for (const ProbeSection<dim> &probe : probes)
@@ -214,6 +231,9 @@ namespace Ricochet
   Scene<dim>::make_meshes()
   {
     meshes.clear();
+    parts.clear();
+    first_part = {0};
+    centres.clear();
     surfaces          = SurfaceNames();
     double n_unknowns = 0.;
     bool   is_simplex = false, is_curved = false;
@@ -251,18 +271,127 @@ namespace Ricochet
                                           own_ids,
                                           mesh.boundary_names);
         for (const auto &cell : mesh.cells.active_cell_iterators())
-          {
-            cell->set_material_id(b);
-            for (const auto &face : cell->face_iterators())
-              if (face->at_boundary())
-                face->set_boundary_id(id.at(face->boundary_id()));
-          }
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary())
+              face->set_boundary_id(id.at(face->boundary_id()));
         std::map<types::boundary_id, double> areas;
         for (const auto &[own, area] : mesh.boundary_areas)
           areas[id.at(own)] = area;
         mesh.boundary_areas = areas;
+        make_parts(b);
       }
     impact.check_size(n_unknowns, dim);
+  }
+
+
+
+  template <int dim>
+  const MaterialParameters &
+  Scene<dim>::find_material(const std::string &name,
+                            const std::string &where) const
+  {
+    std::vector<std::string> names;
+    for (const auto &material : materials)
+      {
+        if (material.first.name == name)
+          return material.second;
+        names.push_back(material.first.name);
+      }
+    std::string message =
+      where + ": there is no section 'Material " + name.substr(0, 100) + "'.";
+    for (const std::string &near : nearest_names(name, names, 1))
+      message += " Is '" + near + "' meant?";
+    throw InputError(message);
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::make_parts(const unsigned int b)
+  {
+    const BodySection<dim> &body  = bodies[b];
+    const BodyMesh<dim>    &mesh  = *meshes[b];
+    const auto              named = body.named_materials(mesh);
+    // Cells of the body's own material come first, then the others by their names.
+    std::map<std::string, double> measures;
+    double                        mass = 0.;
+    Tensor<1, dim>                moment;
+    for (const auto &[id, share] : mesh.shares)
+      {
+        const auto        own  = named.find(id);
+        const std::string name = own == named.end() ? "" : own->second;
+        measures[name] += share.measure;
+        const double density =
+          (name.empty() ? body.material
+                        : find_material(name, body.name_of("Materials")))
+            .density;
+        mass += density * share.measure;
+        moment += density * share.moment;
+      }
+    centres.emplace_back(moment / mass);
+    std::map<std::string, unsigned int> part;
+    for (const auto &[name, measure] : measures)
+      {
+        part[name] = parts.size();
+        parts.push_back(
+          {body.section.column_name() + (name.empty() ? "" : "_" + name),
+           b,
+           name.empty() ? body.material
+                        : find_material(name, body.name_of("Materials")),
+           measure});
+        std::replace(parts.back().name.begin(),
+                     parts.back().name.end(),
+                     ' ',
+                     '_');
+      }
+    first_part.push_back(parts.size());
+    for (const auto &cell : mesh.cells.active_cell_iterators())
+      {
+        const auto own = named.find(cell->material_id());
+        cell->set_material_id(part.at(own == named.end() ? "" : own->second));
+      }
+  }
+
+
+
+  template <int dim>
+  std::set<unsigned int>
+  Scene<dim>::parts_at(const SurfaceNames::Surface &surface) const
+  {
+    std::set<unsigned int> list;
+    for (const auto &cell : meshes[surface.body]->cells.active_cell_iterators())
+      for (const auto &face : cell->face_iterators())
+        if (face->at_boundary() && surface.ids.count(face->boundary_id()) > 0)
+          list.insert(cell->material_id());
+    return list;
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Scene<dim>::notes() const
+  {
+    std::vector<std::string> lines;
+    for (unsigned int i = 0; i < obstacles.size(); ++i)
+      if (std::none_of(contacts.begin(),
+                       contacts.end(),
+                       [&](const ContactSection &contact) {
+                         const auto own = find_touching(contact).obstacles;
+                         return std::count(own.begin(), own.end(), i) > 0;
+                       }))
+        lines.push_back("note: " + obstacles[i].first.where +
+                        ": nothing can touch the obstacle '" +
+                        obstacles[i].first.name + "': no contact names it.");
+    for (const auto &material : materials)
+      if (std::none_of(parts.begin(), parts.end(), [&](const auto &part) {
+            return part.material.section == material.first.full_name();
+          }))
+        lines.push_back("note: " + material.first.where +
+                        ": nothing is made of the material '" +
+                        material.first.name + "'.");
+    return lines;
   }
 
 
@@ -364,11 +493,15 @@ namespace Ricochet
         // The softest of the bodies that take part.
         const Touching         touching = find_touching(contact);
         std::set<unsigned int> partners;
-        double                 sum = 0.;
-        unsigned int           n   = 0;
+        const auto             add_partners = [&](const auto &surface) {
+          const auto own = parts_at(surface);
+          partners.insert(own.begin(), own.end());
+        };
+        double       sum = 0.;
+        unsigned int n   = 0;
         for (const auto &surface : touching.slave)
           {
-            partners.insert(surface.body);
+            add_partners(surface);
             const auto [own_sum, own_n] =
               sum_of_diameters(meshes[surface.body]->cells, surface.ids);
             sum += own_sum;
@@ -377,15 +510,15 @@ namespace Ricochet
         if (touching.obstacles.empty() && !touching.is_self)
           for (const auto &surface :
                surfaces.find(contact.against, contact.name_of("Against")))
-            partners.insert(surface.body);
+            add_partners(surface);
         ContactParameters::Scales scales{std::numeric_limits<double>::max(),
                                          0.,
                                          0.,
                                          sum / n,
                                          degree};
-        for (const unsigned int b : partners)
+        for (const unsigned int p : partners)
           {
-            const LinearElastic elastic = bodies[b].material.at_small_strains();
+            const LinearElastic elastic = parts[p].material.at_small_strains();
             const double        young   = elastic.mu *
               (3. * elastic.lambda + 2. * elastic.mu) /
               (elastic.lambda + elastic.mu);
@@ -393,7 +526,7 @@ namespace Ricochet
               {
                 scales.young_modulus = young;
                 scales.wave_modulus  = elastic.lambda + 2. * elastic.mu;
-                scales.density       = bodies[b].material.density;
+                scales.density       = parts[p].material.density;
               }
           }
         contact.parameters.set_missing(scales);
@@ -465,16 +598,30 @@ namespace Ricochet
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         const BodyMesh<dim> &mesh = *meshes[b];
+        double               mass = 0., measure = 0.;
+        for (unsigned int p = first_part[b]; p < first_part[b + 1]; ++p)
+          {
+            measure += parts[p].measure;
+            mass += parts[p].measure * parts[p].material.density;
+          }
         text << "Body " << bodies[b].section.name << ": "
              << mesh.cells.n_active_cells() << " cells, "
              << mesh.cells.n_used_vertices() << " vertices, "
-             << extents[dim - 2] << ' ' << to_text(mesh.measure) << ", mass "
-             << with_unit(mesh.measure * bodies[b].material.density, "kg")
-             << ", middle (";
+             << extents[dim - 2] << ' ' << to_text(measure) << ", mass "
+             << with_unit(mass, "kg") << ", middle (";
+        // What is round-off is zero.
+        const double extent = std::pow(measure, 1. / dim);
         for (unsigned int c = 0; c < dim; ++c)
-          text << (c > 0 ? ", " : "") << to_text(mesh.centre[c]);
+          text << (c > 0 ? ", " : "")
+               << to_text(std::abs(centres[b][c]) < 1e-12 * extent
+                            ? 0.
+                            : centres[b][c]);
         text << ")\n";
-        std::map<types::boundary_id, std::string> names;
+        if (first_part[b + 1] - first_part[b] > 1)
+          for (unsigned int p = first_part[b]; p < first_part[b + 1]; ++p)
+            text << "  part " << parts[p].name << ": " << extents[dim - 2]
+                 << ' ' << to_text(parts[p].measure) << ", "
+                 << parts[p].material.law << '\n';
         for (const auto &surface :
              surfaces.find(bodies[b].section.name, "description"))
           for (const auto id : surface.ids)
@@ -499,19 +646,9 @@ namespace Ricochet
     Impact<dim> assembly(impact, whole, make_setup(), MPI_COMM_SELF);
     assembly.state_of_parts();
     text << assembly.body.owned_indices().size() << " unknowns\n";
+    for (const std::string &line : notes())
+      text << line << '\n';
     return text.str();
-  }
-
-
-
-  template <int dim>
-  std::vector<Material<dim>>
-  Scene<dim>::materials() const
-  {
-    std::vector<Material<dim>> list;
-    for (const BodySection<dim> &body : bodies)
-      list.push_back(body.material.template make<dim>());
-    return list;
   }
 
 
@@ -520,19 +657,18 @@ namespace Ricochet
   ImpactSetup<dim>
   Scene<dim>::make_setup() const
   {
-    const std::vector<Material<dim>> all_materials = materials();
-    ImpactSetup<dim>                 setup{all_materials.front()};
+    ImpactSetup<dim> setup{parts.front().material.template make<dim>()};
     setup.degree  = degree;
     setup.gravity = gravity;
-    for (unsigned int b = 0; b < bodies.size(); ++b)
+    for (const PartOfScene &own : parts)
       {
-        const BodySection<dim> &body = bodies[b];
-        Part<dim>               part{body.section.column_name(),
-                       all_materials[b],
-                       body.material.density,
+        const BodySection<dim> &body = bodies[own.body];
+        Part<dim>               part{own.name,
+                       own.material.template make<dim>(),
+                       own.material.density,
                        body.velocity,
                        body.spin,
-                       meshes[b]->centre};
+                       centres[own.body]};
         if (!body.acceleration.empty())
           part.acceleration =
             parse_vector_field<dim>(body.acceleration,
@@ -563,7 +699,7 @@ namespace Ricochet
           for (const auto &surface : touching.slave)
             {
               Contact own{name, contact.parameters};
-              own.part = surface.body;
+              own.part = *parts_at(surface).begin();
               const auto obstacle =
                 obstacles[i].second.make(impact.time.final_time);
               for (const auto id : surface.ids)
@@ -582,10 +718,10 @@ namespace Ricochet
   void
   Scene<dim>::join(Triangulation<dim> &whole) const
   {
-    std::vector<const Triangulation<dim> *> parts;
+    std::vector<const Triangulation<dim> *> all;
     for (const auto &mesh : meshes)
-      parts.push_back(&mesh->cells);
-    join_parts(parts, whole);
+      all.push_back(&mesh->cells);
+    join_parts(all, whole, /* keep material ids */ true);
   }
 
 
@@ -595,6 +731,9 @@ namespace Ricochet
   void
   Scene<dim>::run(RunFolder &folder)
   {
+    for (const std::string &line : notes())
+      folder.log(line);
+
     // What was found takes the place of the zeros in parameters.prm.
     for (const ContactSection &contact : contacts)
       {
@@ -658,21 +797,19 @@ namespace Ricochet
                   names,
                   Units(units_text));
     std::vector<std::string>   part_names;
-    std::vector<unsigned int>  first_part = {0};
     std::vector<Material<dim>> all_materials;
     for (const Part<dim> &part : assembly.parts)
       {
         part_names.push_back(part.name);
-        first_part.push_back(part_names.size());
         all_materials.push_back(part.material);
       }
-    const PartColumns<dim> parts(assembly.body,
-                                 *assembly.bulk,
-                                 assembly.system.mass_matrix(),
-                                 /* small strains */
-                                 all_materials.front().linear.has_value(),
-                                 part_names);
-    parts.add_to(loop);
+    const PartColumns<dim> columns(assembly.body,
+                                   *assembly.bulk,
+                                   assembly.system.mass_matrix(),
+                                   /* small strains */
+                                   all_materials.front().linear.has_value(),
+                                   part_names);
+    columns.add_to(loop);
     for (const ProbeSection<dim> &probe : probes)
       probe.add_to(loop, assembly, surfaces, first_part);
     const ObstacleWork<dim> obstacle_work(assembly.body, obstacles_of_contacts);

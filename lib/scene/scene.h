@@ -66,11 +66,27 @@ namespace Ricochet
       std::vector<SurfaceNames::Surface>   slave;
     };
 
+    /// Of sections that nothing refers to.
+    std::vector<std::string>
+    notes() const;
+
     Touching
     find_touching(const ContactSection &contact) const;
 
     void
     make_meshes();
+
+    /// Number the parts of body @p b, and its cells by them.
+    void
+    make_parts(const unsigned int b);
+
+    /// The material of the section @p name. @throws InputError
+    const MaterialParameters &
+    find_material(const std::string &name, const std::string &where) const;
+
+    /// The parts with cells at the boundaries @p surface.
+    std::set<unsigned int>
+    parts_at(const SurfaceNames::Surface &surface) const;
 
     /// Give contacts the values that the user has left open.
     void
@@ -80,9 +96,6 @@ namespace Ricochet
     double
     initial_gap(const ContactSection &contact) const;
 
-    std::vector<Material<dim>>
-    materials() const;
-
     ImpactSetup<dim>
     make_setup() const;
 
@@ -91,6 +104,7 @@ namespace Ricochet
     join(dealii::Triangulation<dim> &whole) const;
 
     std::vector<BodySection<dim>>                                 bodies;
+    std::vector<std::pair<NamedSection, MaterialParameters>>      materials;
     std::vector<std::pair<NamedSection, ObstacleParameters<dim>>> obstacles;
     std::vector<ContactSection>                                   contacts;
     std::vector<ConditionSection<dim>>                            conditions;
@@ -104,9 +118,24 @@ namespace Ricochet
     // The handler that the parameters were added to, for values that are found.
     dealii::ParameterHandler *handler = nullptr;
 
+    /// Cells of one body that are of one material: a part, see Body::part().
+    struct PartOfScene
+    {
+      /// For columns of the ledger.
+      std::string        name;
+      unsigned int       body;
+      MaterialParameters material;
+      double             measure;
+    };
+
     // After validate().
     std::vector<std::unique_ptr<BodyMesh<dim>>> meshes;
     SurfaceNames                                surfaces;
+    std::vector<PartOfScene>                    parts;
+    // Of each body, and the number of all.
+    std::vector<unsigned int> first_part;
+    // Middle of the mass of each body (m).
+    std::vector<dealii::Point<dim>> centres;
   };
 } // namespace Ricochet
 

@@ -249,8 +249,9 @@ StentArtery::run(RunFolder &folder)
   setup.parts.push_back({"stent", stent_material, stent.density});
   setup.clamped = {StentArteryGeometry::artery_outer_side,
                    StentArteryGeometry::artery_ends};
-  setup.imposed[StentArteryGeometry::stent_lower_side] =
-    {{{true, true}}, [this](const double time, const Point<2> &) { return deployment(time); }};
+  setup.imposed[StentArteryGeometry::stent_lower_side] = {
+    {{true, true}},
+    [this](const double time, const Point<2> &) { return deployment(time); }};
   setup.pairs = {
     {"wall",
      {StentArteryGeometry::artery_inner_wall},

@@ -121,7 +121,11 @@ namespace Ricochet
   bool
   is_constraint(const ContactParameters &parameters);
 
-  /// Names of the treatments that are none.
+  /// Whether it takes the stress of the body at the surface.
+  bool
+  uses_stress(const ContactParameters &parameters);
+
+  /// Names of the treatments that are no constraints.
   std::string
   names_of_laws();
 

@@ -198,6 +198,14 @@ namespace Ricochet
 
 
 
+  bool
+  uses_stress(const ContactParameters &parameters)
+  {
+    return find(parameters).traits.uses_stress;
+  }
+
+
+
   std::vector<std::string>
   schemes_allowed(const ContactParameters &parameters,
                   const bool               redistributed_mass)
