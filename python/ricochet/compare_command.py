@@ -7,7 +7,8 @@ the program refuses is in the table with the reason. The table is printed, and F
 output/compare/CASE, has it as index.html with figures, and as table.csv.
 
 What the columns are:
-  energy lost          (first energy + work from outside - last energy) / first energy
+  energy lost          (first energy + work from outside - last energy) / first energy, or over
+                       the largest energy of bodies that begin at rest
   restitution          - (velocity after) / (velocity before), along the normal of contact
   largest force        of all contacts together (their sum at a time)
   largest penetration  of any contact
@@ -384,7 +385,7 @@ def quantities(comparison: Comparison) -> list[Quantity]:
 
     result = [
         Quantity("energy lost", "%", each(lambda run: 100 * measures.energy_lost(run.table))),
-        Quantity("restitution", "", each(lambda run: measures.restitution(run.table, run.log))),
+        Quantity("restitution", "", each(lambda run: run.summary().restitution)),
         Quantity("largest force", unit("contact_force_"), each(force)),
         Quantity("largest penetration", unit("penetration_"), each(penetration)),
         Quantity("contact lasts", unit("time"), each(lambda run: measures.duration(run.table))),
@@ -444,7 +445,9 @@ def print_table(comparison: Comparison) -> None:
     widths = [max(len(line[i]) for line in whole) for i in range(len(header))]
     widths[0] = max(len(line[0]) for line in [header, *lines])
     for line in [header, *lines]:
-        print(" | ".join(text.ljust(width) for text, width in zip(line, widths)).rstrip())
+        # A sentence is as wide as it is.
+        fitting = widths if len(line) == len(header) else [widths[0], 0]
+        print(" | ".join(text.ljust(width) for text, width in zip(line, fitting)).rstrip())
         if line is header:
             print("-+-".join("-" * width for width in widths))
     for method in comparison.methods:

@@ -200,9 +200,9 @@ def write(comparison: Comparison) -> pathlib.Path:
         )
 
         def change(table: Table) -> Array:
-            energy = table["energy"]
-            percent: Array = 100 * (energy - energy[0]) / (measures.energy_scale(table) or 1.0)
-            return percent
+            return 100 * measures.change_of_energy(table)
+
+        tables = [run.table for method in comparison.methods for run in method.runs]
 
         def depth(table: Table) -> Array:
             columns = [table[f"penetration_{name}"] for name in measures.contacts(table)]
@@ -210,7 +210,12 @@ def write(comparison: Comparison) -> pathlib.Path:
             return deepest
 
         figures: list[tuple[str, Callable[[], Figure]]] = [
-            ("Energy", lambda: _history(comparison, "change of energy (% of the first)", change)),
+            (
+                "Energy",
+                lambda: _history(
+                    comparison, curves.change_label(tables, "change of energy"), change
+                ),
+            ),
             ("Energy lost", lambda: _spread(comparison)),
             (
                 "Contact force",

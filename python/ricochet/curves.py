@@ -22,7 +22,7 @@ from matplotlib.figure import Figure  # noqa: E402
 
 from . import measures, prm  # noqa: E402
 from .results import Run  # noqa: E402
-from .tables import Table  # noqa: E402
+from .tables import Array, Table  # noqa: E402
 
 # Colours that can be told apart with any eyes (Okabe and Ito), without the yellow one.
 COLOURS = (
@@ -69,8 +69,6 @@ class Line:
     label: str
     table: Table
     look: dict[str, Any]
-    #: Tables of the same run with other positions of the impact, drawn as a band.
-    band: tuple[Table, ...] = ()
 
 
 def look(number: int, of: int) -> dict[str, Any]:
@@ -128,16 +126,18 @@ def _unit(lines: Sequence[Line], column: str) -> str:
     return f" ({unit})" if unit not in ("", "1") else ""
 
 
-def _draw(axes: Axes, line: Line, column: str, scale: float = 1.0, shift: float = 0.0) -> None:
-    """A column over time, with its band; `shift` is taken away before it is scaled."""
+def _draw(axes: Axes, line: Line, column: str, values: Array | None = None) -> None:
+    """A column over time, or what was made of it, if there is any value."""
     if column not in line.table or np.isnan(line.table[column]).all():
         return
-    axes.plot(
-        line.table["time"],
-        (line.table[column] - shift) * scale,
-        label=line.label,
-        **line.look,
-    )
+    shown = line.table[column] if values is None else values
+    axes.plot(line.table["time"], shown, label=line.label, **line.look)
+
+
+def _say_if_empty(axes: Axes, text: str) -> None:
+    if not axes.lines:
+        axes.text(0.5, 0.5, text, ha="center", color="0.4", transform=axes.transAxes)
+        axes.set_yticks([])
 
 
 def legend_below(
@@ -188,6 +188,17 @@ def _grid(n: int, columns: int, width: float, height: float) -> tuple[Figure, li
     return figure, panels[:n]
 
 
+def change_label(tables: Sequence[Table], begin: str) -> str:
+    """The label of an axis with `measures.change_of_energy` in per cent."""
+    scales = {"largest" if measures.begins_at_rest(table) else "first" for table in tables}
+    work = any(measures.has_work_from_outside(table) for table in tables)
+    return (
+        begin
+        + ("\nwithout work from outside\n" if work else " ")
+        + f"(% of the {' or '.join(sorted(scales))})"
+    )
+
+
 def _time_labels(panels: Sequence[Axes], lines: Sequence[Line], columns: int) -> None:
     for number, panel in enumerate(panels):
         if number + columns >= len(panels):
@@ -211,9 +222,8 @@ def energies(lines: Sequence[Line]) -> Figure:
     """
 
     def change(line: Line, column: str, panel: Axes) -> None:
-        scale = measures.energy_scale(line.table)
-        if scale > 0:
-            _draw(panel, line, column, 100 / scale, float(line.table["energy"][0]))
+        if column in line.table:
+            _draw(panel, line, column, 100 * measures.change_of_energy(line.table, column))
 
     if len(lines) == 1:
         figure, panels = _grid(2, 1, 7.5, 3.1)
@@ -223,7 +233,7 @@ def energies(lines: Sequence[Line]) -> Figure:
             if column in ENERGIES[2:]:
                 change(one, column, panels[1])
         panels[0].set_ylabel(f"energy{_unit(lines, 'energy')}")
-        panels[1].set_ylabel("change of energy (% of the first)")
+        panels[1].set_ylabel(change_label([lines[0].table], "change of energy"))
         _time_labels(panels, lines, 1)
         legend_below(figure, panels[0])
         return figure
@@ -235,10 +245,13 @@ def energies(lines: Sequence[Line]) -> Figure:
                 change(line, column, panel)
             else:
                 _draw(panel, line, column)
-        if not panel.lines:
-            panel.text(0.5, 0.5, "none of the runs has one", ha="center", transform=panel.transAxes)
+        _say_if_empty(panel, "none of the runs has one")
         panel.set_title(ENERGY_NAMES[column])
-        panel.set_ylabel("change (% of the first)" if relative else f"energy{_unit(lines, column)}")
+        panel.set_ylabel(
+            change_label([line.table for line in lines], "change")
+            if relative
+            else f"energy{_unit(lines, column)}"
+        )
     _time_labels(panels, lines, 2)
     legend_below(figure, panels)
     return figure
@@ -284,6 +297,7 @@ def _by_contact(lines: Sequence[Line], quantities: Sequence[tuple[str, str]]) ->
                     _draw(panel, line, begin + name)
                 panel.set_ylabel(f"{title}{_unit(lines, begin + name)}")
                 panel.set_title(words(name))
+                _say_if_empty(panel, "no values in the tables")
             for panel in row[len(group) :]:
                 panel.remove()
     for panel in axes[-1]:

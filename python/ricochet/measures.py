@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,18 +45,50 @@ def work_from_outside(table: Table) -> Array:
     return sum((table[name] for name in columns if name in table), start=np.zeros(len(table)))
 
 
-def energy_scale(table: Table) -> float:
-    """What energies are measured by: the first one, or of a body that begins at rest the
-    largest one."""
+def begins_at_rest(table: Table) -> bool:
+    """Whether the first energy is nothing beside the largest one: what is at rest, or nearly."""
     energy = table["energy"]
-    return float(energy[0]) if energy[0] > 0 else float(np.nanmax(energy))
+    return not energy[0] > 1e-9 * np.nanmax(energy)
+
+
+def energy_scale(table: Table) -> float:
+    """What energies are measured by: the first one, or of what begins at rest the largest one."""
+    energy = table["energy"]
+    return float(np.nanmax(energy)) if begins_at_rest(table) else float(energy[0])
+
+
+def has_work_from_outside(table: Table) -> bool:
+    """Whether loads, imposed displacements or moving obstacles work on the bodies."""
+    work = np.abs(work_from_outside(table)).max(initial=0.0)
+    return bool(work > 1e-12 * np.nanmax(table["energy"]))
+
+
+def change_of_energy(table: Table, column: str = "energy") -> Array:
+    """By how much an energy has changed since the first row, without the work from outside.
+
+    As a part of `energy_scale`; of "modified_energy" the change of itself.
+    """
+    change: Array = table[column] - table[column][0] - work_from_outside(table)
+    return change / (energy_scale(table) or 1.0)
+
+
+def largest_balance_residual(table: Table) -> float:
+    """By how much the energy balance of a step fails to close at most, over `energy_scale`."""
+    if "balance_residual" not in table:
+        return float("nan")
+    residual = np.abs(table["balance_residual"])
+    if begins_at_rest(table):
+        # The column measures by the largest energy up to its row.
+        energy = np.maximum.accumulate(table["energy"])
+        residual = residual * energy / (energy[-1] or 1.0)
+    return float(np.nanmax(residual))
 
 
 def energy_lost(table: Table) -> float:
     """The part of the energy that is gone at the end.
 
     It is (E_first + work from outside - E_last) / E_first, with the largest energy in place of
-    the first one if that is zero. Negative if there is more than there should be.
+    the first one if it begins at rest. Negative if there is more than there should be.
     """
     energy = table["energy"]
     scale = energy_scale(table)
@@ -95,7 +128,14 @@ def first_approach(table: Table) -> Approach | None:
     return Approach(float(time[last] + gaps[last] / speed), speed) if speed > 0 else None
 
 
-def restitution(table: Table, log: str = "") -> float | None:
+def turns_at_start(parameters: Mapping[str, str]) -> bool:
+    """Whether a body may turn at the start, by the parameters of the run."""
+    words = ("spin", "angular velocity")
+    values = [v for name, v in parameters.items() if any(w in name.lower() for w in words)]
+    return any(re.search(r"[^0., ]", value) for value in values)
+
+
+def restitution(table: Table, log: str = "", turns: bool = True) -> float | None:
     """The coefficient of restitution of a collision, or None where it has no meaning.
 
     It is e = -(w_after . n) / (w_before . n). There w is the velocity of the centre of mass, of
@@ -103,9 +143,11 @@ def restitution(table: Table, log: str = "") -> float | None:
     last force of contact; n is the normal of contact.
 
     Where the program prints it itself, that number is taken (it knows masses and normal).
-    Otherwise n is the vertical for a body that hits a contact called `foundation`, and else
-    the direction of the momentum that is exchanged, which is the normal without friction. The
-    momenta must be in the table. It needs a collision: one contact only, no contact at the
+    Otherwise n is the direction of the momentum that is exchanged, which is the normal without
+    friction; with friction it is the vertical for a contact called `foundation`, and for others
+    there is no number. The momenta must be in the table. Of two bodies the masses are found
+    from momenta and kinetic energies at the start, so that they must not turn then: `turns` is
+    false if that is known; otherwise only bodies without any angular momentum are taken. It needs a collision: one contact only, no contact at the
     beginning and at the end, no work from outside.
     """
     match = re.search(r"^restitution\s+(\S+)\s*$", log, re.MULTILINE)
@@ -135,12 +177,12 @@ def restitution(table: Table, log: str = "") -> float | None:
     has_friction = friction > 1e-12 * energy_scale(table)
     if len(bodies) <= 1:
         first, last = momentum(before), momentum(after)
-        if names[0] == "foundation":
-            normal = np.eye(len(axes))[-1]
-        elif has_friction:
-            return None
-        else:
+        if not has_friction:
             normal = last - first
+        elif names[0] == "foundation":
+            normal = np.eye(len(axes))[-1]
+        else:
+            return None
     elif len(bodies) == 2 and not has_friction:
         # Masses are not in the table. The bodies fly without deformation at first, so that
         # p^2 / (2 T) is the mass of one that does not turn.
@@ -150,7 +192,7 @@ def restitution(table: Table, log: str = "") -> float | None:
             return None
         masses = []
         for body in bodies:
-            if f"kinetic_energy{body}" not in table or not _flies_without_spin(table, axes, body):
+            if f"kinetic_energy{body}" not in table or not _flies(table, axes, body, turns):
                 return None
             masses.append(
                 float(momentum(0, body) @ momentum(0, body) / 2 / table[f"kinetic_energy{body}"][0])
@@ -166,16 +208,18 @@ def restitution(table: Table, log: str = "") -> float | None:
     return -float(last @ normal) / approach if approach != 0 else None
 
 
-def _flies_without_spin(table: Table, axes: list[str], body: str) -> bool:
-    """Whether a body moves at the start and surely does not turn.
+def _flies(table: Table, axes: list[str], body: str, turns: bool) -> bool:
+    """Whether a body moves at the start, is not deformed and does not turn.
 
     A spin would show in the angular momentum; that of a body which flies past the origin has
-    another part, so that only bodies without any are taken.
+    another part.
     """
     energy = table[f"kinetic_energy{body}"][0]
     elastic = table[f"elastic_energy{body}"][0] if f"elastic_energy{body}" in table else 0.0
     if energy <= 0 or elastic > 1e-9 * energy:
         return False
+    if not turns:
+        return True
     spins = [
         name for name in table.columns if re.fullmatch(rf"angular_momentum(_[xyz])?{body}", name)
     ]
@@ -206,7 +250,7 @@ class Summary:
     #: How many steps the table has, and the time of the last one.
     steps: int
     end: float
-    #: As a part of the first energy, or of the largest one if that is zero; see
+    #: As a part of the first energy, or of the largest one if it begins at rest; see
     #: `measures.energy_lost`.
     energy_lost: float
     #: See `measures.restitution`.
@@ -221,7 +265,7 @@ class Summary:
     newton_iterations: int
     #: How often a step was halved.
     step_halvings: int
-    #: By how much the energy balance of a step fails to close at most; its scale is in README.md.
+    #: See `measures.largest_balance_residual`.
     largest_balance_residual: float
     #: More of each contact.
     contacts: dict[str, ContactMeasures]
@@ -273,8 +317,9 @@ def measure_contact(table: Table, name: str) -> ContactMeasures:
     )
 
 
-def summarise(table: Table, log: str = "") -> Summary:
-    """The summary of a table of energies; `log` is the text of the run's log.txt."""
+def summarise(table: Table, log: str = "", turns: bool = True) -> Summary:
+    """The summary of a table of energies; `log` is the text of log.txt, `turns` as for
+    `restitution`."""
     each = {name: measure_contact(table, name) for name in contacts(table)}
 
     def column(name: str) -> Array:
@@ -284,17 +329,17 @@ def summarise(table: Table, log: str = "") -> Summary:
         steps=len(table) - 1,
         end=float(table["time"][-1]),
         energy_lost=energy_lost(table),
-        restitution=restitution(table, log),
+        restitution=restitution(table, log, turns),
         largest_force={name: contact.largest_force for name, contact in each.items()},
         largest_penetration=max((c.largest_penetration for c in each.values()), default=0.0),
         contact_duration=duration(table),
         newton_iterations=int(column("newton_iterations").sum()),
         # This column counts from the start.
         step_halvings=int(column("step_halvings").max()),
-        largest_balance_residual=float(np.nanmax(np.abs(column("balance_residual")))),
+        largest_balance_residual=largest_balance_residual(table),
         contacts=each,
         units=table.units,
-        energy_scale="first" if table["energy"][0] > 0 else "largest",
+        energy_scale="largest" if begins_at_rest(table) else "first",
     )
 
 

@@ -29,8 +29,8 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 COLOUR_MAP = "viridis"
-# Meshes with more cells than this are drawn without their edges.
-MOST_EDGES = 4000
+# Edges are drawn of meshes whose cells have this area in the picture at least (pixels).
+SMALLEST_CELL = 150
 
 
 def check_ffmpeg() -> None:
@@ -106,8 +106,8 @@ def _scene(run: Run, colour: str, files: Sequence[FieldFile], pixels: int) -> _S
         lowest = max(lowest, 0.0)
     if not highest > lowest:
         highest = lowest + 1.0
-    on_foundation = "foundation" in run.contacts
     size = float(np.linalg.norm(high - low))
+    on_foundation = _stands_on_zero(run, dim, size)
 
     cut, ground = None, None
     if dim == 2:
@@ -149,6 +149,7 @@ def _scene(run: Run, colour: str, files: Sequence[FieldFile], pixels: int) -> _S
         + depth * np.cross(right, up)
     )
     scale = pixels / max(width, height)
+    area, seen = width * height * scale**2, cells if dim == 2 else 2 * cells ** (2 / 3)
     view = render.View(
         tuple(map(float, centre)),  # type: ignore[arg-type]
         tuple(map(float, right)),  # type: ignore[arg-type]
@@ -165,11 +166,24 @@ def _scene(run: Run, colour: str, files: Sequence[FieldFile], pixels: int) -> _S
         (lowest, highest),
         largest > highest * (1 + 1e-9),
         view,
-        cells <= MOST_EDGES,
+        bool(area > SMALLEST_CELL * seen),
         cut,
         ground,
         on_foundation,
     )
+
+
+def _stands_on_zero(run: Run, dim: int, size: float) -> bool:
+    """Whether the contact called `foundation` is with the plane at the height 0: then the gap
+    at the start is the height of the lowest point."""
+    column = "smallest_gap_foundation"
+    file = run.field_files[0]
+    if column not in run.table or file.step != 0:
+        return False
+    grid = run.fields(file.step)
+    places = fields.array_of_points(grid) + fields.displacements(grid)
+    height = float(places[:, dim - 1].min())
+    return abs(height - float(run.table[column][0])) < 1e-3 * size
 
 
 def _render(scene: _Scene, files: Sequence[FieldFile], folder: pathlib.Path) -> list[Array]:
@@ -238,8 +252,9 @@ def _time(run: Run, file: FieldFile) -> str:
     """The time of a file, with as many digits as the times of the run need."""
     times = run.times
     step = np.diff(times).min() if len(times) > 1 else abs(times[0]) or 1.0
-    digits = max(0, min(12, 1 - math.floor(math.log10(step)))) if step > 0 else 6
-    return f"t = {file.time:.{digits}f} {run.units.get('time', '')}".strip()
+    digits = max(0, 1 - math.floor(math.log10(step))) if step > 0 else 6
+    text = f"{file.time:.{digits}f}" if digits < 6 else f"{file.time:.3e}"
+    return f"t = {text} {run.units.get('time', '')}".strip()
 
 
 def instants(run: Run) -> list[FieldFile]:
@@ -253,14 +268,24 @@ def instants(run: Run) -> list[FieldFile]:
     return [files[k] for k in sorted({0, middle, len(files) - 1})]
 
 
-def _check_dimension(run: Run, colour: str) -> int:
-    """The dimension of a run; raises: RicochetError: it has no such field."""
+def check_colour(run: Run, colour: str | None) -> str:
+    """What a run can be coloured by: `colour`, or without one von Mises stress, on bars stress.
+
+    Raises:
+        RicochetError: it has no fields, or not this one.
+    """
     grid = run.fields(run.field_files[0].step)
+    if colour is None:
+        colour = "stress" if fields.dimension(grid) == 1 else "von_mises"
     try:
         fields.values(grid, colour)
     except RicochetError as error:
         raise RicochetError(f"{run.folder}: {error}") from None
-    return fields.dimension(grid)
+    return colour
+
+
+def _is_bar(run: Run) -> bool:
+    return fields.dimension(run.fields(run.field_files[0].step)) == 1
 
 
 def draw_instants(
@@ -272,7 +297,7 @@ def draw_instants(
     Raises:
         RicochetError: there are no such fields, or VTK cannot draw.
     """
-    if _check_dimension(run, colour) == 1:
+    if _is_bar(run):
         return curves.save(_bar(run, colour, title), path)
     files = instants(run)
     scene = _scene(run, colour, files, 900)
@@ -339,7 +364,7 @@ def animate(
     """
     if path.suffix == ".mp4":
         check_ffmpeg()
-    if _check_dimension(run, colour) == 1:
+    if _is_bar(run):
         raise RicochetError("Bars are drawn over place and time by --fields, not as animations.")
     if most_frames < 2:
         raise RicochetError("An animation needs at least two frames.")

@@ -35,8 +35,7 @@ def command_line(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     parser.add_argument(
         "--colour",
         choices=tuple(COLOURS),
-        default="von_mises",
-        help="what bodies are coloured by (default: von_mises)",
+        help="what bodies are coloured by (default: von_mises; of bars stress)",
     )
     parser.add_argument(
         "--frames",
@@ -53,10 +52,10 @@ def plot(
     folder: pathlib.Path,
     fields: bool = False,
     animation: str | None = None,
-    colour: str = "von_mises",
+    colour: str | None = None,
     frames: int = 100,
 ) -> list[pathlib.Path]:
-    """Draw runs into a folder; return the files.
+    """Draw runs into a folder; return the files. `colour` is one of `fields.COLOURS`.
 
     Raises:
         RicochetError: a run cannot be read, or something that draws is missing.
@@ -65,6 +64,7 @@ def plot(
 
     if animation == "mp4":
         pictures.check_ffmpeg()
+    colours = [pictures.check_colour(run, colour) if fields or animation else "" for run in runs]
     lines = curves.lines_of(runs)
     folder.mkdir(parents=True, exist_ok=True)
     files = []
@@ -78,13 +78,13 @@ def plot(
                 files.append(curves.save(figure, folder / f"{name}.png"))
         endings = [""] if len(runs) == 1 else [f"_{n}" for n in range(1, len(runs) + 1)]
         titles: list[str | None] = [None] if len(runs) == 1 else [*(line.label for line in lines)]
-        for run, ending, title in zip(runs, endings, titles):
+        for run, shown, ending, title in zip(runs, colours, endings, titles):
             if fields:
-                path = folder / f"fields_{colour}{ending}.png"
-                files.append(pictures.draw_instants(run, colour, path, title))
+                path = folder / f"fields_{shown}{ending}.png"
+                files.append(pictures.draw_instants(run, shown, path, title))
             if animation:
-                path = folder / f"animation_{colour}{ending}.{animation}"
-                files.append(pictures.animate(run, colour, path, title, frames))
+                path = folder / f"animation_{shown}{ending}.{animation}"
+                files.append(pictures.animate(run, shown, path, title, frames))
     return files
 
 

@@ -103,7 +103,12 @@ class Run:
 
     def summary(self) -> measures.Summary:
         """The numbers that tell most about the run."""
-        return measures.summarise(self.table, self.log)
+        try:
+            turns = measures.turns_at_start(self.parameters)
+        except NotARun:
+            # A table alone has a summary too.
+            turns = True
+        return measures.summarise(self.table, self.log, turns)
 
     # Parameters ---------------------------------------------------------------
 
