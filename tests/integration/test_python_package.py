@@ -62,7 +62,7 @@ class PythonPackage(ProgramTest):
         from matplotlib import image
         pixels = (255 * image.imread(path)[:, :, :3]).round().astype(int)
         self.assertGreater(min(pixels.shape[:2]), 200)
-        self.assertGreater(len(numpy.unique(pixels.reshape(-1, 3), axis=0)), colours, msg=path)
+        self.assertGreater(len(numpy.unique(pixels @ (65536, 256, 1))), colours, msg=path)
 
     # The table and its summary
 
@@ -233,7 +233,7 @@ class PythonPackage(ProgramTest):
         try:
             import vtkmodules.vtkIOXML
             if shutil.which("xvfb-run") or os.environ.get("DISPLAY"):
-                words += ["--fields", "--animation", "gif"]
+                words += ["--fields", "--animation", "gif", "--frames", "3"]
                 names.append("fields_von_mises.png")
         except ImportError:
             pass
@@ -246,7 +246,7 @@ class PythonPackage(ProgramTest):
             self.assert_picture(self.folder / "plots" / "fields_von_mises.png", 500)
             from PIL import Image
             with Image.open(self.folder / "plots" / "animation_von_mises.gif") as film:
-                self.assertGreaterEqual(film.n_frames, 5)
+                self.assertGreaterEqual(film.n_frames, 3)
         if not shutil.which("ffmpeg"):
             code, _, error = self.script("ricochet-plot", self.ball.folder, "--animation", "mp4")
             self.assertEqual(code, 2)
