@@ -10,7 +10,7 @@ packages="cmake ninja-build g++ ccache libdeal.ii-dev libeigen3-dev libsuitespar
   libgmsh-dev libboost-dev
   libhdf5-openmpi-dev libsundials-dev libopenblas0-pthread openmpi-bin numdiff
   perl python3 python3-matplotlib python3-numpy python3-h5py
-  python3-vtk9 xvfb xauth libgl1-mesa-dri"
+  python3-pandas python3-vtk9 xvfb xauth libgl1-mesa-dri"
 
 install_packages()
 {

@@ -12,7 +12,8 @@ namespace Ricochet
                         const Matrix      &mass,
                         const bool         small_strains,
                         const unsigned int n_parts,
-                        const unsigned int part)
+                        const unsigned int begin,
+                        const unsigned int end)
     : communicator(body.communicator)
     , mass(mass)
     , small_strains(small_strains)
@@ -22,7 +23,8 @@ namespace Ricochet
     std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
     std::set<types::global_dof_index>    seen;
     for (const auto &cell : body.dof_handler().active_cell_iterators())
-      if (!cell->is_artificial() && body.part(cell, n_parts) == part)
+      if (!cell->is_artificial() && body.part(cell, n_parts) >= begin &&
+          body.part(cell, n_parts) < end)
         {
           cell->get_dof_indices(indices);
           for (unsigned int i = 0; i < indices.size(); ++i)

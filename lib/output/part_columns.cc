@@ -1,26 +1,64 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <output/part_columns.h>
 
+#include <algorithm>
+#include <numeric>
+
 namespace Ricochet
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// 0, 1, ... before @p n.
+    std::vector<unsigned int>
+    counting(const unsigned int n)
+    {
+      std::vector<unsigned int> list(n);
+      std::iota(list.begin(), list.end(), 0U);
+      return list;
+    }
+
+    template <int dim>
+    std::vector<unsigned int>
+    bodies_of_unknowns(const Body<dim>                 &body,
+                       const std::vector<unsigned int> &first_part)
+    {
+      std::vector<unsigned int> list =
+        body.parts_of_unknowns(first_part.back());
+      for (unsigned int &entry : list)
+        entry = std::upper_bound(first_part.begin(), first_part.end(), entry) -
+          first_part.begin() - 1;
+      return list;
+    }
+  } // namespace
+
+
 
   template <int dim>
   PartColumns<dim>::PartColumns(const Body<dim>                &body,
                                 const BulkOperator             &bulk,
                                 const Matrix                   &mass,
                                 const bool                      small_strains,
-                                const std::vector<std::string> &names)
+                                const std::vector<std::string> &names,
+                                std::vector<unsigned int>       given_parts)
     : bulk(bulk)
     , mass(mass)
     , communicator(body.communicator)
     , names(names)
-    , part_of_unknown(body.parts_of_unknowns(names.size()))
+    , first_part(given_parts.empty() ? counting(names.size() + 1)
+                                     : std::move(given_parts))
+    , part_of_unknown(bodies_of_unknowns(body, first_part))
     , momenta_of_all(body, mass, small_strains)
     , momentum(body.make_vector())
   {
     for (unsigned int p = 0; p < names.size(); ++p)
-      momenta_of_parts.emplace_back(body, mass, small_strains, names.size(), p);
+      momenta_of_parts.emplace_back(body,
+                                    mass,
+                                    small_strains,
+                                    first_part.back(),
+                                    first_part[p],
+                                    first_part[p + 1]);
   }
 
 
@@ -30,7 +68,7 @@ namespace Ricochet
   PartColumns<dim>::kinetic_energy(const unsigned int p,
                                    const Vector      &velocity) const
   {
-    // Masses do not couple parts.
+    // Masses do not couple bodies.
     mass.vmult(momentum, velocity);
     double sum = 0.;
     for (unsigned int i = 0; i < part_of_unknown.size(); ++i)
@@ -94,7 +132,13 @@ namespace Ricochet
         loop.add_column("elastic_energy_" + names[p],
                         "J",
                         [this, p](const State &state) {
-                          return bulk.energies_of_parts(state.solution)[p];
+                          const std::vector<double> energies =
+                            bulk.energies_of_parts(state.solution);
+                          return std::accumulate(energies.begin() +
+                                                   first_part[p],
+                                                 energies.begin() +
+                                                   first_part[p + 1],
+                                                 0.);
                         });
         // The force of a state is that over the step that leads to it.
         loop.add_sum("contact_work_" + names[p],

@@ -12,7 +12,7 @@
 namespace Ricochet
 {
   /**
-   * What each of several bodies has of the energies and momenta in the ledger:
+   * What each of several bodies, each of one or several parts, has of the energies and momenta in the ledger:
    * columns kinetic_energy_NAME, elastic_energy_NAME, contact_work_NAME (what the body
    * has given to others through contact, friction included), momentum_x_NAME, ...,
    * angular_momentum_NAME, and momentum_x, ..., angular_momentum for all together. The
@@ -23,29 +23,33 @@ namespace Ricochet
   class PartColumns
   {
   public:
-    /// @param mass of the equation of motion (kg). All must outlive the object.
+    /// @param mass of the equation of motion (kg).
+    /// @param names of the bodies.
+    /// @param first_part of each body, and the number of all parts; empty where each body
+    /// is one. All must outlive the object.
     PartColumns(const Body<dim>                &body,
                 const BulkOperator             &bulk,
                 const Matrix                   &mass,
                 const bool                      small_strains,
-                const std::vector<std::string> &names);
+                const std::vector<std::string> &names,
+                std::vector<unsigned int>       first_part = {});
 
     /// This object must outlive @p loop.
     void
     add_to(TimeLoop &loop) const;
 
-    /// Energy of motion of part @p p (J).
+    /// Energy of motion of body @p p (J).
     double
     kinetic_energy(const unsigned int p, const Vector &velocity) const;
 
-    /// The work of @p force (N) on the way from @p begin to @p end of part @p p (J).
+    /// The work of @p force (N) on the way from @p begin to @p end of body @p p (J).
     double
     work(const unsigned int p,
          const Vector      &force,
          const Vector      &begin,
          const Vector      &end) const;
 
-    /// Of part @p p.
+    /// Of body @p p.
     const Momenta<dim> &
     momenta(const unsigned int p) const
     {
@@ -64,6 +68,8 @@ namespace Ricochet
     const Matrix                   &mass;
     const MPI_Comm                  communicator;
     const std::vector<std::string>  names;
+    const std::vector<unsigned int> first_part;
+    // Of each owned unknown, its body.
     const std::vector<unsigned int> part_of_unknown;
     std::vector<Momenta<dim>>       momenta_of_parts;
     Momenta<dim>                    momenta_of_all;

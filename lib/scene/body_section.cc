@@ -71,6 +71,9 @@ namespace Ricochet
                                                 Point<dim>(),
                                                 end,
                                                 /* colorize */ true);
+      // It colours cells, too.
+      for (const auto &cell : cells.active_cell_iterators())
+        cell->set_material_id(0);
     }
 
     template <int dim>

@@ -119,24 +119,18 @@ namespace Ricochet
       }
     else
       {
-        auto           momenta = std::make_shared<std::vector<Momenta<dim>>>();
-        double         mass    = 0.;
+        const auto momenta =
+          std::make_shared<const Momenta<dim>>(impact.body,
+                                               impact.consistent_mass,
+                                               /* small strains */ true,
+                                               n_parts,
+                                               begin,
+                                               end);
         Tensor<1, dim> along;
-        along[0] = 1.;
-        for (unsigned int p = begin; p < end; ++p)
-          {
-            momenta->emplace_back(impact.body,
-                                  impact.consistent_mass,
-                                  /* small strains */ true,
-                                  n_parts,
-                                  p);
-            mass += momenta->back().linear(impact.uniform(along))[0];
-          }
+        along[0]          = 1.;
+        const double mass = momenta->linear(impact.uniform(along))[0];
         value = [momenta, mass](const Vector &vector, const unsigned int c) {
-          double sum = 0.;
-          for (const Momenta<dim> &part : *momenta)
-            sum += part.linear(vector)[c] / mass;
-          return sum;
+          return momenta->linear(vector)[c] / mass;
         };
       }
     for (unsigned int c = 0; c < dim; ++c)

@@ -790,25 +790,25 @@ namespace Ricochet
             add(id);
         obstacles_of_contacts.push_back(contact.obstacles);
       }
-    TimeLoop                   loop(impact.time,
+    TimeLoop                 loop(impact.time,
                   folder,
                   assembly.system,
                   *assembly.scheme,
                   names,
                   Units(units_text));
-    std::vector<std::string>   part_names;
+    std::vector<std::string> body_names;
+    for (const BodySection<dim> &body : bodies)
+      body_names.push_back(body.section.column_name());
     std::vector<Material<dim>> all_materials;
     for (const Part<dim> &part : assembly.parts)
-      {
-        part_names.push_back(part.name);
-        all_materials.push_back(part.material);
-      }
+      all_materials.push_back(part.material);
     const PartColumns<dim> columns(assembly.body,
                                    *assembly.bulk,
                                    assembly.system.mass_matrix(),
                                    /* small strains */
                                    all_materials.front().linear.has_value(),
-                                   part_names);
+                                   body_names,
+                                   first_part);
     columns.add_to(loop);
     for (const ProbeSection<dim> &probe : probes)
       probe.add_to(loop, assembly, surfaces, first_part);

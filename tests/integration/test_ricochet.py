@@ -1,0 +1,499 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Scenes of one's own: the benchmarks as files, several contacts at once, units,
+materials, conditions, ranks, restart, and what is refused."""
+
+import math
+
+from common import *
+from test_bad_input import Refusal
+
+# A ball that spins hits the floor and a brick, which is pushed over the floor against a
+# wall: four contacts, two of them constraints, with friction. Masses and moduli are in
+# the braces, so that units can be changed.
+SCENE = """
+set Program   = ricochet
+set Dimension = 2
+subsection Time
+  set Final time = {final_time}
+  set Time step  = {time_step}
+end
+subsection Start
+  set Gravity = 0, {gravity}
+end
+subsection Body ball
+  set Shape         = disk
+  set Radius        = {radius}
+  set Nodes around  = 32
+  set Velocity      = {fast}, {slow}
+  set Spin          = {spin}
+  set Density       = {density}
+  set Young modulus = {young}
+end
+subsection Body brick
+  set Shape         = rectangle
+  set Size          = {length}, {radius}
+  set Cells along   = 8, 4
+  set Translation   = {right}, {down}
+  set Density       = {density}
+  set Young modulus = {stiff}
+end
+subsection Obstacle floor
+  set Shape  = half space
+  set Centre = 0, {floor}
+end
+subsection Obstacle wall
+  set Shape     = half space
+  set Centre    = {wall}, 0
+  set Direction = -1, 0
+end
+subsection Contact ball on floor
+  set Surface = ball
+  set Against = floor
+end
+subsection Contact brick on ground
+  set Surface              = brick: lower
+  set Against              = floor
+  set Friction coefficient = 0.3
+end
+subsection Contact brick at wall
+  set Surface   = brick: right
+  set Against   = wall
+  set Treatment = improved normal compliance
+end
+subsection Contact ball and brick
+  set Surface              = ball
+  set Against              = brick: left, upper
+  set Treatment            = improved normal compliance
+  set Friction coefficient = 0.2
+end
+subsection Probe brick
+  set Body     = brick
+  set Quantity = stress
+end
+subsection Probe corner
+  set Body  = brick
+  set Point = {right}, {down}
+end
+"""
+
+
+def scene(length=1., mass=1., time=1., steps=100):
+    """The scene with units that are so many metres, kilograms and seconds smaller."""
+    modulus = mass / length / time**2
+    values = {"final_time": 5e-3 * steps * time, "time_step": 5e-3 * time,
+              "gravity": -9.81 * length / time**2, "radius": .5 * length,
+              "fast": 6. * length / time, "slow": -3. * length / time,
+              "spin": 2. / time, "density": 1000. * mass / length**3,
+              "young": 1e6 * modulus, "stiff": 3e6 * modulus, "length": 1. * length,
+              "right": 1.2 * length, "down": -.59 * length, "floor": -.6 * length,
+              "wall": 2.25 * length}
+    return SCENE.format(**{name: repr(value) for name, value in values.items()})
+
+
+# A sole of rubber under a plate of steel, as Gmsh meshes it.
+SHOE = """
+Point(1)={0,0,0}; Point(2)={2,0,0}; Point(3)={2,0.5,0}; Point(4)={0,0.5,0};
+Point(5)={2,1,0}; Point(6)={0,1,0};
+Line(1)={1,2}; Line(2)={2,3}; Line(3)={3,4}; Line(4)={4,1}; Line(5)={3,5};
+Line(6)={5,6}; Line(7)={6,4};
+Curve Loop(1)={1,2,3,4}; Plane Surface(1)={1};
+Curve Loop(2)={-3,5,6,7}; Plane Surface(2)={2};
+Physical Surface("soft",10)={1}; Physical Surface("hard",20)={2};
+Physical Curve("sole",1)={1}; Physical Curve("sides",2)={2,4,5,7};
+Physical Curve("top",3)={6};
+"""
+SHOE_SCENE = """
+set Program   = ricochet
+set Dimension = 2
+set Units     = mm, t, s
+subsection Body shoe
+  set File          = shoe.geo
+  set Mesh size     = 0.25
+  set Materials     = hard: steel
+  set Translation   = 0, 0.05
+  set Velocity      = 100, -300
+  set Density       = 1e-9
+  set Young modulus = 10
+end
+subsection Material steel
+  set Density       = 8e-9
+  set Young modulus = 1000
+end
+subsection Obstacle floor
+  set Shape = half space
+end
+subsection Contact sole
+  set Surface              = shoe: sole
+  set Against              = floor
+  set Friction coefficient = 0.4
+end
+subsection Condition handle
+  set Boundary   = shoe: top
+  set Kind       = springs
+  set Components = x
+  set Stiffness  = 100
+end
+subsection Time
+  set Final time = 5e-4
+  set Time step  = 1e-5
+end
+"""
+
+BLOCK = """
+set Program   = ricochet
+set Dimension = 2
+subsection Body block
+  set Shape       = rectangle
+  set Size        = 2, 1
+  set Cells along = 4, 2
+  set Law         = linear elastic
+  set Poisson ratio = 0
+  set Young modulus = 1e4
+end
+subsection Time
+  set Final time = 0.4
+  set Time step  = 0.01
+end
+"""
+
+
+class Scenes(ProgramTest):
+
+    def scene(self, text, *parameters, name="scene", **kwargs):
+        file = self.folder / f"{name}.prm"
+        file.write_text(text)
+        return self.run_program("ricochet", [*NO_FIELDS, *parameters],
+                                self.folder / name, prm=file, **kwargs)
+
+    def test_benchmarks(self):
+        """The ledgers of their own programs, to 1e-12 of the first energy."""
+        files = ROOT / "parameter_files"
+        cases = [
+            ("elastic_ball",
+             ["Mesh/Nodes=392", "Mesh/Boundary nodes=64", "Start/Initial gap=0.0155",
+              "Time/Final time=0.02"],
+             ["Body ball/Nodes=392", "Body ball/Nodes around=64",
+              "Body ball/Translation=0, 10.0155", "Time/Final time=0.02"]),
+            ("hyperelastic_ring",
+             ["Mesh/Nodes around=64", "Mesh/Nodes across=4", "Start/Initial gap=0.155",
+              "Time/Final time=0.2"],
+             ["Body ring/Nodes around=64", "Body ring/Nodes across=4",
+              "Body ring/Translation=0, 10.155", "Time/Final time=0.2"]),
+            ("sphere", ["Time/Final time=3", "Start/Gravity=0, 0, -1"],
+             ["Time/Final time=3", "Start/Gravity=0, 0, -1"])]
+        for name, own, scenes in cases[:2] if is_debug_build() else cases:
+            with self.subTest(name):
+                a = self.run_program(name, NO_FIELDS + own, self.folder / "own",
+                                     prm=files / name / "default.prm")
+                b = self.run_program("ricochet", NO_FIELDS + scenes,
+                                     self.folder / "scene",
+                                     prm=files / "ricochet" / f"{name}.prm")
+                self.assertGreater(max(a["contact_force_foundation"]), 0.)
+                # The sphere begins at rest.
+                scale = max(a["energy"][0], max(a["elastic_energy"]))
+                for column in ("kinetic_energy", "elastic_energy", "contact_work",
+                               "external_work"):
+                    self.assertLess(largest([x - y for x, y in zip(a[column],
+                                                                   b[column])]),
+                                    1e-12 * scale, msg=column)
+
+    def test_four_contacts(self):
+        whole = self.scene(scene())
+        for name in ("ball_on_floor", "brick_on_ground", "brick_at_wall",
+                     "ball_and_brick"):
+            self.assertGreater(max(whole[f"contact_force_{name}"]), 1e3, msg=name)
+        self.assertLess(largest(whole["balance_residual"]), 1e-11)
+        self.assertGreaterEqual(min(increments(whole["friction_work"])), -1e-9)
+        # What loads, contacts and friction give and take is what is there.
+        for row in range(len(whole["time"])):
+            self.assertAlmostEqual(
+                whole["energy"][row] - whole["energy"][0],
+                whole["external_work"][row] - whole["contact_work"][row] -
+                whole["friction_work"][row], delta=1e-9 * whole["energy"][0])
+        # What bodies have is what there is.
+        for row in range(len(whole["time"])):
+            parts = sum(whole[f"{kind}_energy_{name}"][row]
+                        for kind in ("kinetic", "elastic") for name in ("ball", "brick"))
+            self.assertAlmostEqual(parts / whole["energy"][row], 1., delta=1e-11)
+
+        # Two ranks, and a run in two parts.
+        if is_debug_build():
+            return
+        two = self.scene(scene(), name="two", n_ranks=2)
+        for column in two.names:
+            if "residual" in column:
+                continue
+            scale = largest([x for x in whole[column] if not math.isnan(x)])
+            difference = largest([a - b for a, b in zip(whole[column], two[column])
+                                  if not math.isnan(a)])
+            if scale > 1e-6 and "iterations" not in column and "solves" not in column:
+                self.assertLess(difference, 1e-9 * scale, msg=column)
+        checkpoints = "Output/Checkpoint every=20"
+        self.scene(scene(steps=40), checkpoints, name="parts")
+        self.scene(scene(), checkpoints, name="parts", options=["--resume"])
+        self.assertEqual((self.folder / "scene" / "energy.csv").read_bytes(),
+                         (self.folder / "parts" / "energy.csv").read_bytes())
+
+    def test_units(self):
+        """What is not given follows from the bodies: the same digits in any units."""
+        steps = 15 if is_debug_build() else 60
+        si = self.scene(scene(steps=steps))
+        for name, units in (("mm_t_s", (1e3, 1e-3, 1.)), ("large", (1e3, 1e3, 1e3))):
+            other = self.scene(scene(*units, steps=steps), name=name)
+            for column in si.names:
+                scale = largest([x for x in si[column] if not math.isnan(x)] or [0.])
+                factor = largest([x for x in other[column] if not math.isnan(x)]
+                                 or [0.])
+                # Zeros are round-off, and so is the number of the last iteration.
+                if scale < 1e-6 or "residual" in column or "iterations" in column \
+                        or "solves" in column:
+                    continue
+                for a, b in zip(si[column], other[column]):
+                    if not math.isnan(a):
+                        self.assertAlmostEqual(a / scale, b / factor, delta=1e-9,
+                                               msg=f"{name}: {column}")
+        named = self.scene("set Units = mm, t, s\n" + scene(1e3, 1e-3, 1., steps=1),
+                           name="named")
+        units = dict(zip(named.names, named.units))
+        self.assertEqual([units[name] for name in
+                          ("energy", "contact_force_ball_on_floor", "time",
+                           "contact_pressure_ball_on_floor", "momentum_x",
+                           "brick_stress_xx")],
+                         ["mJ", "N", "s", "MPa", "t mm/s", "MPa"])
+
+    def test_materials_of_a_geometry(self):
+        """A geometry that Gmsh meshes, of two materials, on springs."""
+        (self.folder / "shoe.geo").write_text(SHOE)
+        ledger = self.scene(SHOE_SCENE)
+        # Areas and densities by hand.
+        self.assertAlmostEqual(ledger["kinetic_energy"][0],
+                               .5 * (1e-9 + 8e-9) * 1e5, delta=1e-15)
+        self.assertAlmostEqual(ledger["momentum_x"][0], (1e-9 + 8e-9) * 100., delta=1e-17)
+        self.assertGreater(max(ledger["contact_force_sole"]), 1e-3)
+        self.assertLess(largest(ledger["balance_residual"]), 1e-9)
+        self.assertEqual(max(ledger["viscous_dissipation"]), 0.)
+        # A dashpot takes energy, and only that.
+        damped = self.scene(SHOE_SCENE, "Condition handle/Damping=0.001",
+                            name="damped")
+        self.assertGreater(damped["viscous_dissipation"][-1],
+                           .01 * damped["energy"][0])
+        self.assertGreaterEqual(min(increments(damped["viscous_dissipation"])), 0.)
+        self.assertLess(largest(damped["balance_residual"]), 1e-9)
+
+    def test_loads_by_hand(self):
+        """A load that pushes a free block: momentum is force times time, and the work
+        that of the momentum, but for what goes into waves."""
+        load = BLOCK + """
+subsection Condition push
+  set Boundary = block: left, right
+  set Kind     = traction
+  set Value    = 300*sin(pi*t/0.4) * (1 + 0*y); 0
+end
+"""
+        ledger = self.scene(load)
+        mass = 2000.
+        impulse = 2. * 300. * 1. * .4 * 2. / math.pi
+        self.assertAlmostEqual(ledger["momentum_x"][-1], impulse, delta=2e-3 * impulse)
+        self.assertAlmostEqual(ledger["external_work"][-1], ledger["energy"][-1],
+                               delta=1e-9)
+        self.assertGreater(ledger["energy"][-1], impulse**2 / 2. / mass * .99)
+        # The same as a force per mass.
+        body = BLOCK + """
+subsection Condition walls
+  set Boundary   = block: lower, upper
+  set Kind       = fixed
+  set Components = y
+end
+"""
+        ledger = self.scene(body, "Body block/Acceleration=0.3*sin(pi*t/0.4); 0",
+                            name="body")
+        impulse = mass * .3 * .4 * 2. / math.pi
+        self.assertAlmostEqual(ledger["momentum_x"][-1], impulse, delta=2e-3 * impulse)
+        self.assertAlmostEqual(ledger["energy"][-1],
+                               ledger["momentum_x"][-1]**2 / 2. / mass,
+                               delta=1e-9 * ledger["energy"][-1])
+
+    def test_imposed_displacement(self):
+        """A block that is stretched slowly and uniformly: stress and work by hand."""
+        text = BLOCK + """
+subsection Condition left
+  set Boundary   = block: left
+  set Kind       = fixed
+  set Components = x
+end
+subsection Condition foot
+  set Boundary   = block: lower
+  set Kind       = fixed
+  set Components = y
+end
+subsection Condition right
+  set Boundary   = block: right
+  set Kind       = displacement
+  set Components = x
+  set Value      = 0.01*x*(1 - cos(pi*t/400)); 0
+end
+subsection Probe stress
+  set Body     = block
+  set Quantity = stress
+  set Point    = 1.1, 0.6
+end
+"""
+        ledger = self.scene(text, "Time/Time step=4", "Time/Final time=400")
+        strain = .02
+        self.assertAlmostEqual(ledger["stress_stress_xx"][-1], 1e4 * strain, delta=.5)
+        self.assertAlmostEqual(ledger["imposed_work"][-1], .5 * 1e4 * strain**2 * 2.,
+                               delta=1e-3)
+        self.assertLess(largest(ledger["balance_residual"]), 1e-10)
+
+    def test_bars_in_space(self):
+        """Two bars end on (examples/colliding_bars.prm): at rest with all energy stored
+        when the waves have reached the far ends, parted after twice that time."""
+        cells = 30 if is_debug_build() else 60
+        ledger = self.run_program(
+            "ricochet",
+            NO_FIELDS + [f"Body {name}/Cells along={cells}, 1, 1"
+                         for name in ("left", "right")],
+            prm=ROOT / "examples" / "colliding_bars.prm")
+        middle = min(range(len(ledger["time"])),
+                     key=lambda n: abs(ledger["time"][n] - 1e-6))
+        energy = ledger["energy"][0]
+        self.assertAlmostEqual(energy, 1e-4, delta=1e-16)
+        self.assertLess(ledger["kinetic_energy"][middle], .03 * energy)
+        for name in ("left", "right"):
+            self.assertAlmostEqual(ledger[f"elastic_energy_{name}"][middle], 5e-5,
+                                   delta=1.5e-6)
+        self.assertAlmostEqual(ledger["left_stress_xx"][middle], -1e8, delta=3e6)
+        self.assertAlmostEqual(ledger["motion_of_left_velocity_x"][-1], -100., delta=3.)
+        self.assertEqual(ledger["contact_force_ends"][-1], 0.)
+        self.assertLess(largest([e - energy for e in ledger["energy"]]), 1e-12 * energy)
+
+    def test_what_is_found_is_written_down(self):
+        self.scene(scene(steps=1))
+        text = (self.folder / "scene" / "parameters.prm").read_text()
+        log = (self.folder / "scene" / "log.txt").read_text()
+        self.assertIn("Contact brick at wall/Compliance coefficient = 1697", log)
+        self.assertRegex(text, r"set Compliance coefficient = 1697\d+\.\d+")
+
+
+class BadScenes(Refusal):
+
+    def refuse_scene(self, old, new, *messages, text=None):
+        text = text or scene(steps=1)
+        self.assertIn(old, text)
+        self.refuse(*messages, program="ricochet",
+                    prm=self.write(text.replace(old, new, 1)))
+
+    def test_names(self):
+        for old, new, *messages in (
+                ("Body ball", "Bdy ball", "line 11: there is no section 'Bdy ball'",
+                 "Is 'Body ball' meant?"),
+                ("Obstacle wall", "Obstacle", "should be 'Obstacle NAME'"),
+                ("Obstacle wall", "Obstacle wa/ll", "should be 'Obstacle NAME'"),
+                ("Obstacle wall", "Obstacle ball", "a body is called 'ball', too"),
+                ("Contact ball and brick", "Contact brick_at wall",
+                 "would be the same in the table"),
+                ("set Dimension = 2", "", "set Dimension = 2"),
+                ("set Dimension = 2", "set Dimension = 4",
+                 "Dimension is 2 or 3, not '4'"),
+                ("set Surface = ball", "set Surface = bal",
+                 "Contact ball on floor/Surface: there is no body 'bal'",
+                 "Is 'ball' meant?"),
+                ("brick: lower", "brick: lowr", "has no boundary 'lowr'",
+                 "Is 'lower' meant?", "left, lower, right, upper"),
+                ("set Against = floor", "set Against = flor",
+                 "neither a body nor an obstacle 'flor'", "Is 'floor' meant?"),
+                ("set Against = floor", "", "has to say what the surface may touch"),
+                ("set Against = floor", "set Against = brick; floor",
+                 "names bodies and obstacles"),
+                ("set Against              = brick: left, upper",
+                 "set Against = ball", "for that say 'itself'"),
+                ("set Body     = brick", "set Body     = brik", "there is no body")):
+            with self.subTest(new):
+                text = scene(steps=1).replace("Surface = ball", "Surface = ball")
+                self.refuse_scene(old if old in text else old.replace(" = ", "   = "),
+                                  new, *messages, text=text)
+
+    def test_meshes_and_conditions(self):
+        for old, new, *messages in (
+                ("  set Shape       = rectangle\n", "",
+                 "needs either a Body block/File or a Body block/Shape"),
+                ("Shape       = rectangle", "File = none.msh", "none.msh"),
+                ("Shape       = rectangle", "File = none.stl", "should end with .msh"),
+                ("Shape       = rectangle", "Shape = generator\n"
+                 "  set Generator = hyper_bowl", "cannot make 'hyper_bowl'"),
+                ("Size        = 2, 1", "Size        = 2, -1", "2 positive numbers"),
+                ("  set Law ", "  set Materials = 3: steel\n  set Law ",
+                 "has no cells '3'. There is: 0"),
+                ("  set Law ", "  set Materials = 0: steel\n  set Law ",
+                 "there is no section 'Material steel'"),
+                ("subsection Time", "subsection Condition a\n"
+                 "  set Boundary = block: left\n  set Kind = traction\n"
+                 "  set Value = 1; 2; 3\nend\nsubsection Time",
+                 "needs 2 expressions"),
+                ("subsection Time", "subsection Condition a\n"
+                 "  set Boundary = block: left\n  set Kind = traction\n"
+                 "  set Value = 1; z +\nend\nsubsection Time",
+                 "cannot be read", "functions of x,y,z and the time t"),
+                ("subsection Time", "subsection Condition a\n"
+                 "  set Boundary = block: left\n  set Kind = springs\n"
+                 "end\nsubsection Time",
+                 "have neither Condition a/Stiffness nor Condition a/Damping"),
+                ("subsection Time", "subsection Condition a\n"
+                 "  set Boundary = block: left\n  set Components = z\n"
+                 "end\nsubsection Time", "'z' is no direction"),
+                ("subsection Time", "subsection Condition a\n"
+                 "  set Boundary = block: left\nend\n"
+                 "subsection Condition b\n  set Boundary = block: left\n"
+                 "  set Components = y\nend\nsubsection Time",
+                 "prescribes what another one prescribes already, in direction y"),
+                ("set Program ", "set Units = mm, t\nset Program ",
+                 "Units are those of length, mass and time")):
+            with self.subTest(messages[0]):
+                self.refuse_scene(old, new, *messages, text=BLOCK)
+
+    def test_two_constraints_on_a_surface(self):
+        corner = BLOCK + """
+subsection Obstacle floor
+  set Shape = half space
+end
+subsection Obstacle wall
+  set Shape = half space
+  set Direction = 1, 0
+end
+subsection Contact both
+  set Surface = block
+  set Against = floor; wall
+end
+"""
+        self.refuse("are constraints on the same nodes", "penalty",
+                    program="ricochet", prm=self.write(corner))
+        law = corner.replace("floor; wall\n",
+                             "floor; wall\n  set Treatment = penalty\n")
+        law = law.replace("  set Law ", "  set Velocity = -1, -1\n  set Law ")
+        law = law.replace("modulus = 1e4", "modulus = 1e6")
+        ledger = self.run_program("ricochet", NO_FIELDS, prm=self.write(law))
+        self.assertGreater(max(ledger["contact_force_both"]), 1.)
+        self.assertLess(largest(ledger["balance_residual"]), 1e-11)
+        # It comes back from both.
+        self.assertGreater(ledger["momentum_x"][-1], 0.)
+        self.assertAlmostEqual(ledger["momentum_x"][-1] / ledger["momentum_x"][0],
+                               -1., delta=.7)
+
+    def test_overlap(self):
+        text = scene(steps=1).replace("set Centre = 0, -0.6", "set Centre = 0, -0.4")
+        self.refuse("overlaps with the obstacle of the contact 'ball on floor'",
+                    program="ricochet", prm=self.write(text))
+
+    def test_validate(self):
+        file = self.write(scene(steps=1))
+        result = subprocess.run([program_path("ricochet"), str(file), "--validate"],
+                                capture_output=True, text=True, cwd=ROOT)
+        self.assertEqual(result.returncode, 0, msg=result.stderr)
+        for line in ("Body brick: 32 cells, 45 vertices, area 0.5, mass 500 kg, middle "
+                     "(1.7, -0.34)", "boundary 2 (lower): length 1",
+                     "Contact ball on floor: persistent contact, gap at the start 0.1"):
+            self.assertIn(line, result.stdout)
+
+
+if __name__ == "__main__":
+    main()

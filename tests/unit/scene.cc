@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a user's scene is made of: names, units, springs, probes.
+#include <base/exceptions.h>
+#include <base/units.h>
+#include <discretization/boundary_springs.h>
+#include <discretization/hyperelastic_bulk.h>
+#include <discretization/linear_bulk.h>
+#include <materials/material_parameters.h>
+#include <output/momenta.h>
+#include <output/stress_probe.h>
+#include <problems/part_meshes.h>
+#include <scene/named_sections.h>
+#include <scene/surface_names.h>
+
+#include <deal.II/base/function.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+
+BOOST_AUTO_TEST_SUITE(scene)
+
+namespace
+{
+  using namespace Ricochet;
+
+  void
+  check_refused(const std::function<void()> &action, const std::string &text)
+  {
+    BOOST_CHECK_EXCEPTION(action(), InputError, [&](const InputError &error) {
+      const bool found =
+        std::string(error.what()).find(text) != std::string::npos;
+      if (!found)
+        BOOST_TEST_MESSAGE(error.what());
+      return found;
+    });
+  }
+} // namespace
+
+
+
+BOOST_AUTO_TEST_CASE(units)
+{
+  const Units si;
+  for (const std::string name : {"m", "J", "kg m/s", "1", "Pa"})
+    BOOST_CHECK_EQUAL(si.name(name), name);
+  // Checked by hand: 1 t mm/s^2 = 1000 kg * 1e-3 m/s^2 = 1 N.
+  const Units mm("mm, t, s");
+  for (const auto &[name, own] :
+       std::map<std::string, std::string>{{"N", "N"},
+                                          {"Pa", "MPa"},
+                                          {"J", "mJ"},
+                                          {"m/s", "mm/s"},
+                                          {"kg m^2/s", "t mm^2/s"},
+                                          {"1", "1"}})
+    BOOST_CHECK_EQUAL(mm.name(name), own);
+  const Units old("furlong, stone, fortnight");
+  BOOST_CHECK_EQUAL(old.name("J"), "stone furlong^2/fortnight^2");
+  BOOST_CHECK_EQUAL(old.name("Pa"), "stone/(furlong fortnight^2)");
+  BOOST_CHECK_EQUAL(old.name("1/s"), "1/fortnight");
+  for (const std::string bad : {"", "mm", "mm, t", "mm, t, s, K", "mm, t, s2"})
+    check_refused([&]() { Units{bad}; }, "Units are those of");
+}
+
+
+
+BOOST_AUTO_TEST_CASE(sections_with_names)
+{
+  ParameterText text;
+  for (const std::string name :
+       {"Body ball", "Time", "Contact ball on floor", "Body ball"})
+    text.sections.push_back({{name}, "line " + name});
+  const auto found =
+    find_named_sections(text, {"Body", "Contact"}, {"Time", "Output"});
+  BOOST_REQUIRE_EQUAL(found.size(), 2);
+  BOOST_CHECK_EQUAL(found[0].name, "ball");
+  BOOST_CHECK_EQUAL(found[1].full_name(), "Contact ball on floor");
+  BOOST_CHECK_EQUAL(found[1].column_name(), "ball_on_floor");
+  for (const auto &[name, message] : std::map<std::string, std::string>{
+         {"Boddy ball", "Is 'Body ball' meant?"},
+         {"Tiem", "Is 'Time' meant?"},
+         {"Body", "should be 'Body NAME'"},
+         {"Body a/b", "should be 'Body NAME'"},
+         {"Contact ball_on floor", "would be the same"}})
+    {
+      ParameterText wrong = text;
+      wrong.sections.push_back({{name}, "there"});
+      check_refused(
+        [&, name = name]() {
+          find_named_sections(wrong, {"Body", "Contact"}, {"Time", "Output"});
+        },
+        message);
+    }
+}
+
+
+
+BOOST_AUTO_TEST_CASE(names_of_surfaces)
+{
+  SurfaceNames names;
+  names.add_body("ball", {0, 7}, {{"sole", 7}, {"within", 3}});
+  const auto id = names.add_body("long beam", {0, 1}, {});
+  BOOST_CHECK_EQUAL(id.at(1), 3);
+  const auto all = names.find("ball; long beam: 1", "here");
+  BOOST_REQUIRE_EQUAL(all.size(), 2);
+  BOOST_CHECK((all[0].ids == std::set<dealii::types::boundary_id>{0, 1}));
+  BOOST_CHECK((all[1].ids == std::set<dealii::types::boundary_id>{3}));
+  BOOST_CHECK((names.find("ball: sole", "here")[0].ids ==
+               std::set<dealii::types::boundary_id>{1}));
+  BOOST_CHECK_EQUAL(names.name_of(1), "7 (sole)");
+  check_refused([&]() { names.find("bell", "here"); }, "Is 'ball' meant?");
+  check_refused([&]() { names.find("ball: soul", "here"); },
+                "Is 'sole' meant?");
+  check_refused([&]() { names.find("ball: within", "here"); }, "no boundary");
+  check_refused([&]() { names.find("", "here"); }, "no body");
+}
+
+
+
+// The work of springs and dashpots over a step is what they store and take, and the
+// tangent that of the force.
+BOOST_AUTO_TEST_CASE(springs)
+{
+  dealii::Triangulation<2> mesh;
+  make_rectangles({{dealii::Point<2>(), dealii::Point<2>(2., 1.), {{4, 2}}}},
+                  CellShape::quadrilaterals,
+                  mesh);
+  const auto         right = rectangle_side(0, Rectangle::right);
+  const Body<2>      body(mesh,
+                     1,
+                     {},
+                     {right},
+                     MultiplierSpace::none,
+                     MPI_COMM_WORLD);
+  MaterialParameters material;
+  material.law                             = "Saint Venant-Kirchhoff";
+  material.plane_state                     = "plane strain";
+  material.young_modulus                   = 100.;
+  const std::vector<Material<2>> materials = {material.make<2>()};
+  const double                   k = 30., c = 2., step = .1;
+  const HyperelasticBulk<2>      alone(body, materials);
+  const BulkOnSprings<2>         bulk(
+    body,
+    std::make_unique<HyperelasticBulk<2>>(body, materials),
+    {{right, {{false, true}}, k, 0.}, {right, {{true, false}}, 0., c}},
+    1);
+
+  Vector begin, end;
+  body.interpolate(dealii::FunctionFromFunctionObjects<2>(
+                     {[](const dealii::Point<2> &x) { return .01 * x[1]; },
+                      [](const dealii::Point<2> &) { return .2; }}),
+                   begin);
+  body.interpolate(dealii::FunctionFromFunctionObjects<2>(
+                     {[](const dealii::Point<2> &) { return .05; },
+                      [](const dealii::Point<2> &x) {
+                        return .1 + .02 * x[0];
+                      }}),
+                   end);
+  // By hand: the side is at x = 2, of length 1.
+  BOOST_CHECK_CLOSE(bulk.energy(begin) - alone.energy(begin),
+                    .5 * k * .2 * .2,
+                    1e-9);
+  BOOST_CHECK_CLOSE(bulk.energies_of_parts(end)[0] -
+                      alone.energies_of_parts(end)[0],
+                    .5 * k * .14 * .14,
+                    1e-8);
+  // The integral of (.05 - .01 y)^2 over 0 < y < 1.
+  BOOST_CHECK_CLOSE(bulk.viscous_dissipation(begin, end, step),
+                    c / step * (.0025 - .0005 + .0001 / 3.),
+                    1e-9);
+  Vector force = body.make_vector(), way(end);
+  way -= begin;
+  bulk.step_force(begin, end, step, force);
+  BOOST_CHECK_CLOSE(force * way,
+                    bulk.energy(end) - bulk.energy(begin) +
+                      bulk.viscous_dissipation(begin, end, step),
+                    1e-9);
+  for (const bool of_step : {true, false})
+    {
+      Matrix tangent;
+      tangent.reinit(body.sparsity_pattern());
+      if (of_step)
+        bulk.add_step_tangent(begin, end, step, tangent);
+      else
+        bulk.add_tangent(1., end, tangent);
+      Vector product = body.make_vector(), moved(end),
+             other   = body.make_vector();
+      tangent.vmult(product, way);
+      const double h = 1e-6;
+      moved.add(h, way);
+      if (of_step)
+        {
+          bulk.step_force(begin, moved, step, other);
+          moved.add(-2. * h, way);
+          bulk.step_force(begin, moved, step, force);
+        }
+      else
+        {
+          bulk.force(moved, other);
+          moved.add(-2. * h, way);
+          bulk.force(moved, force);
+        }
+      other -= force;
+      other.add(-2. * h, product);
+      BOOST_CHECK_LT(other.l2_norm(),
+                     1e-7 * 2. * h * product.l2_norm() + 1e-13);
+    }
+}
+
+
+
+BOOST_AUTO_TEST_CASE(stress_in_points_and_means)
+{
+  dealii::Triangulation<2> mesh;
+  make_rectangles(
+    {{dealii::Point<2>(), dealii::Point<2>(1., 1.), {{3, 3}}},
+     {dealii::Point<2>(2., 0.), dealii::Point<2>(3., 1.), {{2, 2}}}},
+    CellShape::quadrilaterals,
+    mesh);
+  const Body<2> body(mesh, 1, {}, {}, MultiplierSpace::none, MPI_COMM_WORLD);
+  const std::vector<Material<2>> materials =
+    {Material<2>(LinearElastic{0., 50.}), Material<2>(LinearElastic{0., 100.})};
+  Vector solution;
+  // The strain in direction x is x in both.
+  body.interpolate(dealii::FunctionFromFunctionObjects<2>(
+                     {[](const dealii::Point<2> &x) { return .03 * x[0]; },
+                      [](const dealii::Point<2> &) { return 0.; }}),
+                   solution);
+  const StressProbe<2> left(body, materials, 0, 1, nullptr),
+    both(body, materials, 0, 2, nullptr);
+  BOOST_CHECK_CLOSE(left.stress(solution)[0][0], 3., 1e-9);
+  BOOST_CHECK_CLOSE(both.stress(solution)[0][0], 4.5, 1e-9);
+  const dealii::Point<2> inside(2.3, .7), between(1.5, .5);
+  const StressProbe<2>   right(body, materials, 1, 2, &inside),
+    nowhere(body, materials, 0, 2, &between),
+    other_part(body, materials, 0, 1, &inside);
+  BOOST_CHECK(right.is_in_body());
+  BOOST_CHECK_CLOSE(right.stress(solution)[0][0], 6., 1e-9);
+  BOOST_CHECK(!nowhere.is_in_body());
+  BOOST_CHECK(!other_part.is_in_body());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
