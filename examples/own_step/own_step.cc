@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// # A step of one's own
+//
+// The shortest program on Ricochet's library: a block falls on the ground,
+//
+//     rho u_tt - div P(F) = rho g,     gap >= 0, p >= 0, p gap' = 0     on its lower side,
+//
+// with persistent contact, which keeps the energy. Copy this folder, and change the mesh,
+// the material, the obstacle. Run it as
+//
+//     own_step --output-dir output/own_step
+
+#include <base/program.h>
+#include <materials/material_parameters.h>
+#include <output/vtu_series.h>
+#include <problems/impact.h>
+
+#include <deal.II/distributed/shared_tria.h>
+#include <deal.II/grid/grid_generator.h>
+
+using namespace dealii;
+using namespace Ricochet;
+
+int
+main(int argc, char **argv)
+{
+  // What a parameter file may set, with this program's defaults.
+  ImpactParameters   impact;
+  MaterialParameters material;
+  double             height   = .1;
+  impact.time.final_time      = .5;
+  impact.time.time_step       = 5e-3;
+  impact.scheme.name          = "midpoint";
+  impact.contact.treatment    = "persistent contact";
+  impact.contact.augmentation = 1e6;
+  material.law                = "neo-Hookean";
+  material.plane_state        = "plane strain";
+  material.density            = 1000.;
+  material.young_modulus      = 1e6;
+  material.poisson_ratio      = .3;
+  const auto add_parameters   = [&](ParameterHandler &parameters) {
+    impact.add_parameters(parameters);
+    material.add_parameters(parameters);
+    parameters.enter_subsection("Start");
+    parameters.add_parameter("Height",
+                             height,
+                             "Height of the block above the ground (m).",
+                             Patterns::Double(0.));
+    parameters.leave_subsection();
+  };
+
+  // What is refused before any time is spent.
+  const auto validate = [&]() {
+    material.validate(2, impact.scheme.name);
+    impact.validate(material.law == "linear elastic",
+                    material.viscosity_eta > 0.);
+  };
+
+  const auto run = [&](RunFolder &folder) {
+    parallel::shared::Triangulation<2> mesh(folder.communicator);
+    GridGenerator::subdivided_hyper_rectangle(mesh,
+                                              {8, 4},
+                                              Point<2>(0., height),
+                                              Point<2>(1., height + .5),
+                                              /* colorize */ true);
+    for (const auto &cell : mesh.active_cell_iterators())
+      cell->set_material_id(0);
+
+    const Material<2> elastic = material.make<2>();
+    ImpactSetup<2>    setup{elastic};
+    setup.density   = material.density;
+    setup.gravity   = Tensor<1, 2>({0., -9.81});
+    setup.obstacles = foundation_below<2>(/* lower side */ 2);
+    Impact<2> block(impact, mesh, setup, folder.communicator);
+
+    TimeLoop     loop(impact.time,
+                  folder,
+                  block.system,
+                  *block.scheme,
+                  {{2, "ground"}});
+    VtuSeries<2> fields(block.body,
+                        elastic,
+                        *block.contact,
+                        block.obstacles,
+                        folder);
+    loop.write_fields = [&](const State &state, const unsigned int step) {
+      fields.write(state, step);
+    };
+    loop.run(block.state_in_flight(Tensor<1, 2>()));
+  };
+
+  return run_program(argc,
+                     argv,
+                     {"own_step",
+                      "A block falls on the ground.",
+                      add_parameters,
+                      validate,
+                      run});
+}
