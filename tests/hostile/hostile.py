@@ -27,13 +27,15 @@ from case import Case, Context  # noqa: E402
 
 # Kinds of input, the modules that make them, and their shares of --inputs.
 KINDS = {
-    "parameter-files": ("parameter_files", .30),
-    "command-lines": ("command_lines", .22),
-    "combinations": ("combinations", .15),
-    "meshes": ("meshes", .15),
-    "damaged-folders": ("damaged_folders", .08),
-    "full-disk": ("full_disk", .06),
-    "environments": ("environments", .04),
+    "parameter-files": ("parameter_files", .20),
+    "command-lines": ("command_lines", .15),
+    "combinations": ("combinations", .10),
+    "meshes": ("meshes", .10),
+    "scenes": ("scenes", .25),
+    "scene-meshes": ("scene_meshes", .06),
+    "damaged-folders": ("damaged_folders", .06),
+    "full-disk": ("full_disk", .05),
+    "environments": ("environments", .03),
     "kills": ("kills", None),
 }
 

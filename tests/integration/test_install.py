@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is installed works where it was put: programs, a step of one's own that is built
+against the library, the commands in Python."""
+
+from common import *
+
+
+class Installed(ProgramTest):
+
+    def call(self, *command):
+        result = subprocess.run([str(word) for word in command], capture_output=True,
+                                text=True, timeout=600, cwd=self.folder)
+        self.assertEqual(result.returncode, 0,
+                         msg=f"{command}\n{result.stdout}\n{result.stderr}")
+        return result.stdout
+
+    def test_install(self):
+        prefix, build = self.folder / "there", self.folder / "build"
+        self.call("cmake", "--install", pathlib.Path(program_path("ricochet")).parent,
+                  "--prefix", prefix)
+        # The whole is moved: nothing may remember where it was.
+        moved = prefix.rename(self.folder / "here")
+        programs = moved / "bin"
+        self.assertIn("Ricochet", self.call(programs / "ricochet", "--version"))
+        share = moved / "share" / "ricochet"
+        self.call(programs / "ricochet", share / "examples" / "colliding_bars.prm",
+                  "--validate")
+
+        # A step of one's own, from the folder that was installed.
+        self.call("cmake", "-S", share / "examples" / "own_step", "-B", build,
+                  f"-DCMAKE_PREFIX_PATH={moved}", "-DCMAKE_BUILD_TYPE=Release")
+        self.call("cmake", "--build", build)
+        self.call(build / "own_step", "--output-dir", self.folder / "run", "--quiet",
+                  "--set", "Output/Fields every=0")
+        ledger = Ledger(self.folder / "run")
+        self.assertGreater(max(ledger["contact_force_ground"]), 1e3)
+        self.assertLess(largest(ledger["balance_residual"]), 1e-11)
+        # What falls by h on the ground has the energy m g h.
+        self.assertAlmostEqual(max(ledger["external_work"]), 500. * 9.81 * .1,
+                               delta=.2 * 500. * 9.81 * .1)
+        self.call(sys.executable, programs / "ricochet-plot", self.folder / "run",
+                  "-o", self.folder / "pictures")
+        self.assertTrue(list((self.folder / "pictures").glob("*.png")))
+
+
+if __name__ == "__main__":
+    main()
