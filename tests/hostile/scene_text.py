@@ -139,7 +139,7 @@ def add_contacts(scene, rng):
                   Direction=scene.vector(across=-1.))
         scene.add("Contact at wall", Surface="; ".join(bodies), Against="wall",
                   Treatment=LAWS[0])
-    if len(bodies) == 1 and rng.random() < .15:
+    if len(bodies) == 1 and scene.dim == 2 and rng.random() < .3:
         scene.add("Contact of itself", Surface=bodies[0], Against="itself",
                   Treatment=LAWS[0])
 

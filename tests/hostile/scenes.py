@@ -485,7 +485,7 @@ def times(scene, rng, _):
     return float(scene.sections["Time"]["Final time"]) <= 0.
 
 
-def nothing(_scene, _rng, _parameters):
+def good_scene(_scene, _rng, _parameters):
     return False
 
 
@@ -496,7 +496,7 @@ CHANGES = [
     (obstacle_through_body, 3), (odd_obstacle, 4), (self_contact, 3), (combination, 16),
     (materials, 5), (springs, 4), (conditions, 4), (units, 2), (generator, 9), (shape, 6),
     (dimension, 2), (number, 7), (probes, 3), (many, 2), (several_partners, 3),
-    (degree, 3), (times, 2), (nothing, 3)]
+    (degree, 3), (times, 2), (good_scene, 3)]
 
 
 def run(case):
@@ -521,7 +521,7 @@ def run(case):
         text = scene.text()
     case.note(name)
     prm = case.write("given/given.prm", text)
-    expected = NOT_ACCEPTED if sure else ACCEPTED if name == "nothing" else ANY
+    expected = NOT_ACCEPTED if sure else ACCEPTED if name == "good_scene" else ANY
     attempt(case, prm, expected, validate=rng.random() < .25,
             n_ranks=2 if rng.random() < .03 else 1)
 

@@ -204,6 +204,21 @@ class Scenes(ProgramTest):
             self.assertGreater(max(whole[f"contact_force_{name}"]), 1e3, msg=name)
         self.assertLess(largest(whole["balance_residual"]), 1e-11)
         self.assertGreaterEqual(min(increments(whole["friction_work"])), -1e-9)
+        # What is told of the contact of two sides is what pushes the brick: from the
+        # momentum of all, of which the wall and the ground have their share.
+        step = 5e-3
+        rows = range(1, len(whole["time"]))
+        impulse = sum(whole["contact_force_ball_and_brick"][row] * step for row in rows)
+        pushed = sum(math.hypot(*(whole[f"momentum_{c}_ball"][row] -
+                                  whole[f"momentum_{c}_ball"][row - 1]
+                                  - ([0, -9.81 * step *
+                                      abs(whole["momentum_x_ball"][0]) / 6.][c == "y"])
+                                  for c in "xy"))
+                     for row in rows
+                     if whole["contact_force_ball_and_brick"][row] > 0.
+                     and whole["contact_force_ball_on_floor"][row] == 0.)
+        self.assertGreater(pushed, 0.)
+        self.assertGreater(impulse, .9 * pushed)
         # What loads, contacts and friction give and take is what is there.
         for row in range(len(whole["time"])):
             self.assertAlmostEqual(
@@ -297,6 +312,13 @@ end
         self.assertAlmostEqual(ledger["external_work"][-1], ledger["energy"][-1],
                                delta=1e-9)
         self.assertGreater(ledger["energy"][-1], impulse**2 / 2. / mass * .99)
+        # A block that spins about its middle, wherever it is.
+        spinning = self.scene(BLOCK, "Body block/Spin=1", "Body block/Translation=3, 5",
+                              "Time/Final time=0.01", name="spinning")
+        self.assertAlmostEqual(spinning["momentum_x"][0], 0., delta=1e-9)
+        self.assertAlmostEqual(spinning["momentum_y"][0], 0., delta=1e-9)
+        self.assertAlmostEqual(spinning["energy"][0], .5 * mass * (4. + 1.) / 12.,
+                               delta=1e-9)
         # The same as a force per mass.
         body = BLOCK + """
 subsection Condition walls
