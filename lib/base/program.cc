@@ -235,7 +235,7 @@ namespace Ricochet
         {
           std::string lines = "The parameters are valid.\n";
           if (program.description_of_input)
-            lines += program.description_of_input();
+            lines += program.description_of_input(command_line.output_dir);
           for (const std::string &note : notes)
             lines += note + "\n";
           return print(lines);

@@ -51,8 +51,10 @@ namespace Ricochet
     /// Called with what the user has written before #add_parameters, which may depend
     /// on it; may be left out.
     std::function<void(const ParameterText &)> prepare = {};
-    /// What `--validate` prints besides, after #validate: lines; may be left out.
-    std::function<std::string()> description_of_input = {};
+    /// What `--validate` prints besides, after #validate: lines; may be left out. Where a
+    /// folder is given (not empty), pictures may be written there.
+    std::function<std::string(const std::string &folder)> description_of_input =
+      {};
   };
 
   /**

@@ -93,8 +93,8 @@ namespace Ricochet
             "deal.II's GridGenerator cannot make '" + p.generator +
             "' with the arguments '" + p.generator_arguments + "' in " +
             std::to_string(dim) + "D (" + p.name_of("Generator") +
-            "). Names and arguments are those of its functions, the arguments "
-            "separated by colons: hyper_shell with 0, 0 : 1 : 2 : 12.");
+            "). Names and arguments are those of its functions, all arguments, "
+            "separated by colons: hyper_shell with 0, 0 : 1 : 2 : 12 : true.");
         }
     }
 
@@ -329,8 +329,8 @@ namespace Ricochet
                              Patterns::Anything());
     parameters.add_parameter("Generator arguments",
                              generator_arguments,
-                             "Its arguments after the mesh, separated by "
-                             "colons: 0, 0 : 1 : 2 : 12.",
+                             "All its arguments after the mesh, separated by "
+                             "colons: 0, 0 : 1 : 2 : 12 : true.",
                              Patterns::Anything());
     parameters.add_parameter(
       "Refinements",
@@ -425,7 +425,7 @@ namespace Ricochet
 
   template <int dim>
   void
-  BodySection<dim>::make_mesh(BodyMesh<dim> &mesh) const
+  BodySection<dim>::make_mesh(BodyMesh<dim> &mesh, const double advance) const
   {
     const Shape<dim> *own = find<dim>(shape);
     if (file.empty() == (own == nullptr))
@@ -458,7 +458,26 @@ namespace Ricochet
                        name_of("Refinements") + " to 0.");
     fine.refine_global(refinements);
     flatten(fine, own && wants_simplices(cells), mesh.cells);
-    place(mesh);
+    place(mesh, advance);
+  }
+
+
+
+  template <int dim>
+  double
+  BodySection<dim>::vertices_at_least() const
+  {
+    double n = 1.;
+    if (shape == "rectangle" || shape == "block")
+      for (const unsigned int along : cells_along)
+        n *= along;
+    else if (shape == "disk")
+      n = .02 * nodes_around * static_cast<double>(nodes_around);
+    else if (shape == "ring")
+      n = static_cast<double>(nodes_around) * nodes_across;
+    else if (shape == "ball" && mesh_size > 0.)
+      n = std::pow(radius / mesh_size, 3);
+    return n * std::pow(2., dim * static_cast<double>(refinements));
   }
 
 
@@ -508,7 +527,7 @@ namespace Ricochet
 
   template <int dim>
   void
-  BodySection<dim>::place(BodyMesh<dim> &mesh) const
+  BodySection<dim>::place(BodyMesh<dim> &mesh, const double advance) const
   {
     if (axis.norm() == 0.)
       throw InputError(name_of("Rotation axis") + " is a vector of no length.");
@@ -523,7 +542,7 @@ namespace Ricochet
       const Tensor<1, 3> turned = angle == 0. ? scaled : rotation * scaled;
       Point<dim>         result;
       for (unsigned int c = 0; c < dim; ++c)
-        result[c] = turned[c] + translation[c];
+        result[c] = turned[c] + translation[c] + advance * velocity[c];
       return result;
     };
     GridTools::transform(placed, mesh.cells);

@@ -59,9 +59,9 @@ namespace Ricochet
     std::vector<double>       size;
     std::vector<unsigned int> cells_along;
     unsigned int              nodes_around = 64, nodes_across = 4, nodes = 0;
-    double                    mesh_size   = 0.;
-    std::string               generator   = "hyper_cube", generator_arguments;
-    unsigned int              refinements = 0;
+    double                    mesh_size = 0.;
+    std::string  generator = "hyper_cube", generator_arguments = "0 : 1 : true";
+    unsigned int refinements = 0;
     /// "quadrilaterals or hexahedra", "triangles or tetrahedra"; of files and shapes
     /// that have one kind only "automatic".
     std::string cells  = "automatic";
@@ -89,10 +89,16 @@ namespace Ricochet
 
     /**
      * Make, or read, and place the mesh.
+     * @param advance how long the body has flown from its place already (s).
      * @throws InputError when it cannot be made.
      */
     void
-    make_mesh(BodyMesh<dim> &mesh) const;
+    make_mesh(BodyMesh<dim> &mesh, const double advance) const;
+
+    /// A lower bound of the number of vertices, before any mesh is made; of files it
+    /// knows next to nothing.
+    double
+    vertices_at_least() const;
 
     /// The names of the materials by material id of the @p mesh; those that are not
     /// there are of the body's own. @throws InputError
@@ -108,7 +114,7 @@ namespace Ricochet
 
   private:
     void
-    place(BodyMesh<dim> &mesh) const;
+    place(BodyMesh<dim> &mesh, const double advance) const;
   };
 } // namespace Ricochet
 

@@ -81,6 +81,11 @@ namespace Ricochet
             kind +
             " NAME', with a name of at most 60 letters, digits, single "
             "blanks and . _ -");
+        if (name == "itself" && (kind == "Body" || kind == "Obstacle"))
+          throw InputError(section.where +
+                           ": 'itself' means something else in contacts; "
+                           "choose another name than '" +
+                           full + "'.");
         if (!known.emplace(full, section.where).second)
           continue;
         const NamedSection found{kind, name, section.where};

@@ -5,6 +5,10 @@
 #include <output/stress_probe.h>
 #include <scene/probe_section.h>
 
+#include <deal.II/base/index_set.h>
+
+#include <array>
+#include <limits>
 #include <memory>
 
 namespace Ricochet
@@ -19,11 +23,14 @@ namespace Ricochet
     parameters.add_parameter(
       "Quantity",
       quantity,
-      "What to write: displacement or velocity, or the elastic Cauchy stress.",
-      Patterns::Selection("displacement|velocity|stress"));
+      "What to write: displacement or velocity; the elastic Cauchy stress; or, with "
+      "the midpoint scheme, the impulse (force times time, since the start) of what "
+      "holds or moves a boundary.",
+      Patterns::Selection("displacement|velocity|stress|impulse"));
     parameters.add_parameter("Body",
                              body,
-                             "Of which body.",
+                             "Of which body; for the impulse of which "
+                             "boundaries, 'beam: foot'.",
                              Patterns::Anything());
     parameters.add_parameter(
       "Point",
@@ -44,10 +51,55 @@ namespace Ricochet
     if (!point.empty() && point.size() != dim)
       throw InputError(name_of("Point") + " needs " + std::to_string(dim) +
                        " coordinates, separated by commas.");
-    if (body.find_first_of(":;") != std::string::npos)
+    if (quantity == "impulse" && !point.empty())
+      throw InputError(
+        name_of("Point") +
+        " has no meaning for an impulse, which is that of a whole "
+        "boundary.");
+    if (quantity != "impulse" && body.find_first_of(":;") != std::string::npos)
       throw InputError(name_of("Body") + ": '" + body.substr(0, 100) +
                        "' is not the name of one body.");
     return surfaces.find(body, name_of("Body")).front().body;
+  }
+
+
+
+  template <int dim>
+  void
+  ProbeSection<dim>::add_impulse_to(TimeLoop           &loop,
+                                    const Impact<dim>  &impact,
+                                    const SurfaceNames &surfaces) const
+  {
+    if (!impact.scheme->contact_force_is_of_step())
+      throw InputError(name_of("Quantity") +
+                       ": the impulse is known with the midpoint scheme only.");
+    // Unknowns that are prescribed on the boundary, by component.
+    std::array<IndexSet, dim> held;
+    types::global_dof_index   n = 0;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        held[c] = IndexSet(impact.body.owned_indices().size());
+        for (const auto &surface : surfaces.find(body, name_of("Body")))
+          for (const auto id : surface.ids)
+            held[c].add_indices(impact.body.boundary_displacements(id, c) &
+                                impact.body.clamped_indices());
+        n += held[c].n_elements();
+      }
+    if (Utilities::MPI::sum(n, impact.body.communicator) == 0)
+      throw InputError(name_of("Body") + ": no condition holds or moves '" +
+                       body.substr(0, 100) + "'.");
+    for (unsigned int c = 0; c < dim; ++c)
+      loop.add_sum(section.column_name() + "_impulse_" + "xyz"[c],
+                   "N s",
+                   [&impact, held = held[c]](const State &begin,
+                                             const State &end) {
+                     const Vector &forces = impact.system.reaction_forces();
+                     double        sum    = 0.;
+                     for (const auto i : held)
+                       sum += forces(i);
+                     return Utilities::MPI::sum(sum, impact.body.communicator) *
+                       (end.time - begin.time);
+                   });
   }
 
 
@@ -99,6 +151,9 @@ namespace Ricochet
               });
         return;
       }
+
+    if (quantity == "impulse")
+      return add_impulse_to(loop, impact, surfaces);
 
     const std::string unit      = quantity == "velocity" ? "m/s" : "m";
     const auto        vector_of = [of_velocity = quantity == "velocity"](

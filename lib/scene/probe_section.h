@@ -48,6 +48,12 @@ namespace Ricochet
     {
       return section.full_name() + "/" + name;
     }
+
+  private:
+    void
+    add_impulse_to(TimeLoop           &loop,
+                   const Impact<dim>  &impact,
+                   const SurfaceNames &surfaces) const;
   };
 } // namespace Ricochet
 

@@ -13,9 +13,13 @@
 #include <problems/part_meshes.h>
 #include <scene/scene.h>
 
+#include <deal.II/grid/grid_out.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <sstream>
 
@@ -120,6 +124,11 @@ namespace Ricochet
     parameters.add_parameter("Gravity",
                              gravity,
                              "Acceleration of gravity (m/s^2).");
+    parameters.add_parameter(
+      "Advance",
+      advance,
+      "How long the bodies have flown already, each with its velocity alone (s): "
+      "shifts where within a step an impact falls.");
     parameters.leave_subsection();
 
     for (auto &body : bodies)
@@ -194,11 +203,24 @@ namespace Ricochet
     for (const ContactSection &contact : contacts)
       {
         const Touching touching = find_touching(contact);
-        check_combination(contact.parameters,
-                          scheme_traits(impact.scheme.name),
-                          impact.redistributed_mass(),
-                          is_linear,
-                          is_viscous);
+        try
+          {
+            check_combination(contact.parameters,
+                              scheme_traits(impact.scheme.name),
+                              impact.redistributed_mass(),
+                              is_linear,
+                              is_viscous);
+            if (touching.obstacles.empty())
+              check_pair_combination(contact.parameters,
+                                     scheme_traits(impact.scheme.name),
+                                     touching.is_self);
+          }
+        catch (const InputError &error)
+          {
+            // Which of them is meant.
+            throw InputError(contact.section.where + ", " +
+                             contact.section.full_name() + ": " + error.what());
+          }
         if (!touching.obstacles.empty() && uses_stress(contact.parameters))
           for (const auto &surface : touching.slave)
             if (parts_at(surface).size() > 1)
@@ -206,16 +228,10 @@ namespace Ricochet
                                contact.parameters.treatment +
                                "' takes the stress at the surface, which must "
                                "be of one material.");
-        if (touching.obstacles.empty())
-          {
-            check_pair_combination(contact.parameters,
-                                   scheme_traits(impact.scheme.name),
-                                   touching.is_self);
-            if (degree > 1)
-              throw InputError(contact.section.where +
-                               ": between bodies and of a surface with itself, "
-                               "contact takes Mesh/Degree = 1.");
-          }
+        if (touching.obstacles.empty() && degree > 1)
+          throw InputError(contact.section.where +
+                           ": between bodies and of a surface with itself, "
+                           "contact takes Mesh/Degree = 1.");
       }
     ImpactSetup<dim> setup{parts.front().material.template make<dim>()};
     for (const ConditionSection<dim> &condition : conditions)
@@ -241,7 +257,9 @@ namespace Ricochet
       {
         meshes.push_back(std::make_unique<BodyMesh<dim>>());
         BodyMesh<dim> &mesh = *meshes.back();
-        bodies[b].make_mesh(mesh);
+        // What is much too large would not come back from there.
+        impact.check_size(dim * bodies[b].vertices_at_least(), dim);
+        bodies[b].make_mesh(mesh, advance);
         const bool simplex = mesh.cells.all_reference_cells_are_simplex();
         if (b > 0 && simplex != is_simplex)
           throw InputError(
@@ -419,6 +437,11 @@ namespace Ricochet
         for (unsigned int i = 0; i < obstacles.size(); ++i)
           if (obstacles[i].first.name == item)
             {
+              if (std::count(touching.obstacles.begin(),
+                             touching.obstacles.end(),
+                             i) > 0)
+                throw InputError(contact.name_of("Against") +
+                                 " names the obstacle '" + item + "' twice.");
               touching.obstacles.push_back(i);
               known = true;
             }
@@ -587,7 +610,7 @@ namespace Ricochet
 
   template <int dim>
   std::string
-  Scene<dim>::description() const
+  Scene<dim>::description(const std::string &folder) const
   {
     const Units        units(units_text);
     std::ostringstream text;
@@ -627,7 +650,11 @@ namespace Ricochet
           for (const auto id : surface.ids)
             text << "  boundary " << surfaces.name_of(id) << ": "
                  << (dim == 2 ? "length " : "area ")
-                 << to_text(mesh.boundary_areas.at(id)) << '\n';
+                 << to_text(mesh.boundary_areas.at(id))
+                 << (folder.empty()
+                       ? ""
+                       : ", number " + std::to_string(id) + " in setup.vtk")
+                 << '\n';
       }
     for (const ContactSection &contact : contacts)
       {
@@ -643,7 +670,24 @@ namespace Ricochet
     // What overlaps is refused here as it is by a run.
     Triangulation<dim> whole;
     join(whole);
-    Impact<dim> assembly(impact, whole, make_setup(), MPI_COMM_SELF);
+    if (!folder.empty())
+      on_first_rank(MPI_COMM_WORLD, [&]() {
+        std::error_code error;
+        std::filesystem::create_directories(folder, error);
+        const std::string name = folder + "/setup.vtk";
+        std::ofstream     file(name);
+        GridOut().write_vtk(whole, file);
+        file.flush();
+        if (!file)
+          throw InputError("The file '" + name + "' cannot be written.");
+        text << "The meshes, with the numbers of parts and boundaries: " << name
+             << '\n';
+      });
+    ImpactSetup<dim> setup = make_setup();
+    const auto       nodes = nodes_of_cells();
+    if (!nodes.empty())
+      setup.geometry = make_curved_geometry(nodes, whole, MPI_COMM_SELF);
+    Impact<dim> assembly(impact, whole, setup, MPI_COMM_SELF);
     assembly.state_of_parts();
     text << assembly.body.owned_indices().size() << " unknowns\n";
     for (const std::string &line : notes())
@@ -726,6 +770,18 @@ namespace Ricochet
 
 
 
+  template <int dim>
+  CellNodes<dim>
+  Scene<dim>::nodes_of_cells() const
+  {
+    CellNodes<dim> nodes;
+    for (const auto &mesh : meshes)
+      nodes.insert(nodes.end(), mesh->nodes.begin(), mesh->nodes.end());
+    return nodes;
+  }
+
+
+
   // ### The run
   template <int dim>
   void
@@ -755,9 +811,7 @@ namespace Ricochet
       distribute_mesh<dim>([&](Triangulation<dim> &whole) { join(whole); },
                            folder.communicator);
     ImpactSetup<dim> setup = make_setup();
-    CellNodes<dim>   nodes;
-    for (const auto &mesh : meshes)
-      nodes.insert(nodes.end(), mesh->nodes.begin(), mesh->nodes.end());
+    const auto       nodes = nodes_of_cells();
     if (!nodes.empty())
       setup.geometry = make_curved_geometry(nodes, *cells, folder.communicator);
     Impact<dim> assembly(impact, *cells, setup, folder.communicator);
@@ -824,6 +878,7 @@ namespace Ricochet
       fields.write(state, step);
     };
     loop.run(initial_state);
+    folder.log("pictures: ricochet-plot " + folder.file("") + " --fields");
   }
 
 

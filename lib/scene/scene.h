@@ -46,10 +46,12 @@ namespace Ricochet
     unused_parameters() const;
 
     /// What there is: bodies with measure, mass and boundaries, contacts with gaps and
-    /// the values that were found for them. After validate(). @throws InputError when
-    /// bodies overlap.
+    /// the values that were found for them. After validate().
+    /// @param folder gets setup.vtk, the meshes with the numbers of parts and boundaries,
+    /// unless it is empty.
+    /// @throws InputError when bodies overlap.
     std::string
-    description() const;
+    description(const std::string &folder) const;
 
     void
     run(RunFolder &folder);
@@ -99,6 +101,10 @@ namespace Ricochet
     ImpactSetup<dim>
     make_setup() const;
 
+    /// Of all bodies, for cells of second order; otherwise nothing.
+    CellNodes<dim>
+    nodes_of_cells() const;
+
     /// All bodies in one triangulation.
     void
     join(dealii::Triangulation<dim> &whole) const;
@@ -113,6 +119,7 @@ namespace Ricochet
     ImpactParameters       impact;
     unsigned int           degree = 1;
     dealii::Tensor<1, dim> gravity;
+    double                 advance    = 0.;
     std::string            units_text = "m, kg, s";
 
     // The handler that the parameters were added to, for values that are found.

@@ -134,6 +134,16 @@ namespace Ricochet
                                  suggestion(boundary, candidates));
               surface.ids.insert(found->second);
             }
+        if (surface.ids.empty())
+          throw InputError(where + ": '" + item.substr(0, 100) +
+                           "' names no boundary of the body " + quoted(name) +
+                           "; without the colon it is all of it.");
+        for (const Surface &other : surfaces)
+          for (const auto id : surface.ids)
+            if (other.ids.count(id) > 0)
+              throw InputError(where + ": the boundary " + name_of(id) +
+                               " of the body " + quoted(name) +
+                               " is named twice.");
         surfaces.push_back(surface);
       }
     if (surfaces.empty())

@@ -138,6 +138,15 @@ namespace Ricochet
     double
     imposed_work(const Vector &way) const;
 
+    /// The forces (N) on the body by which displacements are prescribed, in the rows of
+    /// these: what the equations of the last solve_stage() leave over. With the midpoint
+    /// scheme they are the means over the step.
+    const Vector &
+    reaction_forces() const
+    {
+      return reaction;
+    }
+
     /// The external load at @p time.
     void
     external_load(const double time, Vector &load) const;

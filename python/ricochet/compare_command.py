@@ -42,6 +42,8 @@ from .programs import Outcome, Task, check_many, find_program, parameters_of, ru
 from .results import Run
 
 GAP = "Start/Initial gap"
+#: Of the program ricochet: how long its bodies have flown already.
+ADVANCE = "Start/Advance"
 
 # Runs of a comparison need no fields for ParaView and no line per step.
 QUIET: dict[str, object] = {"Output/Fields every": 0, "Output/Log every": 0}
@@ -68,7 +70,7 @@ def command_line(arguments: Sequence[str] | None = None) -> argparse.Namespace:
         metavar="N",
         type=int,
         default=1,
-        help=f"so many places of the impact within a time step, by '{GAP}'",
+        help=f"so many places of the impact within a time step, by '{GAP}' or '{ADVANCE}'",
     )
     parser.add_argument(
         "--set",
@@ -200,25 +202,30 @@ def _settings(texts: Sequence[str]) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Impact:
-    """When and how fast a body hits, as a run at the gap of the file tells."""
+    """When and how fast a body hits, as a run of the file as it is tells."""
 
-    gap: float
+    #: The parameter that shifts it: GAP or ADVANCE.
+    parameter: str
+    #: Its value in that run (m or s).
+    value: float
     speed: float
     time_step: float
     #: Where in its step the impact falls, 0 to 1.
     position: float
 
-    def gap_for(self, position: float) -> float:
-        """The initial gap for an impact there, the nearest one that is positive."""
+    def value_for(self, position: float) -> float:
+        """The parameter's value for an impact there; of gaps the nearest positive one."""
+        if self.parameter == ADVANCE:
+            return self.value + (self.position - position) * self.time_step
         length = self.speed * self.time_step
-        gap = self.gap + (position - self.position) * length
+        gap = self.value + (position - self.position) * length
         while gap <= 0:
             gap += length
         return gap
 
 
-def find_impact(run: Run, gap: float) -> Impact:
-    """The impact of a run whose initial gap this is.
+def find_impact(run: Run, parameter: str, value: float) -> Impact:
+    """The impact of a run in which the parameter that shifts it has this value.
 
     Raises:
         RicochetError: it does not fly towards anything.
@@ -226,12 +233,12 @@ def find_impact(run: Run, gap: float) -> Impact:
     approach = measures.first_approach(run.table)
     if approach is None:
         raise RicochetError(
-            f"No impact can be shifted: by '{GAP}' the body must fly for two steps at least "
+            f"No impact can be shifted: by '{parameter}' the body must fly for two steps at least "
             "before it touches, and then touch."
         )
     time = run.table["time"]
     step = float(time[1] - time[0])
-    return Impact(gap, approach.speed, step, (approach.time - float(time[0])) / step % 1.0)
+    return Impact(parameter, value, approach.speed, step, (approach.time - float(time[0])) / step % 1.0)
 
 
 def positions(number: int) -> list[float]:
@@ -294,7 +301,7 @@ def compare(options: argparse.Namespace) -> Comparison:
     if options.impact_positions > 1:
         impact = _first_impact(program, case, methods, task)
         gaps = [
-            (position, {GAP: impact.gap_for(position)})
+            (position, {impact.parameter: impact.value_for(position)})
             for position in positions(options.impact_positions)
         ]
     # What is refused is refused at each position: it is asked once.
@@ -342,16 +349,17 @@ def _first_impact(
         RicochetError: the program has no initial gap, or no method runs.
     """
     known = parameters_of(program, case)
-    if GAP not in known:
+    parameter = next((name for name in (GAP, ADVANCE) if name in known), None)
+    if parameter is None:
         raise RicochetError(
-            f"--impact-positions needs a program with the parameter '{GAP}', which "
-            f"{program.name} has not."
+            f"--impact-positions needs a program with the parameter '{GAP}' or '{ADVANCE}', "
+            f"which {program.name} has not."
         )
     problem: ProgramError | None = None
     for method in methods:
         outcome = run_tasks([task(method, "as in the file", {})], 1)[0]
         if outcome.run:
-            return find_impact(outcome.run, float(known[GAP]))
+            return find_impact(outcome.run, parameter, float(known[parameter]))
         problem = outcome.error
     raise RicochetError(f"No method runs: {problem.sentence if problem else 'none is given.'}")
 

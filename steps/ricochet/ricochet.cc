@@ -46,8 +46,8 @@
 //
 // Run it as
 //
-//     ricochet examples/bouncing_ball.prm
-//     ricochet examples/bouncing_ball.prm --validate      what is there, before a run
+//     ricochet examples/newtons_cradle.prm
+//     ricochet examples/newtons_cradle.prm --validate      what is there, before a run
 //     ricochet --print-parameters                         all sections, with NAME
 
 #include <base/program.h>
@@ -74,7 +74,9 @@ namespace
     program.unused_parameters = [scene]() {
       return scene->unused_parameters();
     };
-    program.description_of_input = [scene]() { return scene->description(); };
+    program.description_of_input = [scene](const std::string &folder) {
+      return scene->description(folder);
+    };
     return program;
   }
 } // namespace
@@ -100,5 +102,7 @@ main(int argc, char **argv)
          ? program_of(std::make_shared<Scene<2>>(text))
          : program_of(std::make_shared<Scene<3>>(text));
      },
-     [&]() { return scene.description_of_input(); }});
+     [&](const std::string &folder) {
+       return scene.description_of_input(folder);
+     }});
 }

@@ -359,8 +359,22 @@ subsection Probe stress
   set Quantity = stress
   set Point    = 1.1, 0.6
 end
+subsection Probe pull
+  set Body     = block: right
+  set Quantity = impulse
+end
+subsection Probe hold
+  set Body     = block: left
+  set Quantity = impulse
+end
 """
         ledger = self.scene(text, "Time/Time step=4", "Time/Final time=400")
+        # The force is the stress over a side of 1 m; its integral over time, by hand.
+        self.assertAlmostEqual(ledger["pull_impulse_x"][-1], 1e4 * .01 * 400.,
+                               delta=1e-3 * 4e4)
+        self.assertAlmostEqual(ledger["hold_impulse_x"][-1],
+                               ledger["momentum_x"][-1] - ledger["pull_impulse_x"][-1],
+                               delta=1e-6 * 4e4)
         strain = .02
         self.assertAlmostEqual(ledger["stress_stress_xx"][-1], 1e4 * strain, delta=.5)
         self.assertAlmostEqual(ledger["imposed_work"][-1], .5 * 1e4 * strain**2 * 2.,
@@ -388,6 +402,14 @@ end
         self.assertAlmostEqual(ledger["motion_of_left_velocity_x"][-1], -100., delta=3.)
         self.assertEqual(ledger["contact_force_ends"][-1], 0.)
         self.assertLess(largest([e - energy for e in ledger["energy"]]), 1e-12 * energy)
+
+    def test_advance(self):
+        """Bodies that have flown for a while already: 3 m/s towards the floor."""
+        a = self.scene(scene(steps=1))
+        b = self.scene(scene(steps=1), "Start/Advance=0.01", name="later")
+        gap = "smallest_gap_ball_on_floor"
+        self.assertAlmostEqual(a[gap][0] - b[gap][0], .03, delta=1e-12)
+        self.assertEqual(a["energy"][0], b["energy"][0])
 
     def test_what_is_found_is_written_down(self):
         self.scene(scene(steps=1))
