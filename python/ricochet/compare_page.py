@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from . import curves, measures
-from .compare_command import Comparison, number, quantities
+from .comparison import Comparison, number, quantities
 from .tables import Array, Table
 
 import matplotlib.pyplot as plt

@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Methods beside each other on one case: their runs, and the numbers that tell them apart."""
+
+from __future__ import annotations
+
+import csv
+import pathlib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from . import measures
+from .programs import Outcome
+from .results import Run
+
+
+@dataclass
+class Method:
+    """A contact treatment with a time scheme; None stands for that of the file."""
+
+    treatment: str | None
+    scheme: str | None
+    #: One for each position of the impact, and of each position (a part of a step).
+    outcomes: list[Outcome] = field(default_factory=list)
+    positions: list[float | None] = field(default_factory=list)
+    finest: Outcome | None = None
+
+    @property
+    def name(self) -> str:
+        """What it is called in tables."""
+        return ", ".join(filter(None, (self.treatment, self.scheme))) or "as in the file"
+
+    def overrides(self, contact_sections: Sequence[str]) -> dict[str, object]:
+        """The parameters that make it; the treatment is that of all contacts."""
+        result: dict[str, object] = {}
+        if self.treatment:
+            result.update({f"{name}/Treatment": self.treatment for name in contact_sections})
+        if self.scheme:
+            result["Time/Scheme"] = self.scheme
+        return result
+
+    @property
+    def runs(self) -> list[Run]:
+        """Those that ended well."""
+        return [outcome.run for outcome in self.outcomes if outcome.run]
+
+    @property
+    def problem(self) -> str:
+        """Why some run of it did not end well, in one sentence; empty if all did."""
+        errors = [outcome.error for outcome in self.outcomes if outcome.error]
+        if not errors:
+            return ""
+        count = (
+            ""
+            if len(errors) == len(self.outcomes)
+            else (f"{len(errors)} of {len(self.outcomes)} runs: ")
+        )
+        return count + errors[0].sentence
+
+    @property
+    def shown(self) -> Run | None:
+        """The run for the figures: that whose impact is nearest to the middle of a step."""
+        good = [
+            (abs((position if position is not None else 0.5) - 0.5), number)
+            for number, (position, outcome) in enumerate(zip(self.positions, self.outcomes))
+            if outcome.run
+        ]
+        return self.outcomes[min(good)[1]].run if good else None
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A column of the table: the values of a method's runs."""
+
+    name: str
+    unit: str
+    values: dict[str, list[float]]
+
+    @property
+    def title(self) -> str:
+        """The name with the unit."""
+        return f"{self.name} ({self.unit})" if self.unit not in ("", "1") else self.name
+
+
+@dataclass
+class Comparison:
+    """All that was run, and what it was."""
+
+    case: pathlib.Path
+    program: pathlib.Path
+    folder: pathlib.Path
+    methods: list[Method]
+    settings: dict[str, str]
+    finest: dict[str, str]
+    jobs: int
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Of the columns of the tables, from the first run that there is."""
+        for method in self.methods:
+            for run in method.runs:
+                return run.units
+        return {}
+
+
+# Numbers ------------------------------------------------------------------------------
+
+
+def quantities(comparison: Comparison) -> list[Quantity]:
+    """The columns of the table, with the values of all runs of each method."""
+    units = comparison.units
+
+    def unit(begin: str) -> str:
+        return next((text for name, text in units.items() if name.startswith(begin)), "")
+
+    def each(function: Callable[[Run], float | None]) -> dict[str, list[float]]:
+        result = {}
+        for method in comparison.methods:
+            values = [function(run) for run in method.runs]
+            result[method.name] = [float(v) for v in values if v is not None and np.isfinite(v)]
+        return result
+
+    def ms(run: Run) -> float | None:
+        seconds = run.seconds_in_steps or run.wall_seconds
+        return 1e3 * seconds / max(len(run.table) - 1, 1) if seconds is not None else None
+
+    def force(run: Run) -> float:
+        return float(np.nanmax(measures.contact_force(run.table), initial=0.0))
+
+    def penetration(run: Run) -> float:
+        return run.summary().largest_penetration
+
+    result = [
+        Quantity("energy lost", "%", each(lambda run: 100 * measures.energy_lost(run.table))),
+        Quantity("restitution", "", each(lambda run: run.summary().restitution)),
+        Quantity("largest force", unit("contact_force_"), each(force)),
+        Quantity("largest penetration", unit("penetration_"), each(penetration)),
+        Quantity("contact lasts", unit("time"), each(lambda run: measures.duration(run.table))),
+        Quantity("Newton iterations", "", each(lambda run: run.summary().newton_iterations)),
+        Quantity("ms per step", "", each(ms)),
+    ]
+    if comparison.finest:
+        for name, function in (
+            ("error of energy", measures.error_of_energy),
+            ("error of displacement", measures.error_of_displacement),
+        ):
+            values: dict[str, list[float]] = {}
+            for method in comparison.methods:
+                shown = method.shown
+                fine = method.finest.run if method.finest else None
+                error = function(shown.table, fine.table) if shown and fine else float("nan")
+                values[method.name] = [100 * error] if np.isfinite(error) else []
+            result.append(Quantity(name, "%", values))
+    # What no method has is no column.
+    return [q for q in result if any(q.values.values())]
+
+
+def cell(values: Sequence[float]) -> str:
+    """The mean of some values, and half their range if there are several."""
+    if not values:
+        return "-"
+    mean, half = float(np.mean(values)), 0.5 * (max(values) - min(values))
+    text = number(mean)
+    return f"{text} ± {half:.2g}" if len(values) > 1 else text
+
+
+def number(value: float) -> str:
+    """Four digits; a whole number in full."""
+    if value == round(value) and abs(value) < 1e6:
+        return f"{value:.0f}"
+    # Round-off has no digits.
+    return f"{value:.1e}" if abs(value) < 1e-9 else f"{value:.4g}"
+
+
+def rows(comparison: Comparison) -> tuple[list[str], list[list[str]]]:
+    """The header of the table and its rows; a method without runs has a sentence only."""
+    columns = quantities(comparison)
+    header = ["method", *(q.title for q in columns)]
+    result = []
+    for method in comparison.methods:
+        if method.runs:
+            result.append([method.name, *(cell(q.values[method.name]) for q in columns)])
+        else:
+            result.append([method.name, method.problem])
+    return header, result
+
+
+def print_table(comparison: Comparison) -> None:
+    """The table on the console."""
+    header, lines = rows(comparison)
+    whole = [header, *(line for line in lines if len(line) == len(header))]
+    widths = [max(len(line[i]) for line in whole) for i in range(len(header))]
+    widths[0] = max(len(line[0]) for line in [header, *lines])
+    for line in [header, *lines]:
+        # A sentence is as wide as it is.
+        fitting = widths if len(line) == len(header) else [widths[0], 0]
+        print(" | ".join(text.ljust(width) for text, width in zip(line, fitting)).rstrip())
+        if line is header:
+            print("-+-".join("-" * width for width in widths))
+    for method in comparison.methods:
+        if method.runs and method.problem:
+            print(f"{method.name}: {method.problem}")
+        if method.runs and method.finest and method.finest.error:
+            print(f"{method.name}, the finest run: {method.finest.error.sentence}")
+
+
+def write_csv(comparison: Comparison, path: pathlib.Path) -> None:
+    """The table with all digits: mean, smallest and largest of each number."""
+    columns = quantities(comparison)
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(
+            ["method", "runs", "problem"]
+            + [f"{what} {q.title}" for q in columns for what in ("mean", "smallest", "largest")]
+        )
+        for method in comparison.methods:
+            line: list[object] = [method.name, len(method.runs), method.problem]
+            for q in columns:
+                values = q.values[method.name]
+                line += [np.mean(values), min(values), max(values)] if values else ["", "", ""]
+            writer.writerow(line)
