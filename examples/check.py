@@ -350,7 +350,7 @@ def golf_ball(run):
         near("mass (kg)", mass, .0459, .02),
         between("restitution", after / 67., .65, .75),
         between("touches for (ms)", 1e3 * (end - begin), .35, .5),
-        near("the same of Hertz's duration", (end - begin) / hertz, .9, .12),
+        between("the same over Hertz's duration", (end - begin) / hertz, .8, 1.),
         near("impulse of the wall (N s)", run.impulse("wall", of_step=False),
              mass * (67. + after), .005),
         near("largest force over the mean",

@@ -5,7 +5,7 @@ thick  = 2;
 catch  = 1.5;                        // how far the hook looks out
 front  = catch / Tan(30 * Pi / 180); // length of its front
 size   = 0.35;
-fine   = 0.15; // at the head
+fine   = 0.25; // at the head
 
 Point(1) = {0, 0, 0, size};
 Point(2) = {length, 0, 0, size};                // behind the hook
