@@ -512,6 +512,56 @@ def tyre_over_kerb(run):
     ]
 
 
+def falls_onto_next(height, thickness, space, spin, step=1e-6):
+    """Time and speed of turning of a rigid block about its lower edge when it meets
+    the next one."""
+    angle, now = 0., 0.
+    inertia = (height**2 + thickness**2) / 3.  # per mass
+    while height * math.sin(angle) < space:
+        # Lever of the weight: the middle, from the edge.
+        lever = (.5 * height * math.sin(angle + .5 * step * spin) -
+                 .5 * thickness * math.cos(angle + .5 * step * spin))
+        spin += step * GRAVITY * lever / inertia
+        angle += step * spin
+        now += step
+    return now, spin
+
+
+def dominoes(run):
+    height, thickness, space, n = .048, .0075, .0175, 7
+    t = run["time"]
+    tilts = [np.arctan2(run[f"head_{i}_displacement_x"] - run[f"foot_{i}_displacement_x"],
+                        height + run[f"head_{i}_displacement_y"] -
+                        run[f"foot_{i}_displacement_y"]) for i in range(1, n + 1)]
+    hits = [int(np.argmax(run[f"contact_force_{i}_and_{i + 1}"] > 0.)) for i in range(1, n)]
+    by_hand, spin = falls_onto_next(height, thickness, space, 6.)
+    angle = math.asin(space / height)
+    between_hits = np.diff(t[hits])
+    mass = 1400. * height * thickness
+    # Of a block that stays as it is: the middle is half way between opposite corners,
+    # where the left foot is by the thickness beside the right one.
+    sinks = sum(.5 * (run[f"head_{i}_displacement_y"][-1] +
+                      run[f"foot_{i}_displacement_y"][-1] +
+                      thickness * math.sin(tilt[-1])) for i, tilt in
+                enumerate(tilts, start=1))
+    return [
+        near("the first meets the second after (s)", t[hits[0]], by_hand, .05),
+        near("it turns then with (rad/s)",
+             (tilts[0][hits[0] - 2] - tilts[0][hits[0] - 6]) / (4. * (t[1] - t[0])),
+             spin, .08),
+        near("it is tilted then by (degrees)", math.degrees(tilts[0][hits[0]]),
+             math.degrees(angle), .05),
+        near("the fourth, when it meets the fifth (degrees)",
+             math.degrees(tilts[3][hits[3]]), math.degrees(angle), .05),
+        between("they meet in order, at least apart by (s)", np.min(between_hits), .005,
+                .1),
+        between("last time between hits over the first",
+                between_hits[-1] / between_hits[0], .2, 1.),
+        near("work of gravity (J)", run["external_work"][-1], -mass * GRAVITY * sinks,
+             .005),
+    ]
+
+
 # Names, and whether they are quick.
 EXAMPLES = {
     "suitcase_on_belt": (suitcase_on_belt, True),
@@ -525,6 +575,7 @@ EXAMPLES = {
     "bowling": (bowling, False),
     "newtons_cradle": (newtons_cradle, False),
     "seal_in_groove": (seal_in_groove, False),
+    "dominoes": (dominoes, False),
     "golf_ball": (golf_ball, False),
     "gear_pair": (gear_pair, False),
 }

@@ -62,6 +62,7 @@ def lid_and_groove(time):
 FLOOR = {  # what stays where it is
     "snap_fit": [circle(36.4, -1.5, 1.5)],
     "gear_pair": [circle(40, 0, 9.98)],
+    "dominoes": [box(-.01, -.006, .24, .006)],
     "arch": [box(-1.3, -.1, 2.6, .1)],
     "arch_too_thin": [box(-1.3, -.1, 2.6, .1)],
 }
@@ -72,10 +73,11 @@ MOVING = {
 }
 # Instants, limits of x and y, and panels beside each other.
 PANELS = {
-    "newtons_cradle": ([0., .0012, .006], (-.105, .108), (-.022, .022), 1),
+    "newtons_cradle": ([0., .0012, .01], (-.105, .112), (-.022, .022), 1),
     "bowling": ([0., .032, .06, .1], (-.38, 1.15), (-.62, .62), 2),
     "belt_with_spring": ([0., .3, .6], (-.04, .36), (-.02, .07), 1),
     "suitcase_on_belt": ([0., .16, .3], (-.08, .7), (-.05, .23), 1),
+    "dominoes": ([0., .12, .22, .34], (-.008, .22), (-.006, .055), 2),
     "gear_pair": ([0., .016], (-20, 68), (-28, 28), 2),
     "snap_fit": ([0., .0345, .0575, .092], (18, 43), (-3.4, 5.2), 2),
     "seal_in_groove": ([0., .01, .02], (-4.6, 4.6), (-.8, 6), 3),
@@ -110,13 +112,13 @@ def draw_plane(run, name, path):
             cells.append(places[points, :2])
             values.append(np.mean(stress[points]))
         panel.add_collection(PolyCollection(cells, array=np.array(values), cmap="viridis",
-                                            clim=(0., largest or 1.), edgecolors="face",
-                                            linewidths=.3))
+                                            clim=(0., largest or 1.), linewidths=0,
+                                            antialiased=False))
         panel.set(xlim=across, ylim=along, aspect="equal", xticks=[], yticks=[])
         panel.set_title(f"t = {time:.4g} s", fontsize=8, loc="left", pad=2)
         for side in panel.spines.values():
             side.set_visible(False)
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=160)
     plt.close(figure)
 
 
@@ -128,9 +130,9 @@ def draw(name, folder, path):
         pictures.draw_instants(run, "von_mises", path)
     with Image.open(path) as picture:
         small = picture.convert("RGB")
-    if small.width > 880:
-        small = small.resize((880, small.height * 880 // small.width), Image.LANCZOS)
-    small.quantize(64, dither=Image.Dither.NONE).save(path, optimize=True)
+    if small.width > 760:
+        small = small.resize((760, small.height * 760 // small.width), Image.LANCZOS)
+    small.quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
 
 
 def main():
