@@ -372,10 +372,10 @@ namespace Ricochet
       c = std::tolower(static_cast<unsigned char>(c));
     if (ending == ".msh")
       return read_msh(file_name);
-    if (ending != ".inp" && ending != ".vtk" && ending != ".geo" &&
-        ending != ".step" && ending != ".stp")
+    if (ending != ".vtk" && ending != ".geo" && ending != ".step" &&
+        ending != ".stp")
       throw InputError("The mesh file '" + file_name +
-                       "' should end with .msh, .inp, .vtk, .geo, .step or "
+                       "' should end with .msh, .vtk, .geo, .step or "
                        ".stp.");
     if (!fs::exists(file_name))
       throw InputError("The mesh file '" + file_name + "' does not exist.");

@@ -133,6 +133,8 @@ namespace Ricochet
         ids.insert(entry.first);
       for (const BoundarySprings<dim> &spring : setup.springs)
         ids.insert(spring.boundary_id);
+      for (const BoundaryPressure<dim> &pressure : setup.pressures)
+        ids.insert(pressure.boundary_id);
       return ids;
     }
 
@@ -453,6 +455,34 @@ namespace Ricochet
       return std::make_unique<ContactSum>(std::move(operators));
     }
 
+    /// The pressures of @p setup that follow the surface; null without.
+    template <int dim>
+    std::unique_ptr<FollowerLoad>
+    make_follower(const Body<dim>        &body,
+                  const BulkOperator     &bulk,
+                  const ImpactSetup<dim> &setup,
+                  const std::string      &scheme)
+    {
+      if (setup.pressures.empty())
+        return nullptr;
+      if (!scheme_traits(scheme).contact_over_step)
+        throw InputError(
+          "A pressure that follows the surface cannot be combined with the time "
+          "scheme '" +
+          scheme +
+          "'.\nAllowed with it: midpoint, over whose steps its work is pressure "
+          "times the change of volume.");
+      if (bulk.is_linear())
+        throw InputError(
+          "A pressure that follows the surface is for large strains; a linear "
+          "elastic body does not know where its surface is. Take a traction, or "
+          "Saint Venant-Kirchhoff instead of linear elastic.");
+      if constexpr (dim > 1)
+        return std::make_unique<FollowerPressure<dim>>(body, setup.pressures);
+      else
+        throw InputError("On the line pressures are loads.");
+    }
+
     /// All external loads of @p setup (N).
     template <int dim>
     SemiDiscreteSystem::Load
@@ -537,6 +567,7 @@ namespace Ricochet
     , contact(make_any_contact(parameters, body, setup, contacts))
     , weight(weight_of(body, consistent_mass, setup.gravity))
     , prescriptions(make_prescriptions(body, setup))
+    , follower(make_follower(body, *bulk, setup, parameters.scheme.name))
     , system(redistributed_mass ? *redistributed_mass : consistent_mass,
              consistent_mass,
              *bulk,
@@ -559,7 +590,8 @@ namespace Ricochet
               }},
              make_load(body, consistent_mass, weight, setup),
              parameters.newton,
-             parameters.linear_solver)
+             parameters.linear_solver,
+             follower.get())
     , scheme(make_time_scheme(parameters.scheme))
   {
     check_motions(scheme_traits(parameters.scheme.name), obstacles);

@@ -5,6 +5,7 @@
 #include <discretization/body.h>
 #include <discretization/boundary_springs.h>
 #include <discretization/bulk_operator.h>
+#include <discretization/follower_pressure.h>
 #include <materials/material.h>
 #include <problems/impact_parameters.h>
 
@@ -95,6 +96,8 @@ namespace Ricochet
     std::map<dealii::types::boundary_id, ImposedDisplacement<dim>> imposed = {};
     /// Tractions on the undeformed boundary (Pa), by boundary id.
     std::map<dealii::types::boundary_id, VectorField<dim>> tractions = {};
+    /// Pressures that follow the surface.
+    std::vector<BoundaryPressure<dim>> pressures = {};
     /// What parts of the boundary are held by.
     std::vector<BoundarySprings<dim>> springs = {};
     /// The geometry of curved cells (see curved_geometry.h), with degree 2; null for
@@ -140,9 +143,11 @@ namespace Ricochet
       dealii::Point<dim>              place;
       VectorField<dim>                value;
     };
-    const std::vector<Prescription>   prescriptions;
-    SemiDiscreteSystem                system;
-    const std::unique_ptr<TimeScheme> scheme;
+    const std::vector<Prescription> prescriptions;
+    /// Null without.
+    const std::unique_ptr<FollowerLoad> follower;
+    SemiDiscreteSystem                  system;
+    const std::unique_ptr<TimeScheme>   scheme;
 
     /// Set the prescribed displacements in @p vector to those at @p time (s).
     void

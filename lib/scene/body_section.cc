@@ -19,8 +19,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <set>
+#include <stdexcept>
 
 namespace Ricochet
 {
@@ -76,12 +78,37 @@ namespace Ricochet
         cell->set_material_id(0);
     }
 
+    /// What deal.II's generators take for granted, and crash without.
+    template <int dim>
+    bool
+    can_be_generated(const std::string &name, const std::string &arguments)
+    {
+      const auto        list  = Utilities::split_string_list(arguments, ':');
+      const std::string first = list.empty() ? "" : list.front();
+      const auto        has_points = [&](const std::size_t n) {
+        return Utilities::split_string_list(first, ';').size() == n;
+      };
+      if (name == "subdivided_cylinder" || name == "cylinder_shell")
+        return dim == 3;
+      if (name == "moebius")
+        return std::atoi(first.c_str()) > 0;
+      if (name == "concentric_hyper_shells")
+        return list.size() > 3 && std::atoi(list[3].c_str()) > 0;
+      if (name == "general_cell")
+        return has_points(1U << dim);
+      if (name == "simplex")
+        return has_points(dim + 1);
+      return true;
+    }
+
     template <int dim>
     void
     make_by_generator(const BodySection<dim> &p, Triangulation<dim> &cells)
     {
       try
         {
+          if (!can_be_generated<dim>(p.generator, p.generator_arguments))
+            throw std::invalid_argument(p.generator);
           GridGenerator::generate_from_name_and_arguments(
             cells,
             p.generator,
@@ -269,7 +296,7 @@ namespace Ricochet
     parameters.add_parameter(
       "File",
       file,
-      "Mesh file: of Gmsh (.msh, format 2.2 or 4.1), or .inp or .vtk, or a "
+      "Mesh file: of Gmsh (.msh, format 2.2 or 4.1), or .vtk, or a "
       "geometry (.geo, .step) that Gmsh is to mesh. Boundaries are known by the "
       "numbers and names of physical groups. In a parameter file the path counts "
       "from the folder of that file.",
@@ -477,7 +504,7 @@ namespace Ricochet
       n = static_cast<double>(nodes_around) * nodes_across;
     else if (shape == "ball" && mesh_size > 0.)
       n = std::pow(radius / mesh_size, 3);
-    return n * std::pow(2., dim * static_cast<double>(refinements));
+    return std::floor(n * std::pow(2., dim * static_cast<double>(refinements)));
   }
 
 

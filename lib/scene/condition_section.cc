@@ -12,27 +12,49 @@ namespace Ricochet
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// The values of @p n expressions of x, y, z and t in @p text.
+    template <int dim>
+    std::function<
+      double(const unsigned int, const double time, const Point<dim> &place)>
+    parse_field(const std::string &text,
+                const std::string &name,
+                const unsigned int n)
+    {
+      const std::vector<std::string> texts = split_expressions(text);
+      if (texts.size() != n)
+        throw InputError(name + " needs " + std::to_string(n) +
+                         (n == 1 ? " expression" : " expressions") +
+                         ", separated by semicolons; it has " +
+                         std::to_string(texts.size()) + ".");
+      const Expressions expressions("x,y,z", texts, name, /* of time */ true);
+      return [expressions, name](const unsigned int c,
+                                 const double       time,
+                                 const Point<dim>  &place) {
+        const double value = expressions.value(c, in_space<dim>(place), time);
+        if (!std::isfinite(value))
+          throw ComputationError(
+            name + " is not finite at t = " + to_text(time) + " s.");
+        return value;
+      };
+    }
+  } // namespace
+
+
+
   template <int dim>
   VectorField<dim>
   parse_vector_field(const std::string &text, const std::string &name)
   {
-    const std::vector<std::string> texts = split_expressions(text);
-    if (texts.size() != dim)
-      throw InputError(name + " needs " + std::to_string(dim) +
-                       " expressions, separated by semicolons; it has " +
-                       std::to_string(texts.size()) + ".");
-    const Expressions expressions("x,y,z", texts, name, /* of time */ true);
-    return [expressions, name](const double time, const Point<dim> &place) {
-      Tensor<1, dim> result;
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          result[c] = expressions.value(c, in_space<dim>(place), time);
-          if (!std::isfinite(result[c]))
-            throw ComputationError(
-              name + " is not finite at t = " + to_text(time) + " s.");
-        }
-      return result;
-    };
+    return
+      [field = parse_field<dim>(text, name, dim)](const double      time,
+                                                  const Point<dim> &place) {
+        Tensor<1, dim> result;
+        for (unsigned int c = 0; c < dim; ++c)
+          result[c] = field(c, time, place);
+        return result;
+      };
   }
 
 
@@ -53,9 +75,11 @@ namespace Ricochet
       kind,
       "fixed: does not move. displacement: moves as Value says (m), with the "
       "midpoint scheme. traction: is loaded by Value (Pa), a force per area of "
-      "the undeformed body that keeps its direction. springs: is held by springs "
+      "the undeformed body that keeps its direction. pressure: is loaded by Value (Pa), "
+      "one expression, across the deformed surface, which it follows (with the midpoint "
+      "scheme, for hyperelastic bodies). springs: is held by springs "
       "and dashpots.",
-      Patterns::Selection("fixed|displacement|traction|springs"));
+      Patterns::Selection("fixed|displacement|traction|pressure|springs"));
     parameters.add_parameter(
       "Components",
       components,
@@ -89,8 +113,9 @@ namespace Ricochet
     std::vector<UnusedParameter> unused;
     const std::string            is = "; " + name_of("Kind") + " is " + kind;
     if (kind == "fixed" || kind == "springs")
-      unused.push_back({name_of("Value"), "displacement and traction" + is});
-    if (kind == "traction")
+      unused.push_back(
+        {name_of("Value"), "displacement, traction and pressure" + is});
+    if (kind == "traction" || kind == "pressure")
       unused.push_back(
         {name_of("Components"), "fixed, displacement and springs" + is});
     if (kind != "springs")
@@ -138,9 +163,16 @@ namespace Ricochet
                        name_of("Damping") + ".");
     if (kind == "displacement" || kind == "traction")
       field = parse_vector_field<dim>(value, name_of("Value"));
+    std::function<double(const double, const Point<dim> &)> pressure;
+    if (kind == "pressure")
+      pressure = [field = parse_field<dim>(value, name_of("Value"), 1)](
+                   const double      time,
+                   const Point<dim> &place) { return field(0, time, place); };
     for (const auto &surface : surfaces.find(boundary, name_of("Boundary")))
       for (const auto id : surface.ids)
-        if (kind == "springs")
+        if (kind == "pressure")
+          setup.pressures.push_back({id, pressure});
+        else if (kind == "springs")
           setup.springs.push_back({id, which, stiffness, damping});
         else if (kind == "traction")
           {

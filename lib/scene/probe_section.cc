@@ -2,14 +2,9 @@
 #include <base/exceptions.h>
 #include <output/momenta.h>
 #include <output/node_probe.h>
-#include <output/stress_probe.h>
 #include <scene/probe_section.h>
 
-#include <deal.II/base/index_set.h>
-
-#include <array>
 #include <limits>
-#include <memory>
 
 namespace Ricochet
 {
@@ -65,15 +60,13 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  ProbeSection<dim>::add_impulse_to(TimeLoop           &loop,
-                                    const Impact<dim>  &impact,
-                                    const SurfaceNames &surfaces) const
+  std::array<IndexSet, dim>
+  ProbeSection<dim>::held_unknowns(const Impact<dim>  &impact,
+                                   const SurfaceNames &surfaces) const
   {
     if (!impact.scheme->contact_force_is_of_step())
       throw InputError(name_of("Quantity") +
                        ": the impulse is known with the midpoint scheme only.");
-    // Unknowns that are prescribed on the boundary, by component.
     std::array<IndexSet, dim> held;
     types::global_dof_index   n = 0;
     for (unsigned int c = 0; c < dim; ++c)
@@ -88,6 +81,18 @@ namespace Ricochet
     if (Utilities::MPI::sum(n, impact.body.communicator) == 0)
       throw InputError(name_of("Body") + ": no condition holds or moves '" +
                        body.substr(0, 100) + "'.");
+    return held;
+  }
+
+
+
+  template <int dim>
+  void
+  ProbeSection<dim>::add_impulse_to(TimeLoop           &loop,
+                                    const Impact<dim>  &impact,
+                                    const SurfaceNames &surfaces) const
+  {
+    const std::array<IndexSet, dim> held = held_unknowns(impact, surfaces);
     for (unsigned int c = 0; c < dim; ++c)
       loop.add_sum(section.column_name() + "_impulse_" + "xyz"[c],
                    "N s",
@@ -100,6 +105,49 @@ namespace Ricochet
                      return Utilities::MPI::sum(sum, impact.body.communicator) *
                        (end.time - begin.time);
                    });
+  }
+
+
+
+  template <int dim>
+  std::shared_ptr<const StressProbe<dim>>
+  ProbeSection<dim>::stress_probe(
+    const Impact<dim>               &impact,
+    const SurfaceNames              &surfaces,
+    const std::vector<unsigned int> &first_part) const
+  {
+    const unsigned int         b = find_body(surfaces);
+    std::vector<Material<dim>> materials;
+    for (const Part<dim> &part : impact.parts)
+      materials.push_back(part.material);
+    Point<dim> place;
+    for (unsigned int c = 0; c < point.size(); ++c)
+      place[c] = point[c];
+    auto probe =
+      std::make_shared<const StressProbe<dim>>(impact.body,
+                                               materials,
+                                               first_part[b],
+                                               first_part[b + 1],
+                                               point.empty() ? nullptr
+                                                             : &place);
+    if (!probe->is_in_body())
+      throw InputError(name_of("Point") + " is not within the body '" + body +
+                       "'.");
+    return probe;
+  }
+
+
+
+  template <int dim>
+  void
+  ProbeSection<dim>::check(const Impact<dim>               &impact,
+                           const SurfaceNames              &surfaces,
+                           const std::vector<unsigned int> &first_part) const
+  {
+    if (quantity == "stress")
+      stress_probe(impact, surfaces, first_part);
+    if (quantity == "impulse")
+      held_unknowns(impact, surfaces);
   }
 
 
@@ -121,19 +169,7 @@ namespace Ricochet
 
     if (quantity == "stress")
       {
-        std::vector<Material<dim>> materials;
-        for (const Part<dim> &part : impact.parts)
-          materials.push_back(part.material);
-        const auto probe =
-          std::make_shared<const StressProbe<dim>>(impact.body,
-                                                   materials,
-                                                   begin,
-                                                   end,
-                                                   point.empty() ? nullptr
-                                                                 : &place);
-        if (!probe->is_in_body())
-          throw InputError(name_of("Point") + " is not within the body '" +
-                           body + "'.");
+        const auto probe = stress_probe(impact, surfaces, first_part);
         // The stress is evaluated once for all its components.
         const auto known =
           std::make_shared<std::pair<double, SymmetricTensor<2, dim>>>(

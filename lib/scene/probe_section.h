@@ -2,9 +2,15 @@
 #ifndef ricochet_scene_probe_section_h
 #define ricochet_scene_probe_section_h
 
+#include <output/stress_probe.h>
 #include <problems/impact.h>
 #include <scene/named_sections.h>
 #include <scene/surface_names.h>
+
+#include <deal.II/base/index_set.h>
+
+#include <array>
+#include <memory>
 
 namespace Ricochet
 {
@@ -39,6 +45,12 @@ namespace Ricochet
            const SurfaceNames              &surfaces,
            const std::vector<unsigned int> &first_part) const;
 
+    /// What add_to() would refuse. @throws InputError
+    void
+    check(const Impact<dim>               &impact,
+          const SurfaceNames              &surfaces,
+          const std::vector<unsigned int> &first_part) const;
+
     /// @throws InputError see add_to().
     unsigned int
     find_body(const SurfaceNames &surfaces) const;
@@ -50,6 +62,16 @@ namespace Ricochet
     }
 
   private:
+    std::shared_ptr<const StressProbe<dim>>
+    stress_probe(const Impact<dim>               &impact,
+                 const SurfaceNames              &surfaces,
+                 const std::vector<unsigned int> &first_part) const;
+
+    /// Unknowns that are prescribed on the boundary, by component.
+    std::array<dealii::IndexSet, dim>
+    held_unknowns(const Impact<dim>  &impact,
+                  const SurfaceNames &surfaces) const;
+
     void
     add_impulse_to(TimeLoop           &loop,
                    const Impact<dim>  &impact,

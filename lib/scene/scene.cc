@@ -689,6 +689,8 @@ namespace Ricochet
       setup.geometry = make_curved_geometry(nodes, whole, MPI_COMM_SELF);
     Impact<dim> assembly(impact, whole, setup, MPI_COMM_SELF);
     assembly.state_of_parts();
+    for (const ProbeSection<dim> &probe : probes)
+      probe.check(assembly, surfaces, first_part);
     text << assembly.body.owned_indices().size() << " unknowns\n";
     for (const std::string &line : notes())
       text << line << '\n';

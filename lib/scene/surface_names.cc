@@ -134,6 +134,9 @@ namespace Ricochet
                                  suggestion(boundary, candidates));
               surface.ids.insert(found->second);
             }
+        if (body.id.empty())
+          throw InputError(where + ": the body " + quoted(name) +
+                           " has no boundary.");
         if (surface.ids.empty())
           throw InputError(where + ": '" + item.substr(0, 100) +
                            "' names no boundary of the body " + quoted(name) +

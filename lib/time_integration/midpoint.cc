@@ -61,7 +61,8 @@ namespace Ricochet
       system.bulk.viscous_dissipation(old_state.solution,
                                       new_state.solution,
                                       dt);
-    report.external_work = stage.load * work;
+    report.external_work =
+      stage.load * work + system.follower_work(old_state, new_state);
     if (system.has_imposed_displacements())
       report.imposed_work = system.imposed_work(work);
 

@@ -53,7 +53,8 @@ namespace Ricochet
     const Unknowns                 &unknowns,
     Load                            load,
     const NewtonSolver::Parameters &newton_parameters,
-    const LinearSolver::Parameters &solver_parameters)
+    const LinearSolver::Parameters &solver_parameters,
+    const FollowerLoad             *follower)
     : bulk(bulk)
     , contact(contact)
     , unknowns(unknowns)
@@ -61,6 +62,7 @@ namespace Ricochet
     , invertible_mass(invertible_mass)
     , clamped_list(unknowns.clamped.begin(), unknowns.clamped.end())
     , load(std::move(load))
+    , follower(follower)
     , newton(newton_parameters)
     , linear_solver(solver_parameters,
                     contact_structure(contact,
@@ -101,7 +103,28 @@ namespace Ricochet
         external_load(time, work);
         result -= work;
       }
+    if (follower)
+      {
+        follower->step_force(solution, solution, time, time, work);
+        result -= work;
+      }
     set_clamped_to_zero(clamped_list, result);
+  }
+
+  double
+  SemiDiscreteSystem::follower_work(const State &old_state,
+                                    const State &new_state) const
+  {
+    if (!follower)
+      return 0.;
+    follower->step_force(old_state.solution,
+                         new_state.solution,
+                         old_state.time,
+                         new_state.time,
+                         work);
+    constant_part = new_state.solution;
+    constant_part -= old_state.solution;
+    return work * constant_part;
   }
 
   void
@@ -194,7 +217,8 @@ namespace Ricochet
                           force,
                           constant_part,
                           reaction,
-                          body_matrix},
+                          body_matrix,
+                          follower},
                          stage,
                          old_state.solution,
                          old_state.contact_force,

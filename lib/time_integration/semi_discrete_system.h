@@ -5,6 +5,7 @@
 #include <base/types.h>
 #include <contact/contact_operator.h>
 #include <discretization/bulk_operator.h>
+#include <discretization/follower_load.h>
 #include <solvers/linear_solver.h>
 #include <solvers/newton.h>
 #include <time_integration/stage.h>
@@ -86,6 +87,8 @@ namespace Ricochet
    * mass its rows on the contact boundary are zero.
    * @param invertible_mass consistent mass matrix, for the initial
    * acceleration.
+   * @param follower a load that depends on where the body is, with schemes whose
+   * forces are those of a step, and bodies that are not linear; null for none.
    */
     SemiDiscreteSystem(const Matrix                   &mass,
                        const Matrix                   &invertible_mass,
@@ -94,7 +97,8 @@ namespace Ricochet
                        const Unknowns                 &unknowns,
                        Load                            load,
                        const NewtonSolver::Parameters &newton_parameters,
-                       const LinearSolver::Parameters &solver_parameters);
+                       const LinearSolver::Parameters &solver_parameters,
+                       const FollowerLoad             *follower = nullptr);
 
     /// A state with @p displacement and @p velocity (system vectors) at time
     /// @p time, with the contact force and the acceleration M^{-1}(load - bulk
@@ -147,7 +151,12 @@ namespace Ricochet
       return reaction;
     }
 
-    /// The external load at @p time.
+    /// The work (J) of the load that depends on where the body is, over the step between
+    /// two states; 0 without.
+    double
+    follower_work(const State &old_state, const State &new_state) const;
+
+    /// The external load at @p time, but for the one that depends on where the body is.
     void
     external_load(const double time, Vector &load) const;
 
@@ -218,6 +227,7 @@ namespace Ricochet
     const Matrix &invertible_mass;
     std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type> clamped_list;
     const Load                                                     load;
+    const FollowerLoad                                            *follower;
     NewtonSolver                                                   newton;
     LinearSolver linear_solver;
     double       residual_seconds = 0., tangent_seconds = 0.;

@@ -95,6 +95,16 @@ namespace Ricochet
                               parts.force);
         force_scale += parts.force.l2_norm();
         result += parts.force;
+        if (parts.follower)
+          {
+            parts.follower->step_force(old_solution,
+                                       point,
+                                       stage.end_time - stage.time_step,
+                                       stage.end_time,
+                                       parts.force);
+            force_scale += parts.force.l2_norm();
+            result -= parts.force;
+          }
       }
     else
       {
@@ -136,10 +146,19 @@ namespace Ricochet
         matrix.reinit(parts.pattern);
       matrix.add(stage.inertia, parts.mass);
       if (stage.bulk_step_force)
-        parts.bulk.add_step_tangent(old_solution,
-                                    solution,
-                                    stage.time_step,
-                                    matrix);
+        {
+          parts.bulk.add_step_tangent(old_solution,
+                                      solution,
+                                      stage.time_step,
+                                      matrix);
+          if (parts.follower)
+            parts.follower->subtract_step_tangent(old_solution,
+                                                  solution,
+                                                  stage.end_time -
+                                                    stage.time_step,
+                                                  stage.end_time,
+                                                  matrix);
+        }
       else
         parts.bulk.add_tangent(bulk_weight, solution, matrix);
     };

@@ -4,6 +4,7 @@
 
 #include <contact/contact_operator.h>
 #include <discretization/bulk_operator.h>
+#include <discretization/follower_load.h>
 #include <solvers/linear_solver.h>
 #include <solvers/newton.h>
 #include <time_integration/stage.h>
@@ -43,6 +44,8 @@ namespace Ricochet
       /// Gets what the equations leave over in clamped unknowns (N).
       Vector &reaction;
       Matrix &body_matrix;
+      /// Null for none.
+      const FollowerLoad *follower = nullptr;
     };
 
     /// @param solution the iterate: residuals are looked at elsewhere, too, but

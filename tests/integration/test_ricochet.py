@@ -403,6 +403,48 @@ end
         self.assertEqual(ledger["contact_force_ends"][-1], 0.)
         self.assertLess(largest([e - energy for e in ledger["energy"]]), 1e-12 * energy)
 
+    def test_pressure_that_follows(self):
+        """A ring that is blown up and flies: nothing pushes it as a whole, and the work is
+        pressure times volume."""
+        text = """
+set Program   = ricochet
+set Dimension = 2
+subsection Body tube
+  set Shape        = ring
+  set Radius       = 1
+  set Inner radius = 0.8
+  set Nodes around = 48
+  set Velocity     = 1, 2
+  set Spin         = 3
+end
+subsection Condition air
+  set Boundary = tube: inner
+  set Kind     = pressure
+  set Value    = 2e4*min(t/0.1, 1)
+end
+subsection Time
+  set Final time = 0.3
+  set Time step  = 5e-3
+end
+"""
+        ledger = self.scene(text)
+        energy = ledger["energy"]
+        self.assertGreater(ledger["external_work"][-1], .02 * energy[0])
+        for row in range(len(energy)):
+            self.assertAlmostEqual(energy[row] - energy[0], ledger["external_work"][row],
+                                   delta=1e-9 * energy[0])
+        momentum = abs(ledger["momentum_x"][0])
+        for name in ("momentum_x", "momentum_y"):
+            self.assertLess(largest([p - ledger[name][0] for p in ledger[name]]),
+                            1e-10 * momentum, msg=name)
+        for more, message in (("Time/Scheme=Crank-Nicolson", "Allowed with it: midpoint"),
+                              ("Body tube/Law=linear elastic", "is for large strains")):
+            file = self.folder / "scene.prm"
+            code, _, error = self.attempt("ricochet", [more], prm=file,
+                                          folder=self.folder / "no")
+            self.assertEqual(code, 1)
+            self.assertIn(message, " ".join(error.split()))
+
     def test_advance(self):
         """Bodies that have flown for a while already: 3 m/s towards the floor."""
         a = self.scene(scene(steps=1))

@@ -3,6 +3,7 @@
 #include <base/exceptions.h>
 #include <base/units.h>
 #include <discretization/boundary_springs.h>
+#include <discretization/follower_pressure.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
 #include <materials/material_parameters.h>
@@ -13,6 +14,9 @@
 #include <scene/surface_names.h>
 
 #include <deal.II/base/function.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/grid_generator.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -205,6 +209,101 @@ BOOST_AUTO_TEST_CASE(springs)
       BOOST_CHECK_LT(other.l2_norm(),
                      1e-7 * 2. * h * product.l2_norm() + 1e-13);
     }
+}
+
+
+
+// A pressure all around: its work over a step is the pressure times the change of the
+// volume within, its force has no sum, and the tangent is that of the force.
+template <int dim>
+void
+check_pressure(const dealii::Triangulation<dim> &mesh)
+{
+  using dealii::Point;
+  const double    p = 7.;
+  const Body<dim> body(mesh, 1, {}, {}, MultiplierSpace::none, MPI_COMM_WORLD);
+  std::vector<BoundaryPressure<dim>> pressures;
+  for (const auto id : mesh.get_boundary_ids())
+    pressures.push_back(
+      {id, [p](const double, const Point<dim> &) { return p; }});
+  const FollowerPressure<dim> load(body, pressures);
+
+  // Two ways to deform it, far from each other.
+  Vector                                                 begin, end;
+  std::vector<std::function<double(const Point<dim> &)>> first, second;
+  for (unsigned int c = 0; c < dim; ++c)
+    {
+      first.emplace_back([c](const Point<dim> &x) {
+        return .2 * std::sin(2. * x[(c + 1) % dim] + c);
+      });
+      second.emplace_back([c](const Point<dim> &x) {
+        return .3 * x[c] * x[c] - .2 * std::cos(3. * x[(c + 1) % dim]) + .1 * c;
+      });
+    }
+  body.interpolate(dealii::FunctionFromFunctionObjects<dim>(first), begin);
+  body.interpolate(dealii::FunctionFromFunctionObjects<dim>(second), end);
+  const auto volume = [&](const Vector &solution) {
+    dealii::FEValues<dim>               values(body.mapping(),
+                                 body.dof_handler().get_fe(),
+                                 dealii::QGauss<dim>(4),
+                                 dealii::update_gradients |
+                                   dealii::update_JxW_values);
+    std::vector<dealii::Tensor<2, dim>> gradients(values.n_quadrature_points);
+    double                              sum = 0.;
+    for (const auto &cell : body.dof_handler().active_cell_iterators())
+      {
+        values.reinit(cell);
+        values[dealii::FEValuesExtractors::Vector(0)]
+          .get_function_gradients(solution, gradients);
+        for (unsigned int q = 0; q < gradients.size(); ++q)
+          sum += values.JxW(q) *
+            determinant(dealii::Tensor<2, dim>(
+                          dealii::unit_symmetric_tensor<dim>()) +
+                        gradients[q]);
+      }
+    return sum;
+  };
+  Vector force = body.make_vector(), way(end);
+  way -= begin;
+  load.step_force(begin, end, 0., 1., force);
+  const double change = volume(end) - volume(begin);
+  BOOST_CHECK_GT(std::abs(change), .01);
+  BOOST_CHECK_CLOSE(force * way, -p * change, 1e-9);
+  for (unsigned int c = 0; c < dim; ++c)
+    {
+      Vector              translation;
+      std::vector<double> along(dim, 0.);
+      along[c] = 1.;
+      body.interpolate(dealii::Functions::ConstantFunction<dim>(along),
+                       translation);
+      BOOST_CHECK_SMALL(force * translation, 1e-12 * p);
+    }
+
+  Matrix tangent;
+  tangent.reinit(body.sparsity_pattern());
+  load.subtract_step_tangent(begin, end, 0., 1., tangent);
+  Vector product = body.make_vector(), moved(end), other = body.make_vector();
+  tangent.vmult(product, way);
+  const double h = 1e-5;
+  moved.add(h, way);
+  load.step_force(begin, moved, 0., 1., other);
+  moved.add(-2. * h, way);
+  load.step_force(begin, moved, 0., 1., force);
+  other -= force;
+  other.add(2. * h, product);
+  BOOST_CHECK_LT(other.l2_norm(), 1e-8 * 2. * h * product.l2_norm());
+}
+
+BOOST_AUTO_TEST_CASE(pressure_that_follows)
+{
+  dealii::Triangulation<2> plane;
+  make_rectangles({{dealii::Point<2>(), dealii::Point<2>(1., 1.), {{3, 2}}}},
+                  CellShape::quadrilaterals,
+                  plane);
+  check_pressure(plane);
+  dealii::Triangulation<3> cube;
+  dealii::GridGenerator::subdivided_hyper_cube(cube, 2);
+  check_pressure(cube);
 }
 
 

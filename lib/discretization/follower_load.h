@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_discretization_follower_load_h
+#define ricochet_discretization_follower_load_h
+
+#include <base/types.h>
+
+namespace Ricochet
+{
+  /// A load from outside that depends on where the body is, over the steps of the
+  /// midpoint scheme. All vectors are system vectors without ghost values; all functions
+  /// are collective.
+  class FollowerLoad
+  {
+  public:
+    virtual ~FollowerLoad() = default;
+
+    /// The force (N) on the body over the step from @p begin to @p end (s); with equal
+    /// ends that of an instant.
+    virtual void
+    step_force(const Vector &old_solution,
+               const Vector &new_solution,
+               const double  begin,
+               const double  end,
+               Vector       &force) const = 0;
+
+    /// @p tangent -= the derivative of step_force() with respect to the new solution.
+    virtual void
+    subtract_step_tangent(const Vector &old_solution,
+                          const Vector &new_solution,
+                          const double  begin,
+                          const double  end,
+                          Matrix       &tangent) const = 0;
+  };
+} // namespace Ricochet
+
+#endif
