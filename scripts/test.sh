@@ -34,6 +34,7 @@ ctest --test-dir build/release --output-on-failure -j 2
 if [ "${1:-}" = "--full" ]; then
   figures/make.py all
   figures/hertz_impact.py
+  examples/check.py
   bash scripts/sanitize.sh
   tests/hostile/hostile.py --programs build/release --inputs 2000 --kills 300
   tests/mutations/mutations.py --source . --build-dir build/mutations \

@@ -286,7 +286,9 @@ namespace Ricochet
           n_iterations = go();
       }
     if (n_iterations < 0)
-      throw NewtonFailure("Multigrid does not converge.");
+      throw NewtonFailure(
+        "Multigrid does not converge. A thin body takes Linear solver/Type = direct "
+        "or, against obstacles only, corrected.\n");
     return true;
   }
 } // namespace Ricochet
