@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Kind 10: meshes for bodies of the program ricochet: of Gmsh in both formats, in 2D
-and 3D, of first and second order, with names; scripts of geometries, .inp and .vtk."""
+and 3D, of first and second order, with names; scripts of geometries, and .vtk."""
 
 import itertools
 
@@ -144,16 +144,6 @@ class Grid:
                 lines.append(" ".join(map(str, [number, *nodes])))
         return lines + ["$EndElements"]
 
-    def inp(self):
-        """As Abaqus has it, with sets for foot and cells."""
-        kind = {"triangle": "CPS3", "quadrangle": "CPS4", "tetrahedron": "C3D4",
-                "hexahedron": "C3D8"}[self.cell]
-        lines = ["*HEADING", "a row", "*NODE"]
-        lines += [f"{k}, {x}, {y}, {z}" for (x, y, z), k in self.nodes.items()]
-        lines.append(f"*ELEMENT, TYPE={kind}, ELSET=CELLS")
-        lines += [", ".join(map(str, [k, *cell])) for k, cell in enumerate(self.cells, 1)]
-        return lines
-
     def vtk(self):
         kind = {"triangle": 5, "quadrangle": 9, "tetrahedron": 10,
                 "hexahedron": 12}[self.cell]
@@ -295,7 +285,7 @@ def damaged_lines(case, lines):
     if name == "truncated":
         text = text[:rng.randrange(len(text))]
     elif name == "nothing":
-        return rng.choice(["", "\n", "\0" * 100, "*NODE\n", "# vtk\n"]), NOT_ACCEPTED
+        return rng.choice(["", "\n", "\0" * 100, "# vtk\n"]), NOT_ACCEPTED
     elif name == "byte_flips":
         data = bytearray(text.encode())
         for _ in range(rng.choice([1, 3, 10])):
@@ -334,7 +324,7 @@ def geometry(case, dim):
 def make_file(case, dim):
     """A file, what is expected of it, whether it has names, and its order."""
     rng = case.rng
-    ending = rng.choices([".msh", ".geo", ".inp", ".vtk"], [60, 25, 8, 7])[0]
+    ending = rng.choices([".msh", ".geo", ".vtk"], [60, 30, 10])[0]
     if ending == ".geo":
         text, expected = geometry(case, dim)
         return case.write("mesh.geo", text), expected, True, 1
@@ -342,9 +332,8 @@ def make_file(case, dim):
     grid = Grid(dim, rng.choice([1, 2, 3]), rng.random() < .5, order)
     case.note(f"{grid.cell} of order {order}, {ending}")
     if ending != ".msh":
-        lines = grid.inp() if ending == ".inp" else grid.vtk()
-        text, expected = damaged_lines(case, lines)
-        return case.write("mesh" + ending, text), expected, False, 1
+        text, expected = damaged_lines(case, grid.vtk())
+        return case.write("mesh.vtk", text), expected, False, 1
     damage = SceneDamage(case, rng.choice([grid.format_22, grid.format_41])())
     damage.dim = dim
     name = rng.choice(DAMAGES)
@@ -359,7 +348,8 @@ def run(case):
     scene = Scene(rng.choice([2, 3]))
     file, expected, has_names, order = make_file(case, scene.dim)
     if rng.random() < .03:
-        file = case.folder / rng.choice(["missing.msh", "missing.geo", ".", "mesh.stl"])
+        file = case.folder / rng.choice(["missing.msh", "missing.geo", ".", "mesh.stl",
+                                         "mesh.inp"])
         expected = NOT_ACCEPTED
     scene.add("Body row", File=file.name, Law="linear elastic", Mesh_size=.5,
               Translation=scene.vector(up=1e-3), Velocity=scene.vector(up=-1.))

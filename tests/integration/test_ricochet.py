@@ -493,7 +493,16 @@ class BadScenes(Refusal):
                  "names bodies and obstacles"),
                 ("set Against              = brick: left, upper",
                  "set Against = ball", "for that say 'itself'"),
-                ("set Body     = brick", "set Body     = brik", "there is no body")):
+                ("set Body     = brick", "set Body     = brik", "there is no body"),
+                ("brick: lower", "brick:", "names no boundary of the body 'brick'"),
+                ("set Surface = ball", "set Surface = ball; ball",
+                 "the boundary 0 (outer) of the body 'ball' is named twice"),
+                ("set Against = floor", "set Against = floor; floor",
+                 "names the obstacle 'floor' twice"),
+                ("Obstacle wall", "Obstacle itself",
+                 "'itself' means something else in contacts"),
+                ("Treatment = improved", "Treatment = Nitsche\n  # improved",
+                 "Contact brick at wall: The contact treatment 'Nitsche'")):
             with self.subTest(new):
                 text = scene(steps=1).replace("Surface = ball", "Surface = ball")
                 self.refuse_scene(old if old in text else old.replace(" = ", "   = "),
@@ -507,6 +516,17 @@ class BadScenes(Refusal):
                 ("Shape       = rectangle", "File = none.stl", "should end with .msh"),
                 ("Shape       = rectangle", "Shape = generator\n"
                  "  set Generator = hyper_bowl", "cannot make 'hyper_bowl'"),
+                # deal.II would crash.
+                ("Shape       = rectangle", "Shape = generator\n"
+                 "  set Generator = cylinder_shell\n"
+                 "  set Generator arguments = 1 : 0.5 : 1 : 8 : 2",
+                 "cannot make 'cylinder_shell'"),
+                ("Shape       = rectangle", "Shape = generator\n"
+                 "  set Generator = simplex\n  set Generator arguments = 0, 0",
+                 "cannot make 'simplex'"),
+                ("Shape       = rectangle", "File = none.inp", "should end with .msh"),
+                ("Cells along = ", "Cells along = 100000, 100000 #",
+                 "This run has 2e+10 unknowns"),
                 ("Size        = 2, 1", "Size        = 2, -1", "2 positive numbers"),
                 ("  set Law ", "  set Materials = 3: steel\n  set Law ",
                  "has no cells '3'. There is: 0"),
@@ -575,6 +595,13 @@ end
         result = subprocess.run([program_path("ricochet"), str(file), "--validate"],
                                 capture_output=True, text=True, cwd=ROOT)
         self.assertEqual(result.returncode, 0, msg=result.stderr)
+        # What a run refuses.
+        outside = self.write(BLOCK + "subsection Probe stress\n  set Body = block\n"
+                             "  set Quantity = stress\n  set Point = 9, 9\nend\n")
+        refused = subprocess.run([program_path("ricochet"), str(outside), "--validate"],
+                                 capture_output=True, text=True, cwd=ROOT)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("Probe stress/Point is not within the body", refused.stderr)
         for line in ("Body brick: 32 cells, 45 vertices, area 0.5, mass 500 kg, middle "
                      "(1.7, -0.34)", "boundary 2 (lower): length 1",
                      "Contact ball on floor: persistent contact, gap at the start 0.1"):
