@@ -93,7 +93,8 @@ namespace Ricochet
       if (name == "moebius")
         return std::atoi(first.c_str()) > 0;
       if (name == "concentric_hyper_shells")
-        return list.size() > 3 && std::atoi(list[3].c_str()) > 0;
+        return list.size() > 3 && std::atoi(list[3].c_str()) > 0 &&
+          std::atof(list[1].c_str()) < std::atof(list[2].c_str());
       if (name == "general_cell")
         return has_points(1U << dim);
       if (name == "simplex")
@@ -442,6 +443,10 @@ namespace Ricochet
           unused.push_back(
             {name_of(name), owners + "; " + name_of("Shape") + " is " + shape});
         }
+    if (!file.empty() && cells != "automatic")
+      unused.push_back(
+        {name_of("Cells"),
+         "shapes that are made; " + name_of("File") + " is " + file});
     if (angle == 0. && dim == 3)
       unused.push_back({name_of("Rotation axis"),
                         "rotation; " + name_of("Rotation") + " is 0"});
@@ -458,7 +463,8 @@ namespace Ricochet
     if (file.empty() == (own == nullptr))
       throw InputError(section.where + ": the body '" + section.name +
                        "' needs either a " + name_of("File") + " or a " +
-                       name_of("Shape") + ".");
+                       name_of("Shape") +
+                       (file.empty() ? "; it has neither." : "; it has both."));
     if (own && own->uses.count("Mesh size") > 0 && mesh_size == 0.)
       throw InputError(name_of("Mesh size") +
                        " has to be given for the shape '" + shape + "'.");
@@ -516,9 +522,12 @@ namespace Ricochet
     std::map<types::material_id, std::string> names;
     for (const std::string &item : Utilities::split_string_list(materials, ';'))
       {
-        const std::size_t colon = item.find(':');
-        const std::string group = Utilities::trim(item.substr(0, colon));
-        if (colon == std::string::npos)
+        const std::size_t colon    = item.find(':');
+        const std::string group    = Utilities::trim(item.substr(0, colon));
+        const std::string material = colon == std::string::npos
+          ? ""
+          : Utilities::trim(item.substr(colon + 1));
+        if (material.empty())
           throw InputError(
             name_of("Materials") + ": '" + item.substr(0, 100) +
             "' should be 'number or name of the cells: name of a "
@@ -534,8 +543,12 @@ namespace Ricochet
             for (const std::string &candidate : own)
               if (candidate == group)
                 {
-                  found              = true;
-                  names[entry.first] = Utilities::trim(item.substr(colon + 1));
+                  found = true;
+                  if (!names.emplace(entry.first, material).second)
+                    throw InputError(name_of("Materials") +
+                                     " gives the cells '" + group +
+                                     "' two materials.");
+                  break;
                 }
             candidates.insert(candidates.end(), own.begin(), own.end());
           }

@@ -238,7 +238,7 @@ MISTAKES = [
     ("Point(3) = {1, 1, 0}", "Point(3) = {1/0, 1, 0}", False),
     ("Box(1) = {0, 0, 0, 1, 1, 1}", "Box(1) = {0, 0, 0, 0, 0, 0}", True),
     ("Box(1) = {0, 0, 0, 1, 1, 1}", "Box(1) = {0, 0, 0, 1, 1, 1e-9}", False),
-    ("Box(1) = {0, 0, 0, 1, 1, 1}", "Box(2) = {0, 0, 0, 1, 1, 1}", True),
+    ("Box(1) = {0, 0, 0, 1, 1, 1}", "Box(2) = {0, 0, 0, 1, 1, 1}", False),
     ("Box(1) = {0, 0, 0, 1, 1, 1}", "Rectangle(1) = {0, 0, 0, 1, 1}", True),
     ("SetFactory(\"OpenCASCADE\")", "SetFactory(\"none\")", True),
     ("\"foot\", 1", "\"foot\", -1", True), ("\"foot\", 1", "\"fut\", 1", True),

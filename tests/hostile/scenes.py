@@ -9,8 +9,8 @@ from scene_text import KINDS, STEP, parameters_in, random_scene
 
 BAD_NAMES = ["", " ", "a:b", "a;b", "a,b", "a/b", "x" * 61, "é", "#", "\"a\"",
              "a=b", "a\tb", "(a)", "*", "itself"]
-ODD_NAMES = ["x" * 60, "a b", "a  b", "1", "-", ".", "..", "_", "NAME", "0", "energy", "x",
-             "total", "1e5", "nan", "A", "contact", "end", "set", "subsection"]
+ODD_NAMES = ["x" * 60, "a b", "a  b", "1", "-", ".", "..", "_", "NAME", "0", "energy",
+             "x", "total", "1e5", "nan", "A", "contact", "end", "set", "subsection"]
 
 # Beside a body that exists, here as '@'.
 BAD_SURFACES = ["", " ", ";", "nobody", "@x", "@ @", "@: nowhere", "@: 99", "@: -1",
@@ -60,11 +60,13 @@ GENERATORS = {
 NO_GENERATORS = ["Hyper_cube", "none", "hyper_sphere", "airfoil", "pipe_junction", "x",
                  "reference_cell", "", "hyper cube", "hyper_cube "]
 ARGUMENTS = ["0", "1", "-1", "2", "3", "5", "7", "0.5", "1e-300", "1e300", "1e-12", "nan",
-             "inf", "-0.5", "300", "4294967296", "1e9", "true", "", "a", "0, 0", "1, 1", "1;", "x" * 2000]
+             "inf", "-0.5", "300", "4294967296", "1e9", "true", "", "a", "0, 0", "1, 1",
+             "1;", "x" * 2000]
 
-BAD_UNITS = ["", "m", "m, kg", "m, kg, s, K", "a, b, c", "mm; t; s", "m, m, m",
-             "s, kg, m", "1, 2, 3", "m,, s", ",,", "µ, kg, s", "m kg s"]
-ODD_UNITS = ["mm, t, s", "m,kg,s", " m , kg , s ", "um, ug, ms", "mm, g, ms", "cm, g, s"]
+BAD_UNITS = ["", "m", "m, kg", "m, kg, s, K", "mm; t; s", "1, 2, 3", "m,, s", ",,",
+             "µ, kg, s", "m kg s"]
+ODD_UNITS = ["mm, t, s", "m,kg,s", " m , kg , s ", "um, ug, ms", "mm, g, ms", "cm, g, s",
+             "a, b, c", "m, m, m", "s, kg, m"]
 
 # What schemes and masses combine with, and some that nothing combines with.
 CHANCES = {"Treatment": .6, "Scheme": .35, "Friction coefficient": .3, "Coupling": .25}

@@ -530,6 +530,10 @@ class BadScenes(Refusal):
                 ("Size        = 2, 1", "Size        = 2, -1", "2 positive numbers"),
                 ("  set Law ", "  set Materials = 3: steel\n  set Law ",
                  "has no cells '3'. There is: 0"),
+                ("  set Law ", "  set Materials = 0:\n  set Law ",
+                 "'0:' should be 'number or name of the cells"),
+                ("  set Law ", "  set Materials = 0: steel; 0: iron\n  set Law ",
+                 "gives the cells '0' two materials"),
                 ("  set Law ", "  set Materials = 0: steel\n  set Law ",
                  "there is no section 'Material steel'"),
                 ("subsection Time", "subsection Condition a\n"
