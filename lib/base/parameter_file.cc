@@ -355,7 +355,18 @@ namespace Ricochet
   {
     std::vector<ParameterValue> list;
     for (const auto &[name, declaration] : declarations_of(parameters))
-      list.push_back({name, declaration.value, is_input_file(declaration)});
+      {
+        list.push_back({name, declaration.value, is_input_file(declaration)});
+        if (dynamic_cast<const dealii::Patterns::Selection *>(
+              declaration.pattern.get()))
+          {
+            const std::string text = declaration.pattern->description(
+              dealii::Patterns::PatternBase::OutputStyle::Text);
+            const std::string before = "Any one of ";
+            list.back().choices =
+              text.rfind(before, 0) == 0 ? text.substr(before.size()) : text;
+          }
+      }
     return list;
   }
 

@@ -39,6 +39,8 @@ namespace Ricochet
     std::string value;
     /// It is the name of a file that is read.
     bool is_input_file = false;
+    /// What can be chosen: "a, b, c"; empty if it is not a choice.
+    std::string choices = {};
   };
 
   /// What parameter files and command line say, before any parameter is declared: for

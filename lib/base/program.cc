@@ -227,7 +227,15 @@ namespace Ricochet
       parameters.print_parameters(all_parameters,
                                   dealii::ParameterHandler::Text);
       if (command_line.print_parameters)
-        return print(all_parameters.str());
+        {
+          std::string choices;
+          for (const ParameterValue &parameter : list_parameters(parameters))
+            if (!parameter.choices.empty())
+              choices +=
+                "#   " + parameter.name + ": " + parameter.choices + "\n";
+          return print(all_parameters.str() + "\n# What can be chosen:\n" +
+                       choices);
+        }
 
       program.validate();
       const std::vector<std::string> notes = check_unused(program, settings);

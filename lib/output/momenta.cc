@@ -13,12 +13,14 @@ namespace Ricochet
                         const bool         small_strains,
                         const unsigned int n_parts,
                         const unsigned int begin,
-                        const unsigned int end)
+                        const unsigned int given_end)
     : communicator(body.communicator)
     , mass(mass)
     , small_strains(small_strains)
     , momentum(body.make_vector())
   {
+    const unsigned int end =
+      given_end == numbers::invalid_unsigned_int ? begin + 1 : given_end;
     const FiniteElement<dim>            &element = body.dof_handler().get_fe();
     std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
     std::set<types::global_dof_index>    seen;

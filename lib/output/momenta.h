@@ -20,14 +20,15 @@ namespace Ricochet
      * @param small_strains take the lever arms in the reference position, as
      * linear elasticity balances them; otherwise in the current one.
      * @param n_parts of the body, of which only those from @p begin to before
-     * @p end count, see Body::part(); nodes that they share count once.
+     * @p end (or only that one) count, see Body::part(); nodes that they share count
+     * once.
      */
     Momenta(const Body<dim>   &body,
             const Matrix      &mass,
             const bool         small_strains,
             const unsigned int n_parts = 1,
             const unsigned int begin   = 0,
-            const unsigned int end     = 1);
+            const unsigned int end     = dealii::numbers::invalid_unsigned_int);
 
     /// kg m/s
     dealii::Tensor<1, dim>

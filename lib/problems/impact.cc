@@ -449,7 +449,18 @@ namespace Ricochet
       check_shared_nodes(body, contacts);
       std::vector<std::unique_ptr<ContactOperator>> operators;
       for (const Contact &contact : contacts)
-        operators.push_back(make_one_contact(parameters, body, setup, contact));
+        try
+          {
+            operators.push_back(
+              make_one_contact(parameters, body, setup, contact));
+          }
+        catch (const InputError &error)
+          {
+            // Which of them is meant.
+            if (contact.name.empty())
+              throw;
+            throw InputError("Contact " + contact.name + ": " + error.what());
+          }
       if (operators.size() == 1)
         return std::move(operators.front());
       return std::make_unique<ContactSum>(std::move(operators));

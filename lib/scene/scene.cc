@@ -262,11 +262,20 @@ namespace Ricochet
         bodies[b].make_mesh(mesh, advance);
         const bool simplex = mesh.cells.all_reference_cells_are_simplex();
         if (b > 0 && simplex != is_simplex)
-          throw InputError(
-            "The bodies '" + bodies[0].section.name + "' and '" +
-            bodies[b].section.name +
-            "' have cells of different kinds; choose Cells so that all are "
-            "simplices, or all quadrilaterals or hexahedra.");
+          {
+            const auto kind = [](const bool of_simplices) {
+              return std::string(
+                of_simplices ? (dim == 2 ? "triangles" : "tetrahedra")
+                             : (dim == 2 ? "quadrilaterals" : "hexahedra"));
+            };
+            throw InputError(
+              "The body '" + bodies[0].section.name + "' is of " +
+              kind(is_simplex) + ", the body '" + bodies[b].section.name +
+              "' of " + kind(simplex) +
+              "; all need the same. Of shapes, Cells chooses; of files, cells are "
+              "what they are: 'Recombine Surface {...};' in a .geo makes "
+              "quadrilaterals.");
+          }
         is_simplex        = simplex;
         const bool curved = !mesh.nodes.empty();
         if (b > 0 && curved != is_curved)
@@ -608,6 +617,20 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    /// For what is told, not computed with.
+    double
+    three_digits(const double number)
+    {
+      char digits[40];
+      std::snprintf(digits, sizeof(digits), "%.3g", number);
+      return std::stod(digits);
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::string
   Scene<dim>::description(const std::string &folder) const
@@ -640,6 +663,23 @@ namespace Ricochet
                             ? 0.
                             : centres[b][c]);
         text << ")\n";
+        // How fine steps and cells are beside each other.
+        double smallest = std::numeric_limits<double>::max(), fastest = 0.;
+        for (const auto &cell : mesh.cells.active_cell_iterators())
+          smallest = std::min(smallest, cell->minimum_vertex_distance());
+        for (unsigned int p = first_part[b]; p < first_part[b + 1]; ++p)
+          {
+            const LinearElastic elastic = parts[p].material.at_small_strains();
+            fastest                     = std::max(fastest,
+                               std::sqrt((elastic.lambda + 2. * elastic.mu) /
+                                         parts[p].material.density));
+          }
+        text << "  waves run at " << with_unit(three_digits(fastest), "m/s")
+             << ": through the body in about "
+             << with_unit(three_digits(extent / fastest), "s")
+             << ", through the smallest cell in "
+             << with_unit(three_digits(smallest / fastest), "s") << "; a step is "
+             << with_unit(impact.time.time_step, "s") << '\n';
         if (first_part[b + 1] - first_part[b] > 1)
           for (unsigned int p = first_part[b]; p < first_part[b + 1]; ++p)
             text << "  part " << parts[p].name << ": " << extents[dim - 2]
@@ -667,6 +707,25 @@ namespace Ricochet
         for (const auto &[name, value] : contact.parameters.used_values())
           text << "  " << name << " = " << to_text(value) << '\n';
       }
+    for (const ProbeSection<dim> &probe : probes)
+      if (!probe.point.empty() && probe.quantity != "stress")
+        {
+          Point<dim> place, nearest;
+          for (unsigned int c = 0; c < dim; ++c)
+            place[c] = probe.point[c];
+          double distance = std::numeric_limits<double>::max();
+          for (const Point<dim> &vertex :
+               meshes[probe.find_body(surfaces)]->cells.get_vertices())
+            if (place.distance(vertex) < distance)
+              {
+                distance = place.distance(vertex);
+                nearest  = vertex;
+              }
+          text << "Probe " << probe.section.name << ": vertex (";
+          for (unsigned int c = 0; c < dim; ++c)
+            text << (c > 0 ? ", " : "") << to_text(nearest[c]);
+          text << "), " << with_unit(distance, "m") << " from the point\n";
+        }
     // What overlaps is refused here as it is by a run.
     Triangulation<dim> whole;
     join(whole);
@@ -880,7 +939,8 @@ namespace Ricochet
       fields.write(state, step);
     };
     loop.run(initial_state);
-    folder.log("pictures: ricochet-plot " + folder.file("") + " --fields");
+    folder.log("pictures: ricochet-plot " + folder.file("") +
+               (impact.time.fields_every > 0 ? " --fields" : ""));
   }
 
 
