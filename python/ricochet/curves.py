@@ -92,6 +92,9 @@ def lines_of(runs: Sequence[Run]) -> list[Line]:
             except Exception:  # noqa: BLE001 - a table without parameters can be drawn all the same
                 parameters.append({})
         texts = prm.labels(parameters)
+        if max(map(len, texts)) > 90:
+            # Methods bring values of their own along.
+            texts = prm.labels(parameters, telling_only=True)
         if len(set(texts)) == len(runs) and max(map(len, texts)) <= 90:
             names = texts
         elif any(texts):

@@ -146,11 +146,11 @@ def differences(
     ]
 
 
-def labels(parameters: Iterable[Mapping[str, str]]) -> list[str]:
+def labels(parameters: Iterable[Mapping[str, str]], telling_only: bool = False) -> list[str]:
     """For each of several runs a text that names what differs from the others.
 
     "persistent contact, Time step = 0.001": of a treatment, a scheme and a program the value
-    says enough. Texts are empty where nothing differs. Parameters that one run has and
+    says enough, and with telling_only these are all that is named. Texts are empty where nothing differs. Parameters that one run has and
     another has not are named only if nothing else differs, since a run of another program has
     many of them.
     """
@@ -162,6 +162,8 @@ def labels(parameters: Iterable[Mapping[str, str]]) -> list[str]:
     # What a treatment or a scheme brings along comes after it.
     telling = ("Program", "Treatment", "Scheme")
     names.sort(key=lambda name: name.split("/")[-1] not in telling)
+    if telling_only:
+        names = [name for name in names if name.split("/")[-1] in telling]
     last_parts = [name.split("/")[-1] for name in names]
     texts = []
     for each in parameters:
