@@ -562,6 +562,13 @@ namespace Ricochet
               }
           }
         contact.parameters.set_missing(scales);
+        for (const auto &[name, value] : contact.parameters.used_values())
+          if (!std::isfinite(value))
+            throw InputError(contact.name_of(name) +
+                             " cannot be found from moduli, density and mesh "
+                             "size of the bodies, which are too large or too "
+                             "small; it would be " +
+                             to_text(value) + ".");
       }
   }
 
@@ -678,8 +685,8 @@ namespace Ricochet
              << ": through the body in about "
              << with_unit(three_digits(extent / fastest), "s")
              << ", through the smallest cell in "
-             << with_unit(three_digits(smallest / fastest), "s") << "; a step is "
-             << with_unit(impact.time.time_step, "s") << '\n';
+             << with_unit(three_digits(smallest / fastest), "s")
+             << "; a step is " << with_unit(impact.time.time_step, "s") << '\n';
         if (first_part[b + 1] - first_part[b] > 1)
           for (unsigned int p = first_part[b]; p < first_part[b + 1]; ++p)
             text << "  part " << parts[p].name << ": " << extents[dim - 2]

@@ -72,7 +72,8 @@ def add_body(scene, rng, name, bottom, simplices):
         own["Shape"] = "generator"
         own["Generator"], own["Generator arguments"], middle = rng.choice([
             ("hyper_cube", "0 : 1 : true", 0.),
-            ("hyper_ball", "0, 0 : 0.5 : false" if dim == 2 else "0, 0, 0 : 0.5 : false", .5),
+            ("hyper_ball",
+             "0, 0 : 0.5 : false" if dim == 2 else "0, 0, 0 : 0.5 : false", .5),
             ("subdivided_hyper_rectangle", "2, 2 : 0, 0 : 1, 1 : true" if dim == 2
              else "2, 2, 1 : 0, 0, 0 : 1, 1, 1 : true", 0.)])
         own["Refinements"] = "1" if dim == 2 else "0"
@@ -137,8 +138,9 @@ def add_contacts(scene, rng):
         scene.add("Obstacle wall", Shape="half space",
                   Centre=scene.vector(across=.502),
                   Direction=scene.vector(across=-1.))
+        # It may share nodes with what is held.
         scene.add("Contact at wall", Surface="; ".join(bodies), Against="wall",
-                  Treatment=LAWS[0])
+                  Treatment="penalty")
     if len(bodies) == 1 and scene.dim == 2 and rng.random() < .3:
         scene.add("Contact of itself", Surface=bodies[0], Against="itself",
                   Treatment=LAWS[0])

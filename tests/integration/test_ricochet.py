@@ -495,6 +495,8 @@ class BadScenes(Refusal):
                  "set Against = ball", "for that say 'itself'"),
                 ("set Body     = brick", "set Body     = brik", "there is no body"),
                 ("brick: lower", "brick:", "names no boundary of the body 'brick'"),
+                ("modulus = 3000000.0", "modulus = 1e308",
+                 "cannot be found from moduli, density and mesh size"),
                 ("set Surface = ball", "set Surface = ball; ball",
                  "the boundary 0 (outer) of the body 'ball' is named twice"),
                 ("set Against = floor", "set Against = floor; floor",
