@@ -8,6 +8,31 @@
 
 namespace Ricochet
 {
+  namespace
+  {
+    /// muParser takes "1,2" for 2 and "x = 3" for an assignment, which nobody means here.
+    bool
+    has_odd_signs(const std::string &text)
+    {
+      int depth = 0;
+      for (std::size_t i = 0; i < text.size(); ++i)
+        {
+          const char c      = text[i],
+                     next   = i + 1 < text.size() ? text[i + 1] : ' ',
+                     before = i > 0 ? text[i - 1] : ' ';
+          depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+          if (c == ',' && depth == 0)
+            return true;
+          if (c == '=' && next != '=' &&
+              std::string("=<>!").find(before) == std::string::npos)
+            return true;
+        }
+      return false;
+    }
+  } // namespace
+
+
+
   Expressions::Expressions(const std::string              &variables,
                            const std::vector<std::string> &texts,
                            const std::string              &what,
@@ -36,6 +61,8 @@ namespace Ricochet
       }
     std::cerr.rdbuf(terminal);
     std::cerr.clear();
+    for (const std::string &text : texts)
+      readable = readable && !has_odd_signs(text);
     if (!readable)
       {
         std::string list;

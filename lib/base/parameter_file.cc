@@ -276,6 +276,9 @@ namespace Ricochet
           if (keyword == "subsection" && !rest.empty())
             {
               section.push_back(rest);
+              if (section.size() > 10)
+                throw InputError(where +
+                                 ": more than ten subsections in each other.");
               reading.text.sections.push_back({section, where});
             }
           else if (line == "end")

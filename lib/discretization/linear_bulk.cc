@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 
 namespace Ricochet
 {
@@ -105,6 +106,9 @@ namespace Ricochet
     const std::vector<unsigned int> parts   = body.parts_of_unknowns(n_parts);
     const FiniteElement<dim>       &element = body.dof_handler().get_fe();
     std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
+    // Parts that share nodes, of one body, move as one: to take translations of
+    // their own from them would tear them apart.
+    std::vector<unsigned int> my_links(n_parts * n_parts, 0), links;
     for (const auto &cell : body.dof_handler().active_cell_iterators())
       if (!cell->is_artificial())
         {
@@ -117,8 +121,25 @@ namespace Ricochet
               const auto own = body.owned_indices().index_within_set(index);
               group[own] =
                 parts[own] * dim + element.system_to_component_index(i).first;
+              if (n_parts > 1)
+                my_links[parts[own] * n_parts + cell->material_id()] = 1;
             }
         }
+    links.resize(my_links.size());
+    Utilities::MPI::max(my_links, communicator, links);
+    // Each part has the number of the first one that it hangs together with.
+    std::vector<unsigned int> first(n_parts);
+    std::iota(first.begin(), first.end(), 0U);
+    for (unsigned int p = 0; p < n_parts; ++p)
+      for (unsigned int q = 0; q < n_parts; ++q)
+        if (links[p * n_parts + q] > 0 && first[p] != first[q])
+          {
+            const auto [low, high] = std::minmax({first[p], first[q]});
+            std::replace(first.begin(), first.end(), high, low);
+          }
+    for (unsigned int &one : group)
+      if (one < n_parts * dim)
+        one = first[one / dim] * dim + one % dim;
 
     // W_v = eta/2 tr(strain_rate^2): the viscous stress is eta times the strain
     // rate.

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 namespace Ricochet
@@ -335,9 +336,17 @@ namespace Ricochet
       {state.solution, state.contact_force, state.time, &state.contact_shares});
     for (const auto &entry : contact_names)
       {
-        ContactSummary contact = summaries.at(entry.second.front());
-        for (unsigned int k = 1; k < entry.second.size(); ++k)
-          contact.unite(summaries.at(entry.second[k]));
+        // All nodes of a small boundary may count as its neighbours'.
+        std::optional<ContactSummary> united;
+        for (const types::boundary_id id : entry.second)
+          if (const auto own = summaries.find(id); own != summaries.end())
+            {
+              if (united)
+                united->unite(own->second);
+              else
+                united = own->second;
+            }
+        const ContactSummary contact = united.value_or(ContactSummary());
         row.insert(row.end(),
                    {contact.mean_gap,
                     contact.smallest_gap,

@@ -51,11 +51,19 @@ namespace Ricochet
     std::ostringstream text;
     text << "Newton's method failed: " << reason << "\n"
          << "  iteration   relative residual   step length   active set\n";
+    // How it began and how it ended.
+    constexpr unsigned int n_first = 4, n_last = 8;
     for (unsigned int k = 0; k < history.size(); ++k)
-      text << std::setw(11) << k << std::setw(20) << std::scientific
-           << std::setprecision(4) << history[k].relative_residual
-           << std::setw(14) << std::defaultfloat << history[k].step_length
-           << "   " << history[k].active_set << "\n";
+      if (k == n_first && history.size() > n_first + n_last)
+        {
+          text << "        ...\n";
+          k = history.size() - n_last - 1;
+        }
+      else
+        text << std::setw(11) << k << std::setw(20) << std::scientific
+             << std::setprecision(4) << history[k].relative_residual
+             << std::setw(14) << std::defaultfloat << history[k].step_length
+             << "   " << history[k].active_set << "\n";
     throw NewtonFailure(text.str());
   }
 

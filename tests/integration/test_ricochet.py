@@ -295,6 +295,72 @@ class Scenes(ProgramTest):
         self.assertGreaterEqual(min(increments(damped["viscous_dissipation"])), 0.)
         self.assertLess(largest(damped["balance_residual"]), 1e-9)
 
+    def test_linear_body_of_two_materials(self):
+        """Parts that hang together move as one; a bar of two materials in a row, end on
+        against the floor, keeps its energy, and so does one that spins."""
+        text = """
+set Program = ricochet
+set Dimension = 2
+subsection Body row
+  set Shape = generator
+  set Generator = subdivided_hyper_rectangle
+  set Generator arguments = 2, 2 : -1, -1 : 1, 1 : true
+  set Law = linear elastic
+  set Velocity = 0, -2
+  set Spin = 0.1
+  set Materials = 0: steel
+end
+subsection Material steel
+  set Law = linear elastic
+  set Young modulus = 1e7
+end
+subsection Obstacle floor
+  set Shape  = half space
+  set Centre = 0, -1.02
+end
+subsection Contact floor
+  set Surface = row
+  set Against = floor
+end
+subsection Time
+  set Time step = 0.002
+  set Final time = 0.06
+end
+"""
+        ledger = self.scene(text)
+        self.assertGreater(max(ledger["contact_force_floor"]), 1e3)
+        self.assertLess(largest(ledger["balance_residual"]), 1e-12)
+        self.assertLess(largest([e - ledger["energy"][0] for e in ledger["energy"]]),
+                        1e-11 * ledger["energy"][0])
+
+    def test_boundaries_without_nodes_of_their_own(self):
+        """All nodes of a boundary may count as those of its neighbours."""
+        text = """
+set Program = ricochet
+set Dimension = 3
+subsection Body a
+  set Shape = block
+  set Cells along = 2, 2, 1
+  set Velocity = 0, 0, 2
+end
+subsection Body b
+  set Shape = block
+  set Cells along = 2, 2, 1
+  set Translation = 0.1, 0.2, 1.001
+end
+subsection Contact c
+  set Surface = a
+  set Against = b: lower
+end
+subsection Time
+  set Time step = 0.002
+  set Final time = 0.01
+end
+"""
+        ledger = self.scene(text)
+        self.assertGreater(max(ledger["contact_force_c"]), 1e3)
+        self.assertLess(largest(ledger["balance_residual"]), 1e-12)
+
     def test_loads_by_hand(self):
         """A load that pushes a free block: momentum is force times time, and the work
         that of the momentum, but for what goes into waves."""
@@ -546,6 +612,12 @@ class BadScenes(Refusal):
                  "  set Boundary = block: left\n  set Kind = traction\n"
                  "  set Value = 1; z +\nend\nsubsection Time",
                  "cannot be read", "functions of x,y,z and the time t"),
+                ("  set Law ", "  set Acceleration = 1,2; 0\n  set Law ",
+                 "Body block/Acceleration cannot be read"),
+                ("  set Law ", "  set Acceleration = x = 3; 0\n  set Law ",
+                 "Body block/Acceleration cannot be read"),
+                ("  set Law ", 11 * "subsection a\n" + "  set Law ",
+                 "more than ten subsections in each other"),
                 ("subsection Time", "subsection Condition a\n"
                  "  set Boundary = block: left\n  set Kind = springs\n"
                  "end\nsubsection Time",
