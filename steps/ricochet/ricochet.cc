@@ -46,9 +46,12 @@
 //
 // Run it as
 //
-//     ricochet examples/newtons_cradle.prm
-//     ricochet examples/newtons_cradle.prm --validate      what is there, before a run
-//     ricochet --print-parameters                         all sections, with NAME
+//     ricochet examples/belt_with_spring.prm
+//     ricochet examples/belt_with_spring.prm --validate
+//     ricochet --print-parameters
+//
+// The second tells what is there, without a run; the third has all sections, with NAME
+// for the names of your own.
 
 #include <base/program.h>
 #include <scene/scene.h>

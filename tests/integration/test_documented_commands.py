@@ -54,7 +54,23 @@ class DocumentedCommands(ProgramTest):
                    for command in commands_in(file, "//     "))
 
     def test_readme(self):
-        self.check(commands_in(ROOT / "README.md", ""))
+        self.check([words for words in commands_in(ROOT / "README.md", "")
+                    if "mine.prm" not in words])
+
+    def test_scene_of_the_readme(self):
+        """The scene in the README, by the commands below it."""
+        text = (ROOT / "README.md").read_text()
+        scene = next(block for block in re.findall(r"```\n(.*?)```", text, re.DOTALL)
+                     if block.startswith("set Program   = ricochet"))
+        file = self.folder / "mine.prm"
+        file.write_text(scene)
+        self.check([[str(file) if word == "mine.prm" else word for word in words]
+                    for words in commands_in(ROOT / "README.md", "")
+                    if words[0] == "ricochet"])
+        ledger = Ledger(self.folder / "run")
+        self.assertGreater(max(ledger["contact_force_on_the_floor"]), 1e3)
+        self.assertGreater(max(ledger["contact_force_ball_and_brick"]), 1e3)
+        self.assertLess(largest(ledger["balance_residual"]), 1e-10)
 
     def test_all_parameter_files_are_valid(self):
         files = sorted((ROOT / "parameter_files").glob("*/*.prm"))
