@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from . import curves, fields, measures, render
+from . import curves, fields, measures, obstacles, render
 from .errors import RicochetError
 from .results import FieldFile, Run
 from .screen import run_with_screen
@@ -241,6 +241,7 @@ def _show(panel: Axes, scene: _Scene, image: Array) -> None:
         return
     if scene.on_foundation:
         panel.axhline(0, color="black", linewidth=1.2)
+    obstacles.draw(panel, scene.run.parameters, view.size)
     panel.set_xlim(x0, x1)
     panel.set_ylim(y0, y1)
     unit = fields.unit(scene.run.units, "length")
