@@ -742,7 +742,13 @@ namespace Ricochet
         std::filesystem::create_directories(folder, error);
         const std::string name = folder + "/setup.vtk";
         std::ofstream     file(name);
-        GridOut().write_vtk(whole, file);
+        GridOut           writer;
+        writer.set_flags(
+          GridOutFlags::Vtk(/* cells */ true,
+                            /* faces */ true,
+                            /* edges */ false,
+                            /* only those with numbers */ false));
+        writer.write_vtk(whole, file);
         file.flush();
         if (!file)
           throw InputError("The file '" + name + "' cannot be written.");
@@ -760,6 +766,11 @@ namespace Ricochet
     text << assembly.body.owned_indices().size() << " unknowns\n";
     for (const std::string &line : notes())
       text << line << '\n';
+    if (!folder.empty())
+      on_first_rank(MPI_COMM_WORLD, [&]() {
+        // Beside the picture, for who draws it.
+        std::ofstream(folder + "/setup.txt") << text.str();
+      });
     return text.str();
   }
 

@@ -48,7 +48,7 @@ namespace Ricochet
     /// What there is: bodies with measure, mass and boundaries, contacts with gaps and
     /// the values that were found for them. After validate().
     /// @param folder gets setup.vtk, the meshes with the numbers of parts and boundaries,
-    /// unless it is empty.
+    /// and this text as setup.txt, unless it is empty.
     /// @throws InputError when bodies overlap.
     std::string
     description(const std::string &folder) const;

@@ -2,7 +2,8 @@
 """Draw what runs have left: energies, contact forces and gaps over time, and the bodies.
 
 Of several runs the curves are laid into the same axes, and legends name what differs between
-the runs. Images go to FOLDER, without -o to `plots` in the folder of the first run.
+the runs. Of the folder of a set-up (ricochet FILE.prm --validate --output-dir FOLDER) the bodies
+are drawn with the names of their boundaries. Images go to FOLDER, without -o to `plots` in the folder of the first run.
 """
 
 from __future__ import annotations
@@ -92,7 +93,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """The command; returns its exit code: 0, or 2 with one sentence if it cannot be done."""
     options = command_line(arguments)
     try:
-        runs = [Run(folder) for folder in options.runs]
+        from . import setup_picture
+
+        setups = [p for p in map(pathlib.Path, options.runs) if setup_picture.is_setup(p)]
+        for setup in setups:
+            from . import curves
+
+            with curves.settings():
+                print(
+                    curves.save(setup_picture.draw(setup), (options.output or setup) / "setup.png")
+                )
+        if len(setups) == len(options.runs):
+            return 0
+        runs = [Run(folder) for folder in options.runs if pathlib.Path(folder) not in setups]
         folder = options.output or runs[0].folder / "plots"
         for file in plot(
             runs, folder, options.fields, options.animation, options.colour, options.frames

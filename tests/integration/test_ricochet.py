@@ -684,6 +684,18 @@ end
                      "(1.7, -0.34)", "boundary 2 (lower): length 1",
                      "Contact ball on floor: persistent contact, gap at the start 0.1"):
             self.assertIn(line, result.stdout)
+        # With a folder, the same beside a mesh, and a picture with the names.
+        look = self.folder / "look"
+        result = subprocess.run([program_path("ricochet"), str(file), "--validate",
+                                 "--output-dir", str(look)],
+                                capture_output=True, text=True, cwd=ROOT)
+        self.assertEqual(result.returncode, 0, msg=result.stderr)
+        self.assertIn("(lower): length 1, number 3 in setup.vtk",
+                      (look / "setup.txt").read_text())
+        result = subprocess.run([sys.executable, ROOT / "python/bin/ricochet-plot", look],
+                                capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, msg=result.stderr)
+        self.assertGreater((look / "setup.png").stat().st_size, 5000)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A picture of what `ricochet FILE.prm --validate --output-dir FOLDER` has left: the bodies and
+their boundaries with the names by which a parameter file knows them."""
+
+from __future__ import annotations
+
+import pathlib
+import re
+from dataclasses import dataclass
+
+from .errors import NotARun
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+from numpy.typing import NDArray
+
+# Numbers of points of VTK's cells, by type; those of bodies in space come last.
+LINE, TRIANGLE, QUADRILATERAL, TETRAHEDRON, HEXAHEDRON = 3, 5, 9, 10, 12
+
+
+@dataclass(frozen=True)
+class _Setup:
+    points: NDArray[np.float64]
+    #: Of cells of the bodies, their points and parts.
+    cells: list[tuple[list[int], int]]
+    #: Of faces of the boundary, their points and numbers.
+    faces: list[tuple[list[int], int]]
+    #: Names of the boundaries by their numbers.
+    names: dict[int, str]
+    dim: int
+
+
+def is_setup(folder: pathlib.Path) -> bool:
+    """Whether there is a set-up, and no run, in this folder."""
+    return (folder / "setup.vtk").exists() and not (folder / "energy.csv").exists()
+
+
+def _sections(text: str) -> dict[str, list[str]]:
+    """The numbers after each keyword of a legacy VTK file."""
+    found: dict[str, list[str]] = {}
+    current: list[str] = []
+    for line in text.splitlines():
+        words = line.split()
+        if words and words[0][0].isalpha() and words[0] != "LOOKUP_TABLE":
+            key = words[0] if words[0] != "SCALARS" else words[1]
+            current = found.setdefault(key, [])
+        elif words and words[0] != "LOOKUP_TABLE":
+            current.extend(words)
+    return found
+
+
+def _names(folder: pathlib.Path) -> dict[int, str]:
+    """Names of boundaries from setup.txt, "body: name"."""
+    names: dict[int, str] = {}
+    body = ""
+    try:
+        lines = (folder / "setup.txt").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return names
+    for line in lines:
+        if match := re.match(r"Body (.*?): \d+ cells", line):
+            body = match[1]
+        elif match := re.match(r"  boundary (\d+)(?: \((.*)\))?: .*, number (\d+) in", line):
+            names[int(match[3])] = f"{body}: {match[2] or match[1]}"
+    return names
+
+
+def read(folder: pathlib.Path) -> _Setup:
+    """Read the set-up in a folder.
+
+    Raises:
+        NotARun: it is not what the program writes.
+    """
+    try:
+        sections = _sections((folder / "setup.vtk").read_text(encoding="utf-8"))
+        points = np.array(sections["POINTS"], dtype=float).reshape(-1, 3)
+        types = list(map(int, sections["CELL_TYPES"]))
+        numbers = list(map(int, sections["MaterialID"]))
+        entries = list(map(int, sections["CELLS"]))
+    except (OSError, KeyError, ValueError) as error:
+        raise NotARun(f"'{folder / 'setup.vtk'}' cannot be read as a set-up: {error}.") from None
+    dim = 3 if TETRAHEDRON in types or HEXAHEDRON in types else 2
+    bodies = (TETRAHEDRON, HEXAHEDRON) if dim == 3 else (TRIANGLE, QUADRILATERAL)
+    cells, faces, place = [], [], 0
+    for kind, number in zip(types, numbers):
+        count = entries[place]
+        corners = entries[place + 1 : place + 1 + count]
+        place += 1 + count
+        if kind in bodies:
+            cells.append((corners, number))
+        elif 0 <= number < 1 << 24:
+            faces.append((corners, number))
+    return _Setup(points, cells, faces, _names(folder), dim)
+
+
+def draw(folder: pathlib.Path) -> Figure:
+    """The figure: cells in the colour of their part, boundaries in colours of their own."""
+    setup = read(folder)
+    known = sorted({number for _, number in setup.faces})
+    colours = {number: plt.get_cmap("tab20")(k % 20) for k, number in enumerate(known)}
+    if setup.dim == 2:
+        figure, panel = plt.subplots(figsize=(8, 5.5), layout="constrained")
+        _draw_plane(panel, setup, colours)
+    else:
+        figure = plt.figure(figsize=(8, 6.5), layout="constrained")
+        panel = figure.add_subplot(projection="3d")
+        _draw_space(panel, setup, colours)
+    handles = [
+        Line2D([], [], color=colours[k], linewidth=4, label=setup.names.get(k, f"number {k}"))
+        for k in known
+    ]
+    panel.legend(
+        handles=handles,
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.12),
+        ncols=min(4, len(handles)) or 1,
+    )
+    return figure
+
+
+def _draw_plane(panel: Axes, setup: _Setup, colours: dict[int, tuple[float, ...]]) -> None:
+    shades = [0.93 - 0.09 * (part % 5) for _, part in setup.cells]
+    polygons = [setup.points[corners, :2] for corners, _ in setup.cells]
+    panel.add_collection(
+        PolyCollection(
+            polygons, facecolors=[str(s) for s in shades], edgecolors="0.6", linewidths=0.4
+        )
+    )
+    panel.add_collection(
+        LineCollection(
+            [setup.points[corners, :2] for corners, _ in setup.faces],
+            colors=[colours[number] for _, number in setup.faces],
+            linewidths=3.0,
+        )
+    )
+    panel.set_aspect("equal")
+    panel.autoscale_view()
+    panel.grid(False)
+    panel.set_xlabel("x")
+    panel.set_ylabel("y")
+
+
+def _draw_space(panel: Axes, setup: _Setup, colours: dict[int, tuple[float, ...]]) -> None:
+    panel.add_collection(
+        Poly3DCollection(
+            [setup.points[corners] for corners, _ in setup.faces],
+            facecolors=[colours[number] for _, number in setup.faces],
+            edgecolors="0.3",
+            linewidths=0.2,
+        )
+    )
+    low, high = setup.points.min(axis=0), setup.points.max(axis=0)
+    for axis, name in enumerate("xyz"):
+        getattr(panel, f"set_{name}lim")(low[axis], high[axis])
+        getattr(panel, f"set_{name}label")(name)
+    panel.locator_params(nbins=3)
+    panel.set_box_aspect(np.maximum(high - low, 0.02 * (high - low).max()))
