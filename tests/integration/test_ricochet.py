@@ -686,6 +686,7 @@ end
             self.assertIn(line, result.stdout)
         # With a folder, the same beside a mesh, and a picture with the names.
         look = self.folder / "look"
+        file = self.write(scene(steps=1))
         result = subprocess.run([program_path("ricochet"), str(file), "--validate",
                                  "--output-dir", str(look)],
                                 capture_output=True, text=True, cwd=ROOT)
