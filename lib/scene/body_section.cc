@@ -374,6 +374,12 @@ namespace Ricochet
       Patterns::Selection("automatic|quadrilaterals or hexahedra|triangles or "
                           "tetrahedra"));
     parameters.add_parameter(
+      "Material",
+      material_name,
+      "The name of a section 'Material NAME' that takes the place of law, density, "
+      "moduli and viscosity here: for several bodies of one material.",
+      Patterns::Anything());
+    parameters.add_parameter(
       "Materials",
       materials,
       "Which cells are of a material with a section 'Material NAME' of its own, by "
@@ -427,8 +433,25 @@ namespace Ricochet
   BodySection<dim>::unused_parameters() const
   {
     std::vector<UnusedParameter> unused = material.unused_parameters();
-    const Shape<dim>            *own    = find<dim>(shape);
-    std::set<std::string>        names;
+    if (!material_name.empty())
+      {
+        unused.clear();
+        for (const std::string name : {"Law",
+                                       "Plane state",
+                                       "Density",
+                                       "Young modulus",
+                                       "Poisson ratio",
+                                       "c1",
+                                       "c2",
+                                       "d",
+                                       "Viscosity",
+                                       "Viscosity eta"})
+          unused.push_back({name_of(name),
+                            "bodies with a material of their own; " +
+                              name_of("Material") + " is " + material_name});
+      }
+    const Shape<dim>     *own = find<dim>(shape);
+    std::set<std::string> names;
     for (const Shape<dim> &entry : table<dim>())
       names.insert(entry.uses.begin(), entry.uses.end());
     for (const std::string &name : names)

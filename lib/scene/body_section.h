@@ -74,6 +74,8 @@ namespace Ricochet
     dealii::Tensor<1, dim> translation;
 
     MaterialParameters material;
+    /// A section Material that takes its place; empty for none.
+    std::string material_name;
     /// Materials of their own for some material ids: "3: rubber; core: steel".
     std::string            materials;
     dealii::Tensor<1, dim> velocity;

@@ -340,6 +340,14 @@ namespace Ricochet
     const BodySection<dim> &body  = bodies[b];
     const BodyMesh<dim>    &mesh  = *meshes[b];
     const auto              named = body.named_materials(mesh);
+    const auto              material_of =
+      [&](const std::string &name) -> const MaterialParameters & {
+      if (!name.empty())
+        return find_material(name, body.name_of("Materials"));
+      return body.material_name.empty()
+        ? body.material
+        : find_material(body.material_name, body.name_of("Material"));
+    };
     // Cells of the body's own material come first, then the others by their names.
     std::map<std::string, double> measures;
     double                        mass = 0.;
@@ -349,10 +357,7 @@ namespace Ricochet
         const auto        own  = named.find(id);
         const std::string name = own == named.end() ? "" : own->second;
         measures[name] += share.measure;
-        const double density =
-          (name.empty() ? body.material
-                        : find_material(name, body.name_of("Materials")))
-            .density;
+        const double density = material_of(name).density;
         mass += density * share.measure;
         moment += density * share.moment;
       }
@@ -364,8 +369,7 @@ namespace Ricochet
         parts.push_back(
           {body.section.column_name() + (name.empty() ? "" : "_" + name),
            b,
-           name.empty() ? body.material
-                        : find_material(name, body.name_of("Materials")),
+           material_of(name),
            measure});
         std::replace(parts.back().name.begin(),
                      parts.back().name.end(),

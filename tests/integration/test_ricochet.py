@@ -511,6 +511,17 @@ end
             self.assertEqual(code, 1)
             self.assertIn(message, " ".join(error.split()))
 
+    def test_shared_material(self):
+        """A material by its name is the same as what is said in the body."""
+        own = self.scene(scene(steps=10))
+        text = scene(steps=10)
+        said = "  set Density       = 1000.0\n  set Young modulus = 1000000.0\n"
+        self.assertIn(said, text)
+        shared = self.scene(
+            text.replace(said, "  set Material = rubber\n", 1) +
+            "subsection Material rubber\n" + said + "end\n", name="shared")
+        self.assertEqual(own["energy"], shared["energy"])
+
     def test_advance(self):
         """Bodies that have flown for a while already: 3 m/s towards the floor."""
         a = self.scene(scene(steps=1))
@@ -604,6 +615,8 @@ class BadScenes(Refusal):
                  "gives the cells '0' two materials"),
                 ("  set Law ", "  set Materials = 0: steel\n  set Law ",
                  "there is no section 'Material steel'"),
+                ("  set Law ", "  set Material = steel\n  set Law ",
+                 "Body block/Material: there is no section 'Material steel'"),
                 ("subsection Time", "subsection Condition a\n"
                  "  set Boundary = block: left\n  set Kind = traction\n"
                  "  set Value = 1; 2; 3\nend\nsubsection Time",
