@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
+#include <base/units.h>
+#include <contact/obstacles/obstacle_shape.h>
+#include <problems/impact.h>
+#include <scene/scene.h>
+
+#include <deal.II/grid/grid_out.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+// What a user is told of a scene before it runs.
+namespace Ricochet
+{
+  using namespace dealii;
+
+  template <int dim>
+  std::vector<std::string>
+  Scene<dim>::notes() const
+  {
+    std::vector<std::string> lines;
+    for (unsigned int i = 0; i < obstacles.size(); ++i)
+      if (std::none_of(contacts.begin(),
+                       contacts.end(),
+                       [&](const ContactSection &contact) {
+                         const auto own = find_touching(contact).obstacles;
+                         return std::count(own.begin(), own.end(), i) > 0;
+                       }))
+        lines.push_back("note: " + obstacles[i].first.where +
+                        ": nothing can touch the obstacle '" +
+                        obstacles[i].first.name + "': no contact names it.");
+    for (const auto &material : materials)
+      if (std::none_of(parts.begin(), parts.end(), [&](const auto &part) {
+            return part.material.section == material.first.full_name();
+          }))
+        lines.push_back("note: " + material.first.where +
+                        ": nothing is made of the material '" +
+                        material.first.name + "'.");
+    return lines;
+  }
+
+
+
+  template <int dim>
+  double
+  Scene<dim>::initial_gap(const ContactSection &contact) const
+  {
+    const Touching touching = find_touching(contact);
+    double         smallest = std::numeric_limits<double>::infinity();
+    if (touching.is_self)
+      return smallest;
+    const auto for_each_vertex =
+      [&](const std::vector<SurfaceNames::Surface> &list, const auto &action) {
+        for (const auto &surface : list)
+          for (const auto &cell :
+               meshes[surface.body]->cells.active_cell_iterators())
+            for (const auto &face : cell->face_iterators())
+              if (face->at_boundary() &&
+                  surface.ids.count(face->boundary_id()) > 0)
+                for (const unsigned int v : face->vertex_indices())
+                  action(face->vertex(v), surface.body);
+      };
+    if (!touching.obstacles.empty())
+      {
+        for (const unsigned int i : touching.obstacles)
+          {
+            const auto obstacle =
+              obstacles[i].second.make(impact.time.final_time);
+            for_each_vertex(touching.slave,
+                            [&](const Point<dim> &x, const unsigned int) {
+                              smallest =
+                                std::min(smallest,
+                                         obstacle->gap(in_space<dim>(x), 0.));
+                            });
+          }
+        return smallest;
+      }
+    // The distance of nodes: of facets it is a little less.
+    std::vector<Point<dim>> slaves;
+    for_each_vertex(touching.slave,
+                    [&](const Point<dim> &x, const unsigned int) {
+                      slaves.push_back(x);
+                    });
+    for_each_vertex(surfaces.find(contact.against, contact.name_of("Against")),
+                    [&](const Point<dim> &y, const unsigned int) {
+                      for (const Point<dim> &x : slaves)
+                        smallest = std::min(smallest, x.distance_square(y));
+                    });
+    return std::sqrt(smallest);
+  }
+
+
+
+  namespace
+  {
+    /// For what is told, not computed with.
+    double
+    three_digits(const double number)
+    {
+      char digits[40];
+      std::snprintf(digits, sizeof(digits), "%.3g", number);
+      return std::stod(digits);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::string
+  Scene<dim>::description(const std::string &folder) const
+  {
+    const Units        units(units_text);
+    std::ostringstream text;
+    const std::string  extents[2] = {"area", "volume"};
+    const auto with_unit = [&](const double number, const std::string &unit) {
+      return to_text(number) + " " + units.name(unit);
+    };
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const BodyMesh<dim> &mesh = *meshes[b];
+        double               mass = 0., measure = 0.;
+        for (unsigned int p = first_part[b]; p < first_part[b + 1]; ++p)
+          {
+            measure += parts[p].measure;
+            mass += parts[p].measure * parts[p].material.density;
+          }
+        text << "Body " << bodies[b].section.name << ": "
+             << mesh.cells.n_active_cells() << " cells, "
+             << mesh.cells.n_used_vertices() << " vertices, "
+             << extents[dim - 2] << ' ' << to_text(measure) << ", mass "
+             << with_unit(mass, "kg") << ", middle (";
+        // What is round-off is zero.
+        const double extent = std::pow(measure, 1. / dim);
+        for (unsigned int c = 0; c < dim; ++c)
+          text << (c > 0 ? ", " : "")
+               << to_text(std::abs(centres[b][c]) < 1e-12 * extent
+                            ? 0.
+                            : centres[b][c]);
+        text << ")\n";
+        // How fine steps and cells are beside each other.
+        double smallest = std::numeric_limits<double>::max(), fastest = 0.;
+        for (const auto &cell : mesh.cells.active_cell_iterators())
+          smallest = std::min(smallest, cell->minimum_vertex_distance());
+        for (unsigned int p = first_part[b]; p < first_part[b + 1]; ++p)
+          {
+            const LinearElastic elastic = parts[p].material.at_small_strains();
+            fastest                     = std::max(fastest,
+                               std::sqrt((elastic.lambda + 2. * elastic.mu) /
+                                         parts[p].material.density));
+          }
+        text << "  waves run at " << with_unit(three_digits(fastest), "m/s")
+             << ": through the body in about "
+             << with_unit(three_digits(extent / fastest), "s")
+             << ", through the smallest cell in "
+             << with_unit(three_digits(smallest / fastest), "s")
+             << "; a step is " << with_unit(impact.time.time_step, "s") << '\n';
+        if (first_part[b + 1] - first_part[b] > 1)
+          for (unsigned int p = first_part[b]; p < first_part[b + 1]; ++p)
+            text << "  part " << parts[p].name << ": " << extents[dim - 2]
+                 << ' ' << to_text(parts[p].measure) << ", "
+                 << parts[p].material.law << '\n';
+        for (const auto &surface :
+             surfaces.find(bodies[b].section.name, "description"))
+          for (const auto id : surface.ids)
+            text << "  boundary " << surfaces.name_of(id) << ": "
+                 << (dim == 2 ? "length " : "area ")
+                 << to_text(mesh.boundary_areas.at(id))
+                 << (folder.empty()
+                       ? ""
+                       : ", number " + std::to_string(id) + " in setup.vtk")
+                 << '\n';
+      }
+    for (const ContactSection &contact : contacts)
+      {
+        const double gap = initial_gap(contact);
+        text << "Contact " << contact.section.name << ": "
+             << contact.parameters.treatment;
+        if (std::isfinite(gap))
+          text << ", gap at the start " << with_unit(gap, "m");
+        text << '\n';
+        for (const auto &[name, value] : contact.parameters.used_values())
+          text << "  " << name << " = " << to_text(value) << '\n';
+      }
+    for (const ProbeSection<dim> &probe : probes)
+      if (!probe.point.empty() && probe.quantity != "stress")
+        {
+          Point<dim> place, nearest;
+          for (unsigned int c = 0; c < dim; ++c)
+            place[c] = probe.point[c];
+          double distance = std::numeric_limits<double>::max();
+          for (const Point<dim> &vertex :
+               meshes[probe.find_body(surfaces)]->cells.get_vertices())
+            if (place.distance(vertex) < distance)
+              {
+                distance = place.distance(vertex);
+                nearest  = vertex;
+              }
+          text << "Probe " << probe.section.name << ": vertex (";
+          for (unsigned int c = 0; c < dim; ++c)
+            text << (c > 0 ? ", " : "") << to_text(nearest[c]);
+          text << "), " << with_unit(distance, "m") << " from the point\n";
+        }
+    // What overlaps is refused here as it is by a run.
+    Triangulation<dim> whole;
+    join(whole);
+    if (!folder.empty())
+      on_first_rank(MPI_COMM_WORLD, [&]() {
+        std::error_code error;
+        std::filesystem::create_directories(folder, error);
+        const std::string name = folder + "/setup.vtk";
+        std::ofstream     file(name);
+        GridOut           writer;
+        writer.set_flags(
+          GridOutFlags::Vtk(/* cells */ true,
+                            /* faces */ true,
+                            /* edges */ false,
+                            /* only those with numbers */ false));
+        writer.write_vtk(whole, file);
+        file.flush();
+        if (!file)
+          throw InputError("The file '" + name + "' cannot be written.");
+        text << "The meshes, with the numbers of parts and boundaries: " << name
+             << '\n';
+      });
+    ImpactSetup<dim> setup = make_setup();
+    const auto       nodes = nodes_of_cells();
+    if (!nodes.empty())
+      setup.geometry = make_curved_geometry(nodes, whole, MPI_COMM_SELF);
+    Impact<dim> assembly(impact, whole, setup, MPI_COMM_SELF);
+    assembly.state_of_parts();
+    for (const ProbeSection<dim> &probe : probes)
+      probe.check(assembly, surfaces, first_part);
+    text << assembly.body.owned_indices().size() << " unknowns\n";
+    for (const std::string &line : notes())
+      text << line << '\n';
+    if (!folder.empty())
+      on_first_rank(MPI_COMM_WORLD, [&]() {
+        // Beside the picture, for who draws it.
+        std::ofstream(folder + "/setup.txt") << text.str();
+      });
+    return text.str();
+  }
+
+
+
+  template std::vector<std::string>
+  Scene<2>::notes() const;
+  template std::vector<std::string>
+  Scene<3>::notes() const;
+  template std::string
+  Scene<2>::description(const std::string &) const;
+  template std::string
+  Scene<3>::description(const std::string &) const;
+} // namespace Ricochet

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/treatments/contact_sum.h>
+#include <discretization/curved_geometry.h>
+#include <discretization/distributed_mesh.h>
+#include <output/obstacle_work.h>
+#include <output/part_columns.h>
+#include <output/vtu_series.h>
+#include <problems/impact.h>
+#include <problems/part_meshes.h>
+#include <scene/scene.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+// From what a scene means to the run.
+namespace Ricochet
+{
+  using namespace dealii;
+
+  template <int dim>
+  ImpactSetup<dim>
+  Scene<dim>::make_setup() const
+  {
+    ImpactSetup<dim> setup{parts.front().material.template make<dim>()};
+    setup.degree  = degree;
+    setup.gravity = gravity;
+    for (const PartOfScene &own : parts)
+      {
+        const BodySection<dim> &body = bodies[own.body];
+        Part<dim>               part{own.name,
+                       own.material.template make<dim>(),
+                       own.material.density,
+                       body.velocity,
+                       body.spin,
+                       centres[own.body]};
+        if (!body.acceleration.empty())
+          part.acceleration =
+            parse_vector_field<dim>(body.acceleration,
+                                    body.name_of("Acceleration"));
+        setup.parts.push_back(part);
+      }
+    for (const ContactSection &contact : contacts)
+      {
+        const Touching     touching = find_touching(contact);
+        const std::string &name     = contact.section.name;
+        if (touching.obstacles.empty())
+          {
+            std::set<types::boundary_id> slave;
+            for (const auto &surface : touching.slave)
+              slave.insert(surface.ids.begin(), surface.ids.end());
+            setup.contacts.push_back(
+              {name,
+               contact.parameters,
+               {},
+               {{name,
+                 slave,
+                 touching.is_self ? slave : touching.master,
+                 touching.is_self}}});
+          }
+        // Of rigid obstacles, one for each body and obstacle: a body has its own
+        // stress, and a boundary may touch several.
+        for (const unsigned int i : touching.obstacles)
+          for (const auto &surface : touching.slave)
+            {
+              Contact own{name, contact.parameters};
+              own.part = *parts_at(surface).begin();
+              const auto obstacle =
+                obstacles[i].second.make(impact.time.final_time);
+              for (const auto id : surface.ids)
+                own.obstacles[id] = obstacle;
+              setup.contacts.push_back(own);
+            }
+      }
+    for (const ConditionSection<dim> &condition : conditions)
+      condition.add_to(surfaces, setup);
+    return setup;
+  }
+
+
+
+  template <int dim>
+  void
+  Scene<dim>::join(Triangulation<dim> &whole) const
+  {
+    std::vector<const Triangulation<dim> *> all;
+    for (const auto &mesh : meshes)
+      all.push_back(&mesh->cells);
+    join_parts(all, whole, /* keep material ids */ true);
+  }
+
+
+
+  template <int dim>
+  CellNodes<dim>
+  Scene<dim>::nodes_of_cells() const
+  {
+    CellNodes<dim> nodes;
+    for (const auto &mesh : meshes)
+      nodes.insert(nodes.end(), mesh->nodes.begin(), mesh->nodes.end());
+    return nodes;
+  }
+
+
+
+  // ### The run
+  template <int dim>
+  void
+  Scene<dim>::run(RunFolder &folder)
+  {
+    for (const std::string &line : notes())
+      folder.log(line);
+
+    // What was found takes the place of the zeros in parameters.prm.
+    for (const ContactSection &contact : contacts)
+      {
+        handler->enter_subsection(contact.section.full_name());
+        for (const auto &[name, value] : contact.parameters.used_values())
+          {
+            char text[40];
+            std::snprintf(text, sizeof(text), "%.17g", value);
+            handler->set(name, std::string(text));
+            folder.log(contact.name_of(name) + " = " + to_text(value));
+          }
+        handler->leave_subsection();
+      }
+    std::ostringstream all_parameters;
+    handler->print_parameters(all_parameters, ParameterHandler::Text);
+    folder.all_parameters = all_parameters.str();
+
+    const auto cells =
+      distribute_mesh<dim>([&](Triangulation<dim> &whole) { join(whole); },
+                           folder.communicator);
+    ImpactSetup<dim> setup = make_setup();
+    const auto       nodes = nodes_of_cells();
+    if (!nodes.empty())
+      setup.geometry = make_curved_geometry(nodes, *cells, folder.communicator);
+    Impact<dim> assembly(impact, *cells, setup, folder.communicator);
+    folder.log(std::to_string(cells->n_global_active_cells()) + " cells, " +
+               std::to_string(assembly.body.owned_indices().size()) +
+               " unknowns, " + std::to_string(bodies.size()) +
+               (bodies.size() == 1 ? " body, " : " bodies, ") +
+               std::to_string(contacts.size()) +
+               (contacts.size() == 1 ? " contact, " : " contacts, ") +
+               impact.scheme.name);
+
+    const State initial_state = assembly.state_of_parts();
+
+    // Boundaries of one contact are told of together.
+    std::map<types::boundary_id, std::string> names;
+    std::vector<Obstacles>                    obstacles_of_contacts;
+    for (unsigned int k = 0; k < assembly.contacts.size(); ++k)
+      {
+        const Contact &contact = assembly.contacts[k];
+        std::string    column  = contact.name;
+        std::replace(column.begin(), column.end(), ' ', '_');
+        const auto add = [&](const types::boundary_id id) {
+          names[assembly.contacts.size() == 1 ? id : ContactSum::id_of(k, id)] =
+            column;
+        };
+        for (const auto &obstacle : contact.obstacles)
+          add(obstacle.first);
+        for (const ContactPair &pair : contact.pairs)
+          for (const auto id : pair.slave)
+            add(id);
+        obstacles_of_contacts.push_back(contact.obstacles);
+      }
+    TimeLoop                 loop(impact.time,
+                  folder,
+                  assembly.system,
+                  *assembly.scheme,
+                  names,
+                  Units(units_text));
+    std::vector<std::string> body_names;
+    for (const BodySection<dim> &body : bodies)
+      body_names.push_back(body.section.column_name());
+    std::vector<Material<dim>> all_materials;
+    for (const Part<dim> &part : assembly.parts)
+      all_materials.push_back(part.material);
+    const PartColumns<dim> columns(assembly.body,
+                                   *assembly.bulk,
+                                   assembly.system.mass_matrix(),
+                                   /* small strains */
+                                   all_materials.front().linear.has_value(),
+                                   body_names,
+                                   first_part);
+    columns.add_to(loop);
+    for (const ProbeSection<dim> &probe : probes)
+      probe.add_to(loop, assembly, surfaces, first_part);
+    const ObstacleWork<dim> obstacle_work(assembly.body, obstacles_of_contacts);
+    loop.obstacle_work = obstacle_work;
+
+    VtuSeries<dim> fields(assembly.body,
+                          all_materials,
+                          *assembly.contact,
+                          assembly.obstacles,
+                          folder);
+    loop.write_fields = [&](const State &state, const unsigned int step) {
+      fields.write(state, step);
+    };
+    loop.run(initial_state);
+    folder.log("pictures: ricochet-plot " + folder.file("") +
+               (impact.time.fields_every > 0 ? " --fields" : ""));
+  }
+
+
+  template ImpactSetup<2>
+  Scene<2>::make_setup() const;
+  template ImpactSetup<3>
+  Scene<3>::make_setup() const;
+  template void
+  Scene<2>::join(Triangulation<2> &) const;
+  template void
+  Scene<3>::join(Triangulation<3> &) const;
+  template CellNodes<2>
+  Scene<2>::nodes_of_cells() const;
+  template CellNodes<3>
+  Scene<3>::nodes_of_cells() const;
+  template void
+  Scene<2>::run(RunFolder &);
+  template void
+  Scene<3>::run(RunFolder &);
+} // namespace Ricochet
