@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/parameter_file.h>
 #include <base/units.h>
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cctype>
 #include <map>
 #include <vector>
@@ -18,6 +20,8 @@ namespace Ricochet
     for (const std::string &part : parts)
       {
         good = good && !part.empty() && part.size() < 20;
+        // Two that are the same would be a slip of the pen.
+        good = good && std::count(parts.begin(), parts.end(), part) == 1;
         for (const char c : part)
           good = good && std::isalpha(static_cast<unsigned char>(c));
       }
@@ -120,5 +124,13 @@ namespace Ricochet
       return above;
     return (above.empty() ? "1" : above) + "/" +
       (n_below > 1 ? "(" + below + ")" : below);
+  }
+
+
+
+  std::string
+  Units::text(const double value, const std::string &si_unit) const
+  {
+    return to_text(value) + " " + name(si_unit);
   }
 } // namespace Ricochet

@@ -25,6 +25,10 @@ namespace Ricochet
     std::string
     name(const std::string &si_unit) const;
 
+    /// A number with its unit, for people: "0.5 mm".
+    std::string
+    text(const double value, const std::string &si_unit) const;
+
   private:
     std::string length = "m", mass = "kg", time = "s";
   };

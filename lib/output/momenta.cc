@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <output/momenta.h>
 
-#include <set>
-
 namespace Ricochet
 {
   using namespace dealii;
@@ -13,40 +11,17 @@ namespace Ricochet
                         const bool         small_strains,
                         const unsigned int n_parts,
                         const unsigned int begin,
-                        const unsigned int given_end)
+                        const unsigned int end)
     : communicator(body.communicator)
     , mass(mass)
     , small_strains(small_strains)
+    , nodes(
+        nodes_of_parts(body,
+                       n_parts,
+                       begin,
+                       end == numbers::invalid_unsigned_int ? begin + 1 : end))
     , momentum(body.make_vector())
-  {
-    const unsigned int end =
-      given_end == numbers::invalid_unsigned_int ? begin + 1 : given_end;
-    const FiniteElement<dim>            &element = body.dof_handler().get_fe();
-    std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
-    std::set<types::global_dof_index>    seen;
-    for (const auto &cell : body.dof_handler().active_cell_iterators())
-      if (!cell->is_artificial() && body.part(cell, n_parts) >= begin &&
-          body.part(cell, n_parts) < end)
-        {
-          cell->get_dof_indices(indices);
-          for (unsigned int i = 0; i < indices.size(); ++i)
-            {
-              const auto [component, node] =
-                element.system_to_component_index(i);
-              const auto first = body.system_index(indices[i]);
-              if (component != 0 || !body.owned_indices().is_element(first) ||
-                  !seen.insert(first).second)
-                continue;
-              node_indices.emplace_back();
-              for (unsigned int c = 0; c < dim; ++c)
-                node_indices.back()[c] = body.system_index(
-                  indices[element.component_to_system_index(c, node)]);
-              positions.push_back(body.mapping().transform_unit_to_real_cell(
-                cell,
-                element.unit_support_point(i)));
-            }
-        }
-  }
+  {}
 
 
 
@@ -56,9 +31,9 @@ namespace Ricochet
   {
     mass.vmult(momentum, velocity);
     Tensor<1, dim> sum;
-    for (const auto &node : node_indices)
+    for (const PartNode<dim> &node : nodes)
       for (unsigned int c = 0; c < dim; ++c)
-        sum[c] += momentum(node[c]);
+        sum[c] += momentum(node.indices[c]);
     return Utilities::MPI::sum(sum, communicator);
   }
 
@@ -70,14 +45,14 @@ namespace Ricochet
   {
     mass.vmult(momentum, velocity);
     Tensor<1, 3> sum;
-    for (unsigned int n = 0; n < node_indices.size(); ++n)
+    for (const PartNode<dim> &node : nodes)
       {
         Tensor<1, 3> arm, node_momentum;
         for (unsigned int c = 0; c < dim; ++c)
           {
-            arm[c] = positions[n][c] +
-              (small_strains ? 0. : solution(node_indices[n][c]));
-            node_momentum[c] = momentum(node_indices[n][c]);
+            arm[c] = node.position[c] +
+              (small_strains ? 0. : solution(node.indices[c]));
+            node_momentum[c] = momentum(node.indices[c]);
           }
         sum += cross_product_3d(arm, node_momentum);
       }

@@ -2,7 +2,7 @@
 #ifndef ricochet_output_momenta_h
 #define ricochet_output_momenta_h
 
-#include <discretization/body.h>
+#include <output/part_nodes.h>
 
 namespace Ricochet
 {
@@ -39,14 +39,11 @@ namespace Ricochet
     angular(const Vector &solution, const Vector &velocity) const;
 
   private:
-    const MPI_Comm communicator;
-    const Matrix  &mass;
-    const bool     small_strains;
-    // System indices of the displacements of the owned nodes, node by node, and
-    // their reference positions.
-    std::vector<std::array<dealii::types::global_dof_index, dim>> node_indices;
-    std::vector<dealii::Point<dim>>                               positions;
-    mutable Vector                                                momentum;
+    const MPI_Comm                   communicator;
+    const Matrix                    &mass;
+    const bool                       small_strains;
+    const std::vector<PartNode<dim>> nodes;
+    mutable Vector                   momentum;
   };
 } // namespace Ricochet
 

@@ -244,6 +244,7 @@ namespace Ricochet
     , materials(materials)
     , contact(contact)
     , obstacles(obstacles)
+    , surfaces(obstacles)
     , folder(folder)
   {
     if (!folder.resume || !std::filesystem::exists(folder.file("solution.pvd")))
@@ -362,6 +363,57 @@ namespace Ricochet
       std::ostringstream pvd;
       DataOutBase::write_pvd_record(pvd, times_and_names);
       write_atomically(folder.file("solution.pvd"), pvd.str());
+    });
+    if constexpr (dim > 1)
+      if (!surfaces.empty())
+        write_obstacles(displacement, step, flags);
+  }
+
+
+
+  template <int dim>
+  void
+  VtuSeries<dim>::write_obstacles(const Vector                &displacement,
+                                  const unsigned int           step,
+                                  const DataOutBase::VtkFlags &flags)
+  {
+    // The bodies at the start and now, so that what they come from stays in sight.
+    Point<dim> lower, upper;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        lower[c] = std::numeric_limits<double>::max();
+        upper[c] = std::numeric_limits<double>::lowest();
+      }
+    for (const auto &cell : body.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int v : cell->vertex_indices())
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const double there = cell->vertex(v)[c],
+                           now   = there +
+                displacement(cell->vertex_dof_index(v,
+                                                    c,
+                                                    cell->active_fe_index()));
+              lower[c] = std::min({lower[c], there, now});
+              upper[c] = std::max({upper[c], there, now});
+            }
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        lower[c] = Utilities::MPI::min(lower[c], folder.communicator);
+        upper[c] = Utilities::MPI::max(upper[c], folder.communicator);
+      }
+    on_first_rank(folder.communicator, [&]() {
+      const auto file_of = [](const unsigned int s) {
+        return "solution/obstacles-" + Utilities::int_to_string(s, 6) + ".vtu";
+      };
+      write_atomically(folder.file(file_of(step)),
+                       surfaces.vtu(BoundingBox<dim>({lower, upper}), flags));
+      std::vector<std::pair<double, std::string>> times_and_names;
+      for (const auto &[s, time_and_name] : written)
+        times_and_names.emplace_back(time_and_name.first, file_of(s));
+      std::ostringstream pvd;
+      DataOutBase::write_pvd_record(pvd, times_and_names);
+      write_atomically(folder.file("obstacles.pvd"), pvd.str());
     });
   }
 

@@ -5,6 +5,7 @@
 #include <base/run_folder.h>
 #include <discretization/body.h>
 #include <materials/material.h>
+#include <output/obstacle_surfaces.h>
 #include <time_integration/semi_discrete_system.h>
 
 namespace Ricochet
@@ -15,7 +16,8 @@ namespace Ricochet
    * node (N, on the body), the contact pressure (Pa), the gap (m; of all points
    * of the body, to the nearest obstacle, if there is one) and the number of the part
    * (if there are several), as `solution/step-NNNNNN.vtu` with their
-   * time, and `solution.pvd` that ties them to their times.
+   * time, and `solution.pvd` that ties them to their times. Rigid obstacles are in
+   * `solution/obstacles-NNNNNN.vtu` and `obstacles.pvd`.
    */
   template <int dim>
   class VtuSeries
@@ -47,10 +49,17 @@ namespace Ricochet
     write(const State &state, const unsigned int step);
 
   private:
+    /// @param displacement with those of other ranks. @param flags with the time.
+    void
+    write_obstacles(const Vector                        &displacement,
+                    const unsigned int                   step,
+                    const dealii::DataOutBase::VtkFlags &flags);
+
     const Body<dim>                 &body;
     const std::vector<Material<dim>> materials;
     ContactOperator                 &contact;
     const Obstacles                  obstacles;
+    const ObstacleSurfaces<dim>      surfaces;
     RunFolder                       &folder;
     // Time and file name of each step written, by step.
     std::map<unsigned int, std::pair<double, std::string>> written;

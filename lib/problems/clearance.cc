@@ -145,7 +145,8 @@ namespace Ricochet
             "At the start the body overlaps with the obstacle of " +
             (contact.empty() ? "boundary " + std::to_string(entry.first)
                              : "the contact '" + contact + "'") +
-            " by " + to_text(overlap) + " m. Move one of them away.");
+            " by " + to_text(overlap) +
+            " (unit of length). Move one of them away.");
       }
   }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/child_process.h>
 #include <base/exceptions.h>
 #include <problems/gmsh_element_types.h>
 #include <problems/gmsh_file_check.h>
@@ -205,6 +206,10 @@ namespace Ricochet
           const GmshSession session;
           return work();
         }
+      catch (const std::bad_alloc &)
+        {
+          throw;
+        }
       catch (const std::exception &exception)
         {
           throw InputError("Gmsh cannot " + do_what + ": " + exception.what());
@@ -307,7 +312,7 @@ namespace Ricochet
                        const unsigned int dim,
                        const double       mesh_size)
   {
-    with_gmsh<bool>("read '" + file_name + "'", [&]() {
+    const auto convert = [&]() {
       if (mesh_size > 0.)
         for (const std::string bound : {"Min", "Max"})
           gmsh::option::setNumber("Mesh.MeshSize" + bound, mesh_size);
@@ -343,7 +348,10 @@ namespace Ricochet
       gmsh::option::setNumber("Mesh.Binary", 0);
       gmsh::write(msh_file);
       return true;
-    });
+    };
+    // Gmsh crashes on some geometries, and a script may end the process it is in.
+    run_apart("Gmsh",
+              [&]() { with_gmsh<bool>("read '" + file_name + "'", convert); });
   }
 
 

@@ -56,12 +56,12 @@ namespace Ricochet
   {
     if (time.final_time > 1e8 * time.time_step)
       throw InputError("The final time " + to_text(time.final_time) +
-                       " s is more than 1e8 time steps of " +
-                       to_text(time.time_step) + " s away.");
+                       " is more than 1e8 time steps of " +
+                       to_text(time.time_step) + " away.");
     if (time.time_step > (1. + 1e-9) * time.final_time)
       throw InputError("The time step " + to_text(time.time_step) +
-                       " s is longer than the whole run of " +
-                       to_text(time.final_time) + " s.");
+                       " is longer than the whole run of " +
+                       to_text(time.final_time) + ".");
   }
 
 

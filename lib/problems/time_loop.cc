@@ -182,16 +182,38 @@ namespace Ricochet
 
 
 
+  unsigned int
+  TimeLoop::add_own_sum(
+    const std::function<double(const State &, const State &)> &increment)
+  {
+    own_sums.push_back(increment);
+    sums.own.push_back(0.);
+    own_means.push_back(0.);
+    return own_sums.size() - 1;
+  }
+
+
+
   void
   TimeLoop::add_sum(
     const std::string                                         &name,
     const std::string                                         &unit,
     const std::function<double(const State &, const State &)> &increment)
   {
-    const unsigned int k = own_sums.size();
-    own_sums.push_back(increment);
-    sums.own.push_back(0.);
+    const unsigned int k = add_own_sum(increment);
     add_column(name, unit, [this, k](const State &) { return sums.own[k]; });
+  }
+
+
+
+  void
+  TimeLoop::add_mean(
+    const std::string                                         &name,
+    const std::string                                         &unit,
+    const std::function<double(const State &, const State &)> &increment)
+  {
+    const unsigned int k = add_own_sum(increment);
+    add_column(name, unit, [this, k](const State &) { return own_means[k]; });
   }
 
 
@@ -234,10 +256,10 @@ namespace Ricochet
       {
         if (n_halvings_so_far == parameters.max_halvings)
           throw NewtonFailure(
-            "The step from t = " + to_text(old_state.time) + " s of length " +
-            to_text(time_step) + " s cannot be made, after " +
-            std::to_string(n_halvings_so_far) + " halvings.\n" +
-            failure.what() +
+            "The step from t = " + units.text(old_state.time, "s") +
+            " of length " + units.text(time_step, "s") +
+            " cannot be made, after " + std::to_string(n_halvings_so_far) +
+            " halvings.\n" + failure.what() +
             "All results up to then are in the output folder.");
       }
     ++sums.n_halvings;
@@ -361,9 +383,10 @@ namespace Ricochet
       row.push_back(value(state));
     for (unsigned int i = 0; i < row.size(); ++i)
       if (!std::isfinite(row[i]) && !ledger.columns()[i].may_be_empty)
-        throw ComputationError("The state at t = " + to_text(state.time) +
-                               " s is not finite. All results up to then are "
-                               "in the output folder.");
+        throw ComputationError(
+          "The state at t = " + units.text(state.time, "s") +
+          " is not finite. All results up to then are "
+          "in the output folder.");
     ledger.add_row(row);
   }
 
@@ -474,12 +497,12 @@ namespace Ricochet
           throw InputError(
             "The run cannot be resumed: its checkpoint is at t "
             "= " +
-            to_text(state.time) + " s, after the final time " +
-            to_text(parameters.final_time) + " s.");
+            units.text(state.time, "s") + ", after the final time " +
+            units.text(parameters.final_time, "s") + ".");
         ledger.resume(checkpoint.ledger);
         AssertThrow(ledger.rows().size() == step + 1, ExcInternalError());
         folder.log("resumed after step " + std::to_string(step) +
-                   ", t = " + to_text(state.time) + " s");
+                   ", t = " + units.text(state.time, "s"));
         // Those of this step may be missing, if the run was killed.
         write_fields_if_due(state, step);
         return step;
@@ -540,7 +563,10 @@ namespace Ricochet
     sums.obstacle_work += report.obstacle_work;
     sums.imposed_work += report.imposed_work;
     for (unsigned int k = 0; k < report.own_sums.size(); ++k)
-      sums.own[k] += report.own_sums[k];
+      {
+        sums.own[k] += report.own_sums[k];
+        own_means[k] = report.own_sums[k] / parameters.time_step;
+      }
     const double   old_energy = energy;
     const Energies energies   = energies_of(new_state);
     energy                    = energies.total();

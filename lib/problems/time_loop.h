@@ -66,6 +66,14 @@ namespace Ricochet
             const std::function<double(const State &begin, const State &end)>
               &increment);
 
+    /// Add a column with the mean over the last step of what @p increment is the
+    /// integral of over each step, or each part of a halved one; zero at the start.
+    void
+    add_mean(const std::string &name,
+             const std::string &unit,
+             const std::function<double(const State &begin, const State &end)>
+               &increment);
+
     /// Called with the state and the number of the step when fields are due.
     std::function<void(const State &, const unsigned int)> write_fields;
 
@@ -145,6 +153,11 @@ namespace Ricochet
     void
     log_newton_tables();
 
+    /// See add_sum(). @return its number.
+    unsigned int
+    add_own_sum(
+      const std::function<double(const State &, const State &)> &increment);
+
     /// Enter a step into sums and ledger. @p energy is that of the state before,
     /// and becomes that of @p new_state (J).
     void
@@ -174,7 +187,9 @@ namespace Ricochet
     // Values of the benchmark's own columns, in the order of the ledger.
     std::vector<std::function<double(const State &)>> own_columns;
     std::vector<std::function<double(const State &, const State &)>> own_sums;
-    EnergyLedger                                                     ledger;
+    // Of each of them, its mean over the last step.
+    std::vector<double> own_means;
+    EnergyLedger        ledger;
 
     /// Sums over the run (J), part of a checkpoint.
     struct Sums

@@ -35,7 +35,7 @@ namespace Ricochet
         const double value = expressions.value(c, in_space<dim>(place), time);
         if (!std::isfinite(value))
           throw ComputationError(
-            name + " is not finite at t = " + to_text(time) + " s.");
+            name + " is not finite at t = " + to_text(time) + ".");
         return value;
       };
     }

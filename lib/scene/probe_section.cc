@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <output/mean_rotation.h>
 #include <output/momenta.h>
 #include <output/node_probe.h>
 #include <scene/probe_section.h>
@@ -18,13 +19,16 @@ namespace Ricochet
     parameters.add_parameter(
       "Quantity",
       quantity,
-      "What to write: displacement or velocity; the elastic Cauchy stress; or, with "
-      "the midpoint scheme, the impulse (force times time, since the start) of what "
-      "holds or moves a boundary.",
-      Patterns::Selection("displacement|velocity|stress|impulse"));
+      "What to write: displacement or velocity; the elastic Cauchy stress; the "
+      "rotation of the whole body (rad, from -pi to pi; in 3D a vector along its "
+      "axis); or, with the midpoint scheme, the force of what holds or moves a "
+      "boundary (mean over the last step) or its impulse (force times time, since "
+      "the start).",
+      Patterns::Selection(
+        "displacement|velocity|stress|rotation|force|impulse"));
     parameters.add_parameter("Body",
                              body,
-                             "Of which body; for the impulse of which "
+                             "Of which body; for force and impulse of which "
                              "boundaries, 'beam: foot'.",
                              Patterns::Anything());
     parameters.add_parameter(
@@ -46,12 +50,12 @@ namespace Ricochet
     if (!point.empty() && point.size() != dim)
       throw InputError(name_of("Point") + " needs " + std::to_string(dim) +
                        " coordinates, separated by commas.");
-    if (quantity == "impulse" && !point.empty())
-      throw InputError(
-        name_of("Point") +
-        " has no meaning for an impulse, which is that of a whole "
-        "boundary.");
-    if (quantity != "impulse" && body.find_first_of(":;") != std::string::npos)
+    const bool of_boundary = quantity == "force" || quantity == "impulse";
+    if ((of_boundary || quantity == "rotation") && !point.empty())
+      throw InputError(name_of("Point") + " has no meaning for the " +
+                       quantity + ", which is that of a whole " +
+                       (of_boundary ? "boundary." : "body."));
+    if (!of_boundary && body.find_first_of(":;") != std::string::npos)
       throw InputError(name_of("Body") + ": '" + body.substr(0, 100) +
                        "' is not the name of one body.");
     return surfaces.find(body, name_of("Body")).front().body;
@@ -65,8 +69,8 @@ namespace Ricochet
                                    const SurfaceNames &surfaces) const
   {
     if (!impact.scheme->contact_force_is_of_step())
-      throw InputError(name_of("Quantity") +
-                       ": the impulse is known with the midpoint scheme only.");
+      throw InputError(name_of("Quantity") + ": the " + quantity +
+                       " is known with the midpoint scheme only.");
     std::array<IndexSet, dim> held;
     types::global_dof_index   n = 0;
     for (unsigned int c = 0; c < dim; ++c)
@@ -88,23 +92,58 @@ namespace Ricochet
 
   template <int dim>
   void
-  ProbeSection<dim>::add_impulse_to(TimeLoop           &loop,
-                                    const Impact<dim>  &impact,
-                                    const SurfaceNames &surfaces) const
+  ProbeSection<dim>::add_reaction_to(TimeLoop           &loop,
+                                     const Impact<dim>  &impact,
+                                     const SurfaceNames &surfaces) const
   {
     const std::array<IndexSet, dim> held = held_unknowns(impact, surfaces);
     for (unsigned int c = 0; c < dim; ++c)
-      loop.add_sum(section.column_name() + "_impulse_" + "xyz"[c],
-                   "N s",
-                   [&impact, held = held[c]](const State &begin,
-                                             const State &end) {
-                     const Vector &forces = impact.system.reaction_forces();
-                     double        sum    = 0.;
-                     for (const auto i : held)
-                       sum += forces(i);
-                     return Utilities::MPI::sum(sum, impact.body.communicator) *
-                       (end.time - begin.time);
-                   });
+      {
+        const std::string name =
+          section.column_name() + "_" + quantity + "_" + "xyz"[c];
+        const auto impulse_of_step =
+          [&impact, held = held[c]](const State &begin, const State &end) {
+            const Vector &forces = impact.system.reaction_forces();
+            double        sum    = 0.;
+            for (const auto i : held)
+              sum += forces(i);
+            return Utilities::MPI::sum(sum, impact.body.communicator) *
+              (end.time - begin.time);
+          };
+        if (quantity == "force")
+          loop.add_mean(name, "N", impulse_of_step);
+        else
+          loop.add_sum(name, "N s", impulse_of_step);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  ProbeSection<dim>::add_rotation_to(TimeLoop          &loop,
+                                     const Impact<dim> &impact,
+                                     const unsigned int begin,
+                                     const unsigned int end) const
+  {
+    const auto rotation =
+      std::make_shared<const MeanRotation<dim>>(impact.body,
+                                                impact.consistent_mass,
+                                                impact.parts.size(),
+                                                begin,
+                                                end);
+    const std::string name = section.column_name() + "_rotation";
+    if (dim == 2)
+      loop.add_column(name, "rad", [rotation](const State &state) {
+        return rotation->vector(state.solution)[2];
+      });
+    else
+      for (unsigned int c = 0; c < 3; ++c)
+        loop.add_column(name + "_" + "xyz"[c],
+                        "rad",
+                        [rotation, c](const State &state) {
+                          return rotation->vector(state.solution)[c];
+                        });
   }
 
 
@@ -146,7 +185,7 @@ namespace Ricochet
   {
     if (quantity == "stress")
       stress_probe(impact, surfaces, first_part);
-    if (quantity == "impulse")
+    if (quantity == "force" || quantity == "impulse")
       held_unknowns(impact, surfaces);
   }
 
@@ -188,8 +227,10 @@ namespace Ricochet
         return;
       }
 
-    if (quantity == "impulse")
-      return add_impulse_to(loop, impact, surfaces);
+    if (quantity == "force" || quantity == "impulse")
+      return add_reaction_to(loop, impact, surfaces);
+    if (quantity == "rotation")
+      return add_rotation_to(loop, impact, begin, end);
 
     const std::string unit      = quantity == "velocity" ? "m/s" : "m";
     const auto        vector_of = [of_velocity = quantity == "velocity"](

@@ -72,10 +72,18 @@ namespace Ricochet
     held_unknowns(const Impact<dim>  &impact,
                   const SurfaceNames &surfaces) const;
 
+    /// Force or impulse.
     void
-    add_impulse_to(TimeLoop           &loop,
-                   const Impact<dim>  &impact,
-                   const SurfaceNames &surfaces) const;
+    add_reaction_to(TimeLoop           &loop,
+                    const Impact<dim>  &impact,
+                    const SurfaceNames &surfaces) const;
+
+    /// Of the parts from @p begin to before @p end.
+    void
+    add_rotation_to(TimeLoop          &loop,
+                    const Impact<dim> &impact,
+                    const unsigned int begin,
+                    const unsigned int end) const;
   };
 } // namespace Ricochet
 

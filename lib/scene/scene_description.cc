@@ -3,9 +3,11 @@
 #include <base/units.h>
 #include <contact/obstacles/obstacle_shape.h>
 #include <problems/impact.h>
+#include <output/obstacle_surfaces.h>
 #include <scene/scene.h>
 
 #include <deal.II/grid/grid_out.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -118,9 +120,6 @@ namespace Ricochet
     const Units        units(units_text);
     std::ostringstream text;
     const std::string  extents[2] = {"area", "volume"};
-    const auto with_unit = [&](const double number, const std::string &unit) {
-      return to_text(number) + " " + units.name(unit);
-    };
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         const BodyMesh<dim> &mesh = *meshes[b];
@@ -134,7 +133,7 @@ namespace Ricochet
              << mesh.cells.n_active_cells() << " cells, "
              << mesh.cells.n_used_vertices() << " vertices, "
              << extents[dim - 2] << ' ' << to_text(measure) << ", mass "
-             << with_unit(mass, "kg") << ", middle (";
+             << units.text(mass, "kg") << ", middle (";
         // What is round-off is zero.
         const double extent = std::pow(measure, 1. / dim);
         for (unsigned int c = 0; c < dim; ++c)
@@ -154,12 +153,13 @@ namespace Ricochet
                                std::sqrt((elastic.lambda + 2. * elastic.mu) /
                                          parts[p].material.density));
           }
-        text << "  waves run at " << with_unit(three_digits(fastest), "m/s")
+        text << "  waves run at " << units.text(three_digits(fastest), "m/s")
              << ": through the body in about "
-             << with_unit(three_digits(extent / fastest), "s")
+             << units.text(three_digits(extent / fastest), "s")
              << ", through the smallest cell in "
-             << with_unit(three_digits(smallest / fastest), "s")
-             << "; a step is " << with_unit(impact.time.time_step, "s") << '\n';
+             << units.text(three_digits(smallest / fastest), "s")
+             << "; a step is " << units.text(impact.time.time_step, "s")
+             << '\n';
         if (first_part[b + 1] - first_part[b] > 1)
           for (unsigned int p = first_part[b]; p < first_part[b + 1]; ++p)
             text << "  part " << parts[p].name << ": " << extents[dim - 2]
@@ -182,7 +182,7 @@ namespace Ricochet
         text << "Contact " << contact.section.name << ": "
              << contact.parameters.treatment;
         if (std::isfinite(gap))
-          text << ", gap at the start " << with_unit(gap, "m");
+          text << ", gap at the start " << units.text(gap, "m");
         text << '\n';
         for (const auto &[name, value] : contact.parameters.used_values())
           text << "  " << name << " = " << to_text(value) << '\n';
@@ -204,7 +204,7 @@ namespace Ricochet
           text << "Probe " << probe.section.name << ": vertex (";
           for (unsigned int c = 0; c < dim; ++c)
             text << (c > 0 ? ", " : "") << to_text(nearest[c]);
-          text << "), " << with_unit(distance, "m") << " from the point\n";
+          text << "), " << units.text(distance, "m") << " from the point\n";
         }
     // What overlaps is refused here as it is by a run.
     Triangulation<dim> whole;
@@ -236,6 +236,16 @@ namespace Ricochet
     assembly.state_of_parts();
     for (const ProbeSection<dim> &probe : probes)
       probe.check(assembly, surfaces, first_part);
+    const ObstacleSurfaces<dim> obstacle_surfaces(assembly.obstacles);
+    if (!folder.empty() && !obstacle_surfaces.empty())
+      on_first_rank(MPI_COMM_WORLD, [&]() {
+        DataOutBase::VtkFlags flags;
+        flags.time                = 0.;
+        flags.print_date_and_time = false;
+        write_atomically(
+          folder + "/setup_obstacles.vtu",
+          obstacle_surfaces.vtu(GridTools::compute_bounding_box(whole), flags));
+      });
     text << assembly.body.owned_indices().size() << " unknowns\n";
     for (const std::string &line : notes())
       text << line << '\n';

@@ -18,6 +18,19 @@ namespace Ricochet
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// A name as it stands in the ledger.
+    std::string
+    column_name(std::string name)
+    {
+      std::replace(name.begin(), name.end(), ' ', '_');
+      return name;
+    }
+  } // namespace
+
+
+
   template <int dim>
   ImpactSetup<dim>
   Scene<dim>::make_setup() const
@@ -103,6 +116,71 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    /// The columns resultant_x_CONTACT, ...: the force on the first surface of each contact,
+    /// pressure and friction together (N); of a surface with itself there is none. @p
+    /// assembly must outlive @p loop.
+    template <int dim>
+    void
+    add_resultants(TimeLoop &loop, const Impact<dim> &assembly)
+    {
+      // Of each name, the numbers of contacts and the nodes of their first surfaces.
+      struct Resultant
+      {
+        std::string                                    name;
+        std::vector<std::pair<unsigned int, IndexSet>> forces;
+      };
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          std::vector<Resultant> resultants;
+          for (unsigned int k = 0; k < assembly.contacts.size(); ++k)
+            {
+              const Contact               &contact = assembly.contacts[k];
+              std::set<types::boundary_id> ids;
+              for (const auto &obstacle : contact.obstacles)
+                ids.insert(obstacle.first);
+              for (const ContactPair &pair : contact.pairs)
+                if (!pair.is_self)
+                  ids.insert(pair.slave.begin(), pair.slave.end());
+              if (ids.empty())
+                continue;
+              IndexSet nodes(assembly.body.owned_indices().size());
+              for (const auto id : ids)
+                nodes.add_indices(assembly.body.boundary_displacements(id, c) &
+                                  assembly.body.owned_indices());
+              const std::string name = column_name(contact.name);
+              if (resultants.empty() || resultants.back().name != name)
+                resultants.push_back({name, {}});
+              resultants.back().forces.emplace_back(k, nodes);
+            }
+          for (const Resultant &resultant : resultants)
+            loop.add_column(
+              std::string("resultant_") + "xyz"[c] + "_" + resultant.name,
+              "N",
+              [forces       = resultant.forces,
+               communicator = assembly.body.communicator](const State &state) {
+                double sum = 0.;
+                for (const auto &[k, nodes] : forces)
+                  {
+                    // The state has the force that the body exerts.
+                    const Vector &force = state.contact_shares.empty()
+                      ? state.contact_force
+                      : state.contact_shares[k];
+                    for (const auto i : nodes)
+                      sum -= force(i);
+                  }
+                return Utilities::MPI::sum(sum, communicator);
+              });
+        }
+    }
+
+
+
+  } // namespace
+
+
+
   // ### The run
   template <int dim>
   void
@@ -152,11 +230,9 @@ namespace Ricochet
     for (unsigned int k = 0; k < assembly.contacts.size(); ++k)
       {
         const Contact &contact = assembly.contacts[k];
-        std::string    column  = contact.name;
-        std::replace(column.begin(), column.end(), ' ', '_');
-        const auto add = [&](const types::boundary_id id) {
+        const auto     add     = [&](const types::boundary_id id) {
           names[assembly.contacts.size() == 1 ? id : ContactSum::id_of(k, id)] =
-            column;
+            column_name(contact.name);
         };
         for (const auto &obstacle : contact.obstacles)
           add(obstacle.first);
@@ -185,6 +261,7 @@ namespace Ricochet
                                    body_names,
                                    first_part);
     columns.add_to(loop);
+    add_resultants(loop, assembly);
     for (const ProbeSection<dim> &probe : probes)
       probe.add_to(loop, assembly, surfaces, first_part);
     const ObstacleWork<dim> obstacle_work(assembly.body, obstacles_of_contacts);

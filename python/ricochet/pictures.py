@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from . import curves, fields, measures, obstacles, render
+from . import curves, fields, measures, render
 from .errors import RicochetError
 from .results import FieldFile, Run
 from .screen import run_with_screen
@@ -55,8 +55,8 @@ class _Scene:
     view: render.View
     edges: bool
     cut: float | None
-    ground: tuple[float, float, float] | None
-    on_foundation: bool
+    #: In space, how far from the bodies' box obstacles are shown.
+    box: tuple[tuple[float, float], ...] | None
 
     @property
     def label(self) -> str:
@@ -109,7 +109,7 @@ def _scene(run: Run, colour: str, files: Sequence[FieldFile], pixels: int) -> _S
     size = float(np.linalg.norm(high - low))
     on_foundation = _stands_on_zero(run, dim, size)
 
-    cut, ground = None, None
+    cut, box = None, None
     if dim == 2:
         right, up = np.array((1.0, 0.0, 0.0)), np.array((0.0, 1.0, 0.0))
         if on_foundation:
@@ -122,9 +122,10 @@ def _scene(run: Run, colour: str, files: Sequence[FieldFile], pixels: int) -> _S
         ):
             cut = middle
         right, up = _axes(np.array((0.6, -0.9, -0.75) if from_below else (0.35, -1.0, 0.4)))
-        half = 0.62 * max(high[0] - low[0], high[1] - low[1])
-        if on_foundation and not from_below:
-            ground = (0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), half)
+        if colour != "contact_pressure" and files[0].obstacles:
+            # Seen from below, contact would be behind them.
+            low, high = low - 0.1 * size, high + 0.1 * size
+            box = tuple(zip(map(float, low), map(float, high)))
         corners = np.array(
             [
                 [(low, high)[i][0], (low, high)[j][1], (low, high)[k][2]]
@@ -133,10 +134,6 @@ def _scene(run: Run, colour: str, files: Sequence[FieldFile], pixels: int) -> _S
                 for k in (0, 1)
             ]
         )
-    if ground:
-        x, y, half = ground
-        square = [(x + i * half, y + j * half, 0.0) for i in (-1, 1) for j in (-1, 1)]
-        corners = np.concatenate((corners, np.array(square)))
     across, along = corners @ right, corners @ up
     margin = 0.04 * max(np.ptp(across), np.ptp(along))
     width, height = np.ptp(across) + 2 * margin, np.ptp(along) + 2 * margin
@@ -168,8 +165,7 @@ def _scene(run: Run, colour: str, files: Sequence[FieldFile], pixels: int) -> _S
         view,
         bool(area > SMALLEST_CELL * seen),
         cut,
-        ground,
-        on_foundation,
+        box,
     )
 
 
@@ -191,14 +187,17 @@ def _render(scene: _Scene, files: Sequence[FieldFile], folder: pathlib.Path) -> 
     images = [folder / f"{number:06}.png" for number in range(len(files))]
     palette = [tuple(map(float, c[:3])) for c in plt.get_cmap(COLOUR_MAP)(np.linspace(0, 1, 256))]
     job = render.Job(
-        [(str(file.path.resolve()), str(image)) for file, image in zip(files, images)],
+        [
+            (str(f.path.resolve()), str(f.obstacles.resolve()) if f.obstacles else None, str(image))
+            for f, image in zip(files, images)
+        ],
         scene.colour,
         scene.limits,
         palette,  # type: ignore[arg-type]
         scene.view,
         scene.edges,
         scene.cut,
-        scene.ground,
+        scene.box,
     )
     (folder / "job.json").write_text(job.to_json(), encoding="utf-8")
     command = [sys.executable, "-m", "ricochet.render", str(folder / "job.json")]
@@ -239,9 +238,6 @@ def _show(panel: Axes, scene: _Scene, image: Array) -> None:
         panel.axis("off")
         _scale_bar(panel, scene)
         return
-    if scene.on_foundation:
-        panel.axhline(0, color="black", linewidth=1.2)
-    obstacles.draw(panel, scene.run.parameters, view.size)
     panel.set_xlim(x0, x1)
     panel.set_ylim(y0, y1)
     unit = fields.unit(scene.run.units, "length")

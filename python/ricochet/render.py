@@ -40,8 +40,8 @@ class View:
 class Job:
     """Pictures that share view and colours."""
 
-    #: VTU files, and the PNG files to make of them.
-    frames: list[tuple[str, str]]
+    #: VTU files of bodies and, if there are any, obstacles, and the PNG files to make of them.
+    frames: list[tuple[str, str | None, str]]
     colour: str
     limits: tuple[float, float]
     #: Red, green and blue (0 to 1) from the lowest to the highest value.
@@ -50,8 +50,8 @@ class Job:
     edges: bool
     #: What is before the plane y = cut (at the start) is left away.
     cut: float | None
-    #: The foundation, z = 0, as a square: its middle and half its side.
-    ground: tuple[float, float, float] | None
+    #: In space, lower and upper bound of each coordinate within which obstacles are shown.
+    box: tuple[tuple[float, float], ...] | None
 
     def to_json(self) -> str:
         """As `read_job` reads it."""
@@ -66,20 +66,63 @@ def read_job(path: str) -> Job:
     return Job(**job)
 
 
-def _ground(middle_x: float, middle_y: float, half: float) -> Any:
+def _strips(curves: Any, depth: float) -> Any:
+    """Quadrilaterals behind curves in the plane, `depth` wide, on the side away from the normal."""
+    import vtk
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    count = curves.GetNumberOfCells()
+    lines = vtk_to_numpy(curves.GetCells().GetConnectivityArray()).reshape(count, 2)
+    places = vtk_to_numpy(curves.GetPoints().GetData())
+    behind = places - depth * vtk_to_numpy(curves.GetPointData().GetArray("normal"))
+    points, cells = vtk.vtkPoints(), vtk.vtkCellArray()
+    for first, second in lines:
+        cells.InsertNextCell(4)
+        for x, y, _ in (places[first], places[second], behind[second], behind[first]):
+            # Behind the bodies.
+            cells.InsertCellPoint(points.InsertNextPoint(x, y, -0.01 * depth))
+    strips = vtk.vtkPolyData()
+    strips.SetPoints(points)
+    strips.SetPolys(cells)
+    return strips
+
+
+def _show_obstacles(actor: Any, grid: Any, dim: int, job: Job) -> None:
+    """Have `actor` show obstacles: in the plane as strips, in space as surfaces within a box."""
     import vtk
 
-    plane = vtk.vtkPlaneSource()
-    plane.SetOrigin(middle_x - half, middle_y - half, 0)
-    plane.SetPoint1(middle_x + half, middle_y - half, 0)
-    plane.SetPoint2(middle_x - half, middle_y + half, 0)
+    if not grid.GetNumberOfCells() or (dim == 3 and job.box is None):
+        return
     mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputConnection(plane.GetOutputPort())
-    actor = vtk.vtkActor()
+    mapper.ScalarVisibilityOff()
+    look = actor.GetProperty()
+    if dim == 2:
+        mapper.SetInputData(_strips(grid, 0.03 * job.view.size))
+        look.SetColor(0.6, 0.6, 0.6)
+        look.LightingOff()
+    else:
+        surface = vtk.vtkDataSetSurfaceFilter()
+        surface.SetInputData(grid)
+        surface.Update()
+        last: Any = surface.GetOutput()
+        for axis, bounds in enumerate(job.box or ()):
+            for bound, sign in zip(bounds, (1.0, -1.0)):
+                plane, normal = vtk.vtkPlane(), [0.0, 0.0, 0.0]
+                normal[axis] = sign
+                plane.SetNormal(*normal)
+                plane.SetOrigin(*(bound if c == axis else 0.0 for c in range(3)))
+                clip = vtk.vtkClipPolyData()
+                clip.SetInputData(last)
+                clip.SetClipFunction(plane)
+                clip.Update()
+                last = clip.GetOutput()
+        mapper.SetInputData(last)
+        look.SetColor(0.8, 0.8, 0.8)
+        look.SetOpacity(0.45)
+        look.SetAmbient(0.7)
+        look.SetDiffuse(0.3)
     actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(0.88, 0.88, 0.88)
-    actor.GetProperty().LightingOff()
-    return actor
+    actor.SetVisibility(True)
 
 
 def render(job: Job) -> None:
@@ -106,8 +149,6 @@ def render(job: Job) -> None:
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     renderer.AddActor(actor)
-    if job.ground:
-        renderer.AddActor(_ground(*job.ground))
     if job.edges:
         look.EdgeVisibilityOn()
         look.SetEdgeColor(0.35, 0.35, 0.35)
@@ -127,7 +168,9 @@ def render(job: Job) -> None:
     window.SetMultiSamples(4)
     window.SetSize(*view.pixels)
     window.AddRenderer(renderer)
-    for source, image in job.frames:
+    obstacle = vtk.vtkActor()
+    renderer.AddActor(obstacle)
+    for source, obstacles, image in job.frames:
         grid = read_vtu(source)
         if fields.dimension(grid) == 2:
             look.LightingOff()
@@ -158,6 +201,10 @@ def render(job: Job) -> None:
         surface.SetInputConnection(warp.GetOutputPort())
         surface.Update()
         mapper.SetInputData(surface.GetOutput())
+
+        obstacle.SetVisibility(False)
+        if obstacles:
+            _show_obstacles(obstacle, read_vtu(obstacles), fields.dimension(grid), job)
 
         renderer.ResetCameraClippingRange()
         window.Render()

@@ -31,6 +31,12 @@ class FieldFile:
     time: float
     path: pathlib.Path
 
+    @property
+    def obstacles(self) -> pathlib.Path | None:
+        """The VTU file of rigid obstacles at that time, if there are any."""
+        path = self.path.parent / f"obstacles-{self.step:06}.vtu"
+        return path if path.exists() else None
+
 
 class Run:
     """The results of one run of a program, read when they are asked for.

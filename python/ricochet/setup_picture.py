@@ -8,7 +8,9 @@ import pathlib
 import re
 from dataclasses import dataclass
 
+from . import fields
 from .errors import NotARun
+from .results import read_vtu
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,9 +18,11 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.transforms import ScaledTranslation
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.typing import NDArray
 
+OBSTACLE = "0.45"
 # Numbers of points of VTK's cells, by type; those of bodies in space come last.
 LINE, TRIANGLE, QUADRILATERAL, TETRAHEDRON, HEXAHEDRON = 3, 5, 9, 10, 12
 
@@ -33,6 +37,8 @@ class _Setup:
     #: Names of the boundaries by their numbers.
     names: dict[int, str]
     dim: int
+    #: Pieces of rigid obstacles: the places of their corners.
+    obstacles: list[NDArray[np.float64]]
 
 
 def is_setup(folder: pathlib.Path) -> bool:
@@ -95,7 +101,22 @@ def read(folder: pathlib.Path) -> _Setup:
             cells.append((corners, number))
         elif 0 <= number < 1 << 24:
             faces.append((corners, number))
-    return _Setup(points, cells, faces, _names(folder), dim)
+    return _Setup(points, cells, faces, _names(folder), dim, _obstacles(folder))
+
+
+def _obstacles(folder: pathlib.Path) -> list[NDArray[np.float64]]:
+    path = folder / "setup_obstacles.vtu"
+    if not path.exists():
+        return []
+    grid = read_vtu(path)
+    if not grid.GetNumberOfCells():
+        return []
+    places = fields.array_of_points(grid)
+    pieces = []
+    for number in range(grid.GetNumberOfCells()):
+        ids = grid.GetCell(number).GetPointIds()
+        pieces.append(places[[ids.GetId(k) for k in range(ids.GetNumberOfIds())]])
+    return pieces
 
 
 def draw(folder: pathlib.Path) -> Figure:
@@ -110,14 +131,17 @@ def draw(folder: pathlib.Path) -> Figure:
         figure = plt.figure(figsize=(8, 6.5), layout="constrained")
         panel = figure.add_subplot(projection="3d")
         _draw_space(panel, setup, colours)
-    handles = [
+    handles = [Line2D([], [], color=OBSTACLE, linewidth=2, label="obstacles")]
+    handles = (handles if setup.obstacles else []) + [
         Line2D([], [], color=colours[k], linewidth=4, label=setup.names.get(k, f"number {k}"))
         for k in known
     ]
     panel.legend(
         handles=handles,
         loc="upper center",
-        bbox_to_anchor=(0.5, -0.12),
+        bbox_to_anchor=(0.5, 0.0),
+        # Below what is written at the axis, however high the panel is.
+        bbox_transform=panel.transAxes + ScaledTranslation(0.0, -0.45, figure.dpi_scale_trans),
         ncols=min(4, len(handles)) or 1,
     )
     return figure
@@ -140,6 +164,13 @@ def _draw_plane(panel: Axes, setup: _Setup, colours: dict[int, tuple[float, ...]
     )
     panel.set_aspect("equal")
     panel.autoscale_view()
+    # Of obstacles only what is near.
+    panel.add_collection(
+        LineCollection(
+            [piece[:, :2] for piece in setup.obstacles], colors=OBSTACLE, linewidths=2.0, zorder=0.5
+        ),
+        autolim=False,
+    )
     panel.grid(False)
     panel.set_xlabel("x")
     panel.set_ylabel("y")
@@ -155,6 +186,16 @@ def _draw_space(panel: Axes, setup: _Setup, colours: dict[int, tuple[float, ...]
         )
     )
     low, high = setup.points.min(axis=0), setup.points.max(axis=0)
+    margin = 0.15 * (high - low).max()
+    near = [
+        piece
+        for piece in setup.obstacles
+        if (piece > low - margin).all() and (piece < high + margin).all()
+    ]
+    if near:
+        panel.add_collection(Poly3DCollection(near, facecolors=OBSTACLE, alpha=0.3))
+        corners = np.concatenate([setup.points, *near])
+        low, high = corners.min(axis=0), corners.max(axis=0)
     for axis, name in enumerate("xyz"):
         getattr(panel, f"set_{name}lim")(low[axis], high[axis])
         getattr(panel, f"set_{name}label")(name)

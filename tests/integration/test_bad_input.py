@@ -229,7 +229,7 @@ class BadSettings(Refusal):
                     prm=ROOT / "parameter_files/hyperelastic_ring/default.prm")
 
     def test_a_step_longer_than_the_run(self):
-        self.refuse("The time step 0.5 s is longer than the whole run of 0.1 s",
+        self.refuse("The time step 0.5 is longer than the whole run of 0.1",
                     parameters=["Time/Time step=0.5", "Time/Final time=0.1"])
 
     def test_sizes_beyond_memory(self):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The Python package: numbers of a run against its files, what is refused, commands."""
 
+import math
 import re
 import xml.etree.ElementTree as ElementTree
 
@@ -153,6 +154,13 @@ class PythonPackage(ProgramTest):
         lowest = (places + fields.displacements(grid))[:, 1].min()
         self.assertAlmostEqual(
             lowest, self.ball.table["smallest_gap_foundation"][20], places=5)
+        # The foundation, as pictures show it: the plane y = 0 with its normal.
+        floor = ricochet.results.read_vtu(self.ball.field_file(20).obstacles)
+        self.assertGreater(floor.GetNumberOfCells(), 0)
+        self.assertLess(abs(fields.array_of_points(floor)[:, 1]).max(), 1e-6)
+        self.assertTrue((fields.array(floor, "normal") == [0, 1, 0]).all())
+        self.assertIn('file="solution/obstacles-000020.vtu"',
+                      (self.ball.folder / "obstacles.pvd").read_text())
         damaged = self.folder / "damaged.vtu"
         damaged.write_bytes(self.ball.field_file(20).path.read_bytes()[:2000])
         with self.assertRaisesRegex(ricochet.NotARun, "damaged"):
@@ -224,6 +232,28 @@ class PythonPackage(ProgramTest):
         self.assertEqual([len(o.run.table) for o in outcomes if o.run], [11, 21])
         self.assertIn("cannot be combined", outcomes[1].error.sentence)
         self.assertTrue(all(o.wall_seconds > 0 for o in outcomes))
+
+    def test_obstacle_that_moves(self):
+        """A plate that is lifted and turned is where its motion says."""
+        try:
+            import vtkmodules.vtkIOXML
+        except ImportError:
+            self.skipTest("VTK (Debian's python3-vtk9) is missing")
+        from ricochet import fields
+        run = ricochet.run(program_path("obstacle_course"),
+                           ROOT / "parameter_files/obstacle_course/rising_plate.prm",
+                           overrides={"Body/Boundary nodes": 16, "Time/Final time": 0.4,
+                                      "Time/Time step": 0.02, "Output/Fields every": 10,
+                                      "Output/Log every": 0}, output=self.folder / "plate")
+        for file in run.field_files:
+            grid = ricochet.results.read_vtu(file.obstacles)
+            self.assertGreater(grid.GetNumberOfCells(), 2)
+            lift = 0.2 * (1 - math.cos(4 * file.time))
+            angle = 0.2 * math.sin(3 * file.time)
+            normal = numpy.array((-math.sin(angle), math.cos(angle), 0.))
+            places = fields.array_of_points(grid)
+            self.assertLess(abs((places - [0., lift, 0.]) @ normal).max(), 1e-6)
+            self.assertLess(abs(fields.array(grid, "normal") - normal).max(), 1e-6)
 
     # Commands
 

@@ -210,6 +210,15 @@ class Scenes(ProgramTest):
                 whole["energy"][row] - whole["energy"][0],
                 whole["external_work"][row] - whole["contact_work"][row] -
                 whole["friction_work"][row], delta=1e-9 * whole["energy"][0])
+        # The resultants of contacts, friction included, and gravity change momenta.
+        for axis, weight in (("x", 0.), ("y", -9.81)):
+            mass = math.pi / 4. * 1000. * math.sin(math.pi / 16.) / (math.pi / 16.)
+            rate = [a + b + mass * weight for a, b in zip(
+                whole[f"resultant_{axis}_ball_on_floor"],
+                whole[f"resultant_{axis}_ball_and_brick"])]
+            scale = largest(whole[f"momentum_{axis}_ball"])
+            for change, force in zip(increments(whole[f"momentum_{axis}_ball"]), rate[1:]):
+                self.assertAlmostEqual(change, 5e-3 * force, delta=1e-9 * scale)
         # What bodies have is what there is.
         for row in range(len(whole["time"])):
             parts = sum(whole[f"{kind}_energy_{name}"][row]
@@ -280,6 +289,25 @@ class Scenes(ProgramTest):
                            .01 * damped["energy"][0])
         self.assertGreaterEqual(min(increments(damped["viscous_dissipation"])), 0.)
         self.assertLess(largest(damped["balance_residual"]), 1e-9)
+
+    def test_geometries_that_gmsh_does_not_survive(self):
+        """A script that ends its process, one that makes it crash or never be done."""
+        for name, text, message in (
+                ("exit", "Exit;\n", "Gmsh ended before the work was done"),
+                ("cannot", "Point(1)={0,0,0};\n", "Gmsh cannot read"),
+                ("crash", SHOE + "Mesh.Algorithm=8; Mesh.RecombineAll=1;\n"
+                 "Point(7)={0,0,0}; Line(8)={1,7}; Line(9)={7,2}; Curve Loop(3)={8,9,-1};\n"
+                 "Plane Surface(3)={3};\n", "Gmsh")):
+            with self.subTest(name):
+                (self.folder / "shoe.geo").write_text(text)
+                scene_file = self.folder / "shoe.prm"
+                scene_file.write_text(SHOE_SCENE)
+                result = subprocess.run(
+                    [program_path("ricochet"), str(scene_file), "--output-dir", "out"],
+                    capture_output=True, text=True, cwd=self.folder)
+                self.assertEqual(result.returncode, 1, msg=result.stdout + result.stderr)
+                self.assertIn("cannot be taken", result.stderr)
+                self.assertIn(message, result.stderr)
 
     def test_contact_of_several_boundaries(self):
         """The force of a contact is that of all its boundaries: it pushes the block."""
@@ -384,12 +412,15 @@ end
                                delta=1e-9)
         self.assertGreater(ledger["energy"][-1], impulse**2 / 2. / mass * .99)
         # A block that spins about its middle, wherever it is.
-        spinning = self.scene(BLOCK, "Body block/Spin=1", "Body block/Translation=3, 5",
+        turn = "subsection Probe turn\n  set Body = block\n  set Quantity = rotation\nend\n"
+        spinning = self.scene(BLOCK + turn, "Body block/Spin=1", "Body block/Translation=3, 5",
                               "Time/Final time=0.01", name="spinning")
         self.assertAlmostEqual(spinning["momentum_x"][0], 0., delta=1e-9)
         self.assertAlmostEqual(spinning["momentum_y"][0], 0., delta=1e-9)
         self.assertAlmostEqual(spinning["energy"][0], .5 * mass * (4. + 1.) / 12.,
                                delta=1e-9)
+        self.assertAlmostEqual(spinning["turn_rotation"][0], 0., delta=1e-13)
+        self.assertAlmostEqual(spinning["turn_rotation"][-1], .01, delta=1e-5)
         # The same as a force per mass.
         body = BLOCK + """
 subsection Condition walls
@@ -438,6 +469,10 @@ subsection Probe hold
   set Body     = block: left
   set Quantity = impulse
 end
+subsection Probe pulled
+  set Body     = block: right
+  set Quantity = force
+end
 """
         ledger = self.scene(text, "Time/Time step=4", "Time/Final time=400")
         # The force is the stress over a side of 1 m; its integral over time, by hand.
@@ -446,7 +481,13 @@ end
         self.assertAlmostEqual(ledger["hold_impulse_x"][-1],
                                ledger["momentum_x"][-1] - ledger["pull_impulse_x"][-1],
                                delta=1e-6 * 4e4)
+        # Of each step, the force is what the impulse grows by.
+        self.assertEqual(ledger["pulled_force_x"][0], 0.)
+        for force, grown in zip(ledger["pulled_force_x"][1:],
+                                increments(ledger["pull_impulse_x"])):
+            self.assertAlmostEqual(4. * force, grown, delta=1e-9 * 4e4)
         strain = .02
+        self.assertAlmostEqual(ledger["pulled_force_x"][-1], 1e4 * strain, delta=.5)
         self.assertAlmostEqual(ledger["stress_stress_xx"][-1], 1e4 * strain, delta=.5)
         self.assertAlmostEqual(ledger["imposed_work"][-1], .5 * 1e4 * strain**2 * 2.,
                                delta=1e-3)

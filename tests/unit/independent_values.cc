@@ -22,12 +22,14 @@
 #include <materials/laws/neo_hookean.h>
 #include <materials/laws/saint_venant_kirchhoff.h>
 #include <materials/material_parameters.h>
+#include <output/mean_rotation.h>
 #include <output/momenta.h>
 #include <problems/impact.h>
 
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/grid/grid_generator.h>
+#include <deal.II/physics/transformations.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -787,6 +789,69 @@ BOOST_AUTO_TEST_CASE(momenta_of_a_box)
                      l = momenta.angular(body.make_vector(), velocity);
   BOOST_CHECK_SMALL((p - Tensor<1, 3>({0., -9., 6.})).norm(), 1e-12);
   BOOST_CHECK_SMALL((l - Tensor<1, 3>({22., -3., -4.5})).norm(), 1e-12);
+}
+
+
+BOOST_AUTO_TEST_CASE(rotation_of_a_box)
+{
+  // A box that is stretched along its own axes and then turned, and moved: exactly the
+  // rotation that was given, however large.
+  const Block<3>        block({0., 0., 1.}, {1., 2., 2.}, {1, 2, 1});
+  const auto            body = block.body({4});
+  const Matrix          mass = assemble_mass_matrix(body, 2.);
+  const MeanRotation<3> rotation(body, mass, 1, 0, 1);
+  Tensor<1, 3>          axis({2., -1., 2.});
+  axis /= axis.norm();
+  for (const double angle : {0., 1e-9, .3, 2., 3.1415926, dealii::numbers::PI})
+    {
+      const Tensor<2, 3> turn =
+        dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
+          Point<3>(axis),
+          angle);
+      std::vector<std::function<double(const Point<3> &)>> displacement;
+      for (unsigned int c = 0; c < 3; ++c)
+        displacement.emplace_back([=](const Point<3> &x) {
+          const Tensor<1, 3> stretched({1.3 * x[0], .8 * x[1], x[2]});
+          return (turn * stretched)[c] - x[c] + 5.;
+        });
+      const Tensor<1, 3> found =
+        rotation.vector(interpolated<3>(body, displacement));
+      // At half a turn both directions of the axis are right.
+      const double sign = found * axis < 0. ? -1. : 1.;
+      BOOST_CHECK_SMALL((sign * found - angle * axis).norm(), 1e-7);
+      if (angle < 3.)
+        {
+          BOOST_CHECK_EQUAL(sign, 1.);
+          BOOST_CHECK_SMALL((found - angle * axis).norm(), 1e-12);
+        }
+    }
+  // What is turned inside out has none.
+  BOOST_CHECK_EQUAL(
+    rotation
+      .vector(interpolated<3>(body,
+                              {[](const Point<3> &x) { return -2. * x[0]; },
+                               [](const Point<3> &) { return 0.; },
+                               [](const Point<3> &) { return 0.; }}))
+      .norm(),
+    0.);
+
+  const Block<2>        plate({0., 0.}, {2., 1.}, {2, 1});
+  const auto            flat      = plate.body({3});
+  const Matrix          flat_mass = assemble_mass_matrix(flat, 3.);
+  const MeanRotation<2> flat_rotation(flat, flat_mass, 1, 0, 1);
+  for (const double angle : {-3., -.5, 0., 1.})
+    BOOST_CHECK_SMALL(flat_rotation.vector(
+                        interpolated<2>(flat,
+                                        {[=](const Point<2> &x) {
+                                           return std::cos(angle) * x[0] -
+                                             std::sin(angle) * x[1] - x[0];
+                                         },
+                                         [=](const Point<2> &x) {
+                                           return std::sin(angle) * x[0] +
+                                             std::cos(angle) * x[1] - x[1];
+                                         }}))[2] -
+                        angle,
+                      1e-13);
 }
 
 

@@ -40,7 +40,7 @@ namespace Ricochet
         if (!std::isfinite(numbers[c]))
           throw ComputationError(
             "The motion of an obstacle is not finite at t = " + to_text(time) +
-            " s.");
+            ".");
       }
     return {Tensor<1, 3>({numbers[0], numbers[1], numbers[2]}), numbers[3]};
   }

@@ -489,10 +489,10 @@ namespace Ricochet
       throw InputError(
         parameters.section +
         "/Nitsche gamma0 = " + to_text(parameters.nitsche_gamma_0) +
-        " Pa is too small for theta = " + to_text(theta) +
+        " is too small for theta = " + to_text(theta) +
         ", this material and this mesh: the method is not stable. It must be "
         "larger than " +
-        to_text(bound) + " Pa.");
+        to_text(bound) + ".");
     }
   } // namespace
 

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/child_process.h>
+#include <base/exceptions.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <new>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace Ricochet
+{
+  namespace
+  {
+    enum ExitCode
+    {
+      failed        = 1,
+      out_of_memory = 2,
+      // What a library's own exit() cannot be taken for.
+      good_end = 77
+    };
+
+    void
+    prepare_child()
+    {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      // MPI's handlers would print pages about a crash.
+      for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL})
+        std::signal(signal, SIG_DFL);
+      const rlimit no_core = {0, 0};
+      setrlimit(RLIMIT_CORE, &no_core);
+      const rlim_t memory = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) *
+        sysconf(_SC_PAGE_SIZE) / 5 * 4;
+      const rlimit most = {memory, memory};
+      setrlimit(RLIMIT_AS, &most);
+      const int nowhere = open("/dev/null", O_WRONLY);
+      dup2(nowhere, STDOUT_FILENO);
+      dup2(nowhere, STDERR_FILENO);
+    }
+
+    /// @return the message of an exception, in a few kilobytes at most.
+    ExitCode
+    run_task(const std::function<void()> &task, std::string &message)
+    {
+      try
+        {
+          task();
+          return good_end;
+        }
+      catch (const std::bad_alloc &)
+        {
+          return out_of_memory;
+        }
+      catch (const std::exception &problem)
+        {
+          message = std::string(problem.what()).substr(0, 4000);
+          return failed;
+        }
+    }
+
+    std::string
+    read_all(const int file)
+    {
+      std::string            text;
+      std::array<char, 4096> buffer;
+      while (true)
+        {
+          const ssize_t n = read(file, buffer.data(), buffer.size());
+          if (n > 0)
+            text.append(buffer.data(), n);
+          else if (n == 0 || errno != EINTR)
+            return text;
+        }
+    }
+  } // namespace
+
+
+
+  void
+  run_apart(const std::string &who, const std::function<void()> &task)
+  {
+    std::array<int, 2> pipe_ends;
+    if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
+      throw ComputationError("No pipe can be made for " + who + ": " +
+                             std::strerror(errno) + ".");
+    const pid_t child = fork();
+    if (child < 0)
+      {
+        close(pipe_ends[0]);
+        close(pipe_ends[1]);
+        throw ComputationError("No process can be made for " + who + ": " +
+                               std::strerror(errno) + ".");
+      }
+    if (child == 0)
+      {
+        close(pipe_ends[0]);
+        prepare_child();
+        std::string    message;
+        const ExitCode code = run_task(task, message);
+        const ssize_t  written =
+          write(pipe_ends[1], message.data(), message.size());
+        // Without the ends of MPI and of static objects, which are the parent's.
+        _exit(written == static_cast<ssize_t>(message.size()) ? code : failed);
+      }
+    close(pipe_ends[1]);
+    const std::string message = read_all(pipe_ends[0]);
+    close(pipe_ends[0]);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+      ;
+
+    if (WIFSIGNALED(status))
+      throw InputError(who + " crashed (" + strsignal(WTERMSIG(status)) + ").");
+    switch (WEXITSTATUS(status))
+      {
+        case good_end:
+          return;
+        case out_of_memory:
+          throw InputError(who +
+                           " ran out of memory: the mesh would be too fine.");
+        case failed:
+          if (!message.empty())
+            throw InputError(message);
+          [[fallthrough]];
+        default:
+          throw InputError(who + " ended before the work was done.");
+      }
+  }
+} // namespace Ricochet
