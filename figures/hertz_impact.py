@@ -14,7 +14,6 @@ whose ball lacks 4 % of its mass, within 5 %.
 """
 
 import argparse
-import csv
 import math
 import pathlib
 import re
@@ -22,29 +21,39 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
-FILES = ROOT / "parameter_files"
+from shared import CHECKOUT, interpreter
+
+interpreter.need("numpy")
+
+from ricochet import read_table  # noqa: E402
+
+FILES = CHECKOUT / "parameter_files"
 
 
 def run(program, file, parameters=()):
-    """The columns of the ledger, by name without unit, and the log."""
+    """The table of the ledger, and the log."""
     with tempfile.TemporaryDirectory() as folder:
-        command = [str(program), str(file), "--output-dir", folder,
-                   "--set", "Output/Fields every=0", "--set", "Output/Log every=0"]
+        command = [
+            str(program),
+            str(file),
+            "--output-dir",
+            folder,
+            "--set",
+            "Output/Fields every=0",
+            "--set",
+            "Output/Log every=0",
+        ]
         for parameter in parameters:
             command += ["--set", parameter]
         log = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-        with open(pathlib.Path(folder) / "energy.csv", newline="") as lines:
-            rows = list(csv.reader(lines))
-    return ({name.split()[0]: [float(row[c] or "nan") for row in rows[1:]]
-             for c, name in enumerate(rows[0])}, log)
+        return read_table(pathlib.Path(folder) / "energy.csv"), log
 
 
 def hertz(modulus, radius, mass, speed):
     """Largest force and duration."""
     stiffness = 4 / 3 * modulus * math.sqrt(radius)
-    approach = (5 * mass * speed ** 2 / (4 * stiffness)) ** .4
-    return stiffness * approach ** 1.5, 2.9432 * approach / speed
+    approach = (5 * mass * speed**2 / (4 * stiffness)) ** 0.4
+    return stiffness * approach**1.5, 2.9432 * approach / speed
 
 
 def duration(ledger, force):
@@ -52,8 +61,8 @@ def duration(ledger, force):
     time, least = ledger["time"], max(force) / 200
 
     def passed(n):
-        return time[n] + ((least - force[n]) / (force[n + 1] - force[n]) *
-                          (time[n + 1] - time[n]))
+        return time[n] + ((least - force[n]) / (force[n + 1] - force[n]) * (time[n + 1] - time[n]))
+
     first = next(n for n in range(len(force)) if force[n + 1] > least)
     last = max(n for n in range(len(force) - 1) if force[n] > least)
     return passed(last) - passed(first)
@@ -61,9 +70,10 @@ def duration(ledger, force):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--build-dir", default=str(ROOT / "build/release"))
-    parser.add_argument("--quick", action="store_true",
-                        help="one mesh of the ball on curved cells only")
+    parser.add_argument("--build-dir", default=str(CHECKOUT / "build/release"))
+    parser.add_argument(
+        "--quick", action="store_true", help="one mesh of the ball on curved cells only"
+    )
     arguments = parser.parse_args()
     programs = pathlib.Path(arguments.build_dir)
     failed = []
@@ -79,55 +89,79 @@ def main():
         print(f"| {name} | {unknowns} | " + " | ".join(parts) + " |", flush=True)
 
     # E = mu (3 lambda + 2 mu) / (lambda + mu) = 50, nu = 1/4.
-    force, time = hertz(50 / (1 - 1 / 16), 20, 4 / 3 * math.pi * 20 ** 3, 1.18e-3)
-    print(f"| impact | unknowns | largest force ({force:.4g}) | duration ({time:.4g}) "
-          "| energy in vibrations |\n|---|---|---|---|---|")
-    for size in (.16,) if arguments.quick else (.32, .16, .08):
+    force, time = hertz(50 / (1 - 1 / 16), 20, 4 / 3 * math.pi * 20**3, 1.18e-3)
+    print(
+        f"| impact | unknowns | largest force ({force:.4g}) | duration ({time:.4g}) "
+        "| energy in vibrations |\n|---|---|---|---|---|"
+    )
+    for size in (0.16,) if arguments.quick else (0.32, 0.16, 0.08):
         for curved in ("true",) if arguments.quick else ("false", "true"):
-            ledger, log = run(programs / "sphere", FILES / "sphere/hertz.prm",
-                              [f"Mesh/Mesh size where it touches={size}",
-                               f"Mesh/Curved cells={curved}"])
-            row(f"ball on a plane, {'curved' if curved == 'true' else 'straight'}, "
-                f"{size} m", log,
-                ((max(ledger["contact_force_foundation"]), force),
-                 (duration(ledger, ledger["contact_force_foundation"]), time)),
-                .03 if curved == "true" else .05)
-            print(f"  left in vibrations: "
-                  f"{ledger['elastic_energy'][-1] / ledger['energy'][0]:.1e}")
+            ledger, log = run(
+                programs / "sphere",
+                FILES / "sphere/hertz.prm",
+                [f"Mesh/Mesh size where it touches={size}", f"Mesh/Curved cells={curved}"],
+            )
+            row(
+                f"ball on a plane, {'curved' if curved == 'true' else 'straight'}, " f"{size} m",
+                log,
+                (
+                    (max(ledger["contact_force_foundation"]), force),
+                    (duration(ledger, ledger["contact_force_foundation"]), time),
+                ),
+                0.03 if curved == "true" else 0.05,
+            )
+            print(
+                f"  left in vibrations: "
+                f"{ledger['elastic_energy'][-1] / ledger['energy'][0]:.1e}"
+            )
     if arguments.quick:
         sys.exit(1 if failed else 0)
 
-    force, time = hertz(1e6 / (2 * (1 - .09)), .5, 1000 * 2 / 3 * math.pi, 2 * 5.366e-3)
+    force, time = hertz(1e6 / (2 * (1 - 0.09)), 0.5, 1000 * 2 / 3 * math.pi, 2 * 5.366e-3)
     print(f"two balls: largest force {force:.4g} N, duration {time:.4g} s")
-    for size in (.016, .008):
-        ledger, log = run(programs / "colliding_spheres",
-                          FILES / "colliding_spheres/hertz.prm",
-                          [f"Spheres/Mesh size where they touch={size}"])
-        row(f"two balls, {size} m", log,
-            ((max(ledger["contact_force_spheres"]), force),
-             (duration(ledger, ledger["contact_force_spheres"]), time)), .03)
+    for size in (0.016, 0.008):
+        ledger, log = run(
+            programs / "colliding_spheres",
+            FILES / "colliding_spheres/hertz.prm",
+            [f"Spheres/Mesh size where they touch={size}"],
+        )
+        row(
+            f"two balls, {size} m",
+            log,
+            (
+                (max(ledger["contact_force_spheres"]), force),
+                (duration(ledger, ledger["contact_force_spheres"]), time),
+            ),
+            0.03,
+        )
 
     # What friction gives, by what the pressure gives: rigid spheres that slide get mu
     # of it, and a spin of 5/2 of that by the radius.
-    ledger, log = run(programs / "colliding_spheres",
-                      FILES / "colliding_spheres/sliding_spin.prm")
-    change = {c: ledger[f"momentum_{c}_right"][-1] - ledger[f"momentum_{c}_right"][0]
-              for c in "xy"}
+    ledger, log = run(programs / "colliding_spheres", FILES / "colliding_spheres/sliding_spin.prm")
+    change = {c: ledger[f"momentum_{c}_right"][-1] - ledger[f"momentum_{c}_right"][0] for c in "xy"}
     velocity = float(re.search(r"velocity_x_right +(\S+)", log).group(1)) + 1
     spin = float(re.search(r"spin_z_right +(\S+)", log).group(1))
-    row("sliding spin: tangential impulse by 0.1 normal, spin by its rigid one", log,
-        ((change["y"] / (.1 * change["x"]), 1.), (spin / (-2.5 * .1 * velocity), 1.)),
-        .03)
-    ledger, log = run(programs / "colliding_spheres",
-                      FILES / "colliding_spheres/sliding_spin.prm",
-                      ["Contact/Friction coefficient=1",
-                       "Spheres/Spin of the left sphere=0, 0, 2"])
-    value = {name: float(re.search(rf"{name} +(\S+)", log).group(1))
-             for name in ("velocity_y_left", "velocity_y_right", "spin_z_left",
-                          "spin_z_right")}
-    print("sticking: the surfaces slide on each other at 2 m/s before and at "
-          f"{value['velocity_y_left'] + value['spin_z_left'] - value['velocity_y_right'] + value['spin_z_right']:.2f}"
-          " m/s after it")
+    row(
+        "sliding spin: tangential impulse by 0.1 normal, spin by its rigid one",
+        log,
+        ((change["y"] / (0.1 * change["x"]), 1.0), (spin / (-2.5 * 0.1 * velocity), 1.0)),
+        0.03,
+    )
+    ledger, log = run(
+        programs / "colliding_spheres",
+        FILES / "colliding_spheres/sliding_spin.prm",
+        ["Contact/Friction coefficient=1", "Spheres/Spin of the left sphere=0, 0, 2"],
+    )
+    value = {
+        name: float(re.search(rf"{name} +(\S+)", log).group(1))
+        for name in ("velocity_y_left", "velocity_y_right", "spin_z_left", "spin_z_right")
+    }
+    left = value["velocity_y_left"] + value["spin_z_left"]
+    right = value["velocity_y_right"] - value["spin_z_right"]
+    print(
+        "sticking: the surfaces slide on each other at 2 m/s before and at "
+        f"{left - right:.2f} m/s after it"
+    )
     if failed:
         sys.exit("not within the bounds: " + ", ".join(failed))
 

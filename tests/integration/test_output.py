@@ -53,12 +53,12 @@ class Output(ProgramTest):
         body point up, gaps are heights above the foundation."""
         sys.path.insert(0, str(ROOT / "figures"))
         try:
-            import vtu
+            from shared import meshes
         except ImportError:
-            self.skipTest("numpy (Debian's python3-numpy) is missing")
+            self.skipTest("NumPy or VTK (Debian's python3-numpy, python3-vtk9) is missing")
         ledger = self.run_program("elastic_ball", BALL + [
             "Time/Final time=0.01", "Output/Fields every=10"])
-        points, _, fields = vtu.read(
+        points, _, fields = meshes.read(
             self.folder / "run" / "solution" / "step-000010.vtu")
         force = fields["contact_force"].sum(axis=0)
         self.assertGreater(ledger["contact_force_foundation"][-1], 0)

@@ -13,12 +13,11 @@ from common import *
 sys.path.insert(0, str(ROOT / "figures"))
 try:
     import numpy as np
-    import overlap
-    import vtu
+    from shared import meshes, overlap
 except ImportError:
     np = None
 needs_numpy = unittest.skipIf(np is None,
-                              "numpy (Debian's python3-numpy) is missing")
+                              "NumPy or VTK (Debian's python3-numpy, python3-vtk9) is missing")
 
 DT, RADIUS, INNER_RADIUS = 1e-2, 10., 9.
 SELF = "Contact/Self=true"
@@ -219,7 +218,7 @@ class Nodes(SelfContactTest):
                 deepest = max(self.depths(self.shared_run(name)))
                 fastest = 0.
                 for _, file in self.pictures(name):
-                    velocity = vtu.read(file)[2]["velocity"]
+                    velocity = meshes.read(file)[2]["velocity"]
                     velocity = velocity - velocity.mean(axis=0)
                     fastest = max(fastest,
                                   np.linalg.norm(velocity, axis=1).max())
@@ -244,7 +243,7 @@ class Nodes(SelfContactTest):
 @needs_numpy
 class Outline(SelfContactTest):
     """Where the ring covers itself, found in its pictures without the program's help
-    (figures/overlap.py). They have single precision."""
+    (figures/shared/overlap.py). They have single precision."""
 
     ROUND_OFF = 1e-5
 
@@ -286,7 +285,7 @@ class Outline(SelfContactTest):
         """Two circles, of which the inner one goes around clockwise."""
         step, file = self.pictures("without")[0]
         self.assertEqual(step, 0)
-        points, cells, _ = vtu.read(file)
+        points, cells, _ = meshes.read(file)
         lines = [points[line] for line in overlap.outlines(points, cells)]
         self.assertEqual([len(line) for line in lines], [64, 64])
         areas = sorted(overlap.cross(line, np.roll(line, -1, axis=0)).sum() / 2

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""1D-SD, penetration of the penalty method and of Nitsche's.
+
+Displacement of the left end near the obstacle, Crank-Nicolson with consistent mass; the obstacle
+is at 0. Right: the first contact, with the mean over its nodes (dotted).
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from shared.figure import Figure, check
+from shared.paper_numbers import numbers
+
+from .common import PLAIN, TREATMENTS, bar_run
+from .exact import FINAL_TIME, SD
+from .panels import draw_exact
+from .rows import checks_of_runs
+
+PAPER = numbers("C.figure_7")
+RUNS = {curve.key: bar_run(SD, 7, curve) for curve in TREATMENTS}
+# The nodes of the first contact: t = 1.00, 1.05, ..., 2.10.
+FIRST_CONTACT = slice(20, 43)
+
+
+def mean_displacement(key):
+    return RUNS[key].read()["displacement_left"][FIRST_CONTACT].mean()
+
+
+def draw():
+    figure, (whole, zoom) = plt.subplots(1, 2, figsize=(12, 4.2))
+    end = SD.ends[0]
+    time = np.arange(FINAL_TIME + 1)
+    for panel in (whole, zoom):
+        panel.axhline(0, color="0.6", linewidth=0.6)
+        draw_exact(panel, time, end.displacement_at(time))
+        panel.set_xlabel("time (s)")
+    for curve in TREATMENTS:
+        table = RUNS[curve.key].read()
+        for panel in (whole, zoom):
+            panel.plot(
+                table["time"],
+                table["displacement_left"],
+                color=curve.colour,
+                marker="." if panel is zoom else None,
+                label=curve.label,
+                zorder=3,
+            )
+        zoom.plot(
+            [1, 2.1],
+            [mean_displacement(curve.key)] * 2,
+            color=curve.colour,
+            linestyle=":",
+            linewidth=1.6,
+            label=f"{curve.label}, mean: {1e3 * mean_displacement(curve.key):.2f} mm",
+        )
+    whole.set(xlim=(0, FINAL_TIME), ylim=(-0.015, 0.05), ylabel="displacement of the left end (m)")
+    whole.set_title("four periods, near the obstacle")
+    zoom.set(xlim=(0.9, 2.25), ylim=(-0.0125, 0.0175), title="first contact")
+    figure.tight_layout()
+    figure.legend(
+        *zoom.get_legend_handles_labels(), loc="lower center", bbox_to_anchor=(0.5, 0.98), ncol=5
+    )
+    return figure
+
+
+def checks():
+    rows = []
+    for key in RUNS:
+        paper = PAPER[key]
+        mean = mean_displacement(key)
+        rows.append(
+            check(
+                f"mean displacement in the first contact, {PLAIN[key]} (m)",
+                f"{mean:.3e}",
+                float(f"{mean:.1e}") == paper,
+                "equal to the digits printed; t = 1.00 ... 2.10",
+                paper=f"{paper:.1e}",
+                exact="0",
+            )
+        )
+    largest = {key: run.read()["penetration_left"].max() for key, run in RUNS.items()}
+    rows.append(
+        check(
+            "largest penetration: Nitsche, penalty (m)",
+            f"{largest['nitsche']:.2e}, {largest['penalty']:.2e}",
+            largest["nitsche"] < largest["penalty"],
+            "less with Nitsche's method",
+            paper="Nitsche less",
+            exact="0",
+        )
+    )
+    return rows + checks_of_runs(SD, RUNS.values())
+
+
+FIGURE = Figure("C-7", __doc__, list(RUNS.values()), draw, checks)

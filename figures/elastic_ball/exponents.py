@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The exponent of improved normal compliance: figures A-8 and A-9."""
+
+from shared.curves import curve, energy_axes, fill
+from shared.measures import energy
+from shared.methods import INC, SCALE, SNC
+from shared.rows import constant_row, recovered_row
+
+from .common import AGAINST, STEP
+
+BY_EXPONENT = (SNC, INC[2], INC[3], INC[4], INC[5])
+EXPONENT_COLOURS = dict(zip((m.key for m in BY_EXPONENT), ("#000000", *SCALE)))
+
+
+def draw_exponents(runs, bands, step, limits):
+    figure, axes = energy_axes()
+    for method in BY_EXPONENT:
+        colour = EXPONENT_COLOURS[method.key]
+        fill(axes, bands[method.key], energy, STEP[step][1], colour)
+        curve(axes, runs[method.key], energy, STEP[step][1], colour, method.label)
+    axes.set_xlabel(AGAINST)
+    axes.set_xlim(*limits)
+    axes.legend(fontsize=8, loc="lower right")
+    return figure
+
+
+def checks_exponents(runs, bands, snc):
+    rows = [snc]
+    for alpha in (2, 3, 4, 5):
+        group = [runs[INC[alpha].key], *bands[INC[alpha].key]]
+        rows.append(recovered_row(INC[alpha].name, group))
+    everything = [r for m in BY_EXPONENT for r in (runs[m.key], *bands[m.key])]
+    inc = [r for m in BY_EXPONENT[1:] for r in (runs[m.key], *bands[m.key])]
+    rows.append(constant_row("INC", inc, "modified_energy", "-"))
+    return rows, everything
+
+
+def runs_and_bands(runs, bands):
+    """The runs of a figure."""
+    return [r for m in BY_EXPONENT for r in (runs[m.key], *bands[m.key])]

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Elastic ball: largest penetration.
+
+Largest penetration with steps of 1 ms, for ten positions of the impact within a step, beside
+table 1 of the paper.
+"""
+
+from shared.curves import table_image
+from shared.figure import Figure, check
+from shared.measures import penetration, span
+from shared.methods import INC, PERSISTENT, SIGNORINI, SNC, TWO_STEP
+from shared.paper_numbers import numbers
+from shared.rows import checks_of_runs, factor_row
+
+from .common import FINE, FINE_BAND, with_bands
+
+PAPER = numbers("A.table_1")
+METHODS = (SIGNORINI, TWO_STEP, PERSISTENT, SNC, INC[2], INC[3])
+RUNS = with_bands(METHODS, FINE, FINE_BAND)
+
+
+def draw():
+    rows = []
+    for method in METHODS:
+        paper = PAPER[method.key]
+        values = [penetration(r) for r in FINE_BAND[method.key]]
+        middle = penetration(FINE[method.key])
+        rows.append([method.name, f"{paper:.2e}", span(values), f"{middle:.2e}"])
+    return table_image(
+        ["method", "paper (m)", "ours, ten positions (m)", "ours, middle of a step (m)"],
+        rows,
+        [0.2, 0.2, 0.33, 0.33],
+    )
+
+
+def checks():
+    rows = []
+    for method in METHODS:
+        paper = PAPER[method.key]
+        values = [penetration(r) for r in FINE_BAND[method.key]]
+        if method is SIGNORINI:
+            rows.append(
+                check(
+                    "largest penetration, Signorini (m)",
+                    f"{max(values):.1e}",
+                    max(values) < 1e-12,
+                    "< 1e-12, round-off",
+                    "0",
+                    "0",
+                )
+            )
+        else:
+            rows.append(factor_row(method.name, values, paper, "no position comes within it"))
+    return rows + checks_of_runs(RUNS)
+
+
+FIGURE = Figure("A-T1", __doc__, RUNS, draw, checks)

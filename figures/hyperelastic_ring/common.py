@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the figures of the ring share: runs of the methods, curves, what is lost and where to."""
+
+from shared.curves import curve
+from shared.figure import check
+from shared.measures import energy, lost
+from shared.methods import INC, PERSISTENT, SIGNORINI, SNC, TWO_STEP, band
+from shared.runs import QUIET, Run
+
+GAP = 0.55  # m, of default.prm
+AGAINST = "time since the ring touches (s)"
+
+
+def run(figure, key, file=None, overrides=(), cost=3.0):
+    """A run; the file is figure_FIGURE_KEY.prm unless it is named."""
+    file = file or f"figure_{figure[0]}{int(figure[2:]):02}_{key}.prm"
+    return Run(
+        figure,
+        key,
+        "hyperelastic_ring",
+        f"hyperelastic_ring/{file}",
+        (*QUIET, *overrides),
+        cost=cost,
+    )
+
+
+METHODS = (SIGNORINI, SNC, TWO_STEP, INC[2], PERSISTENT)
+FULL = {method.key: run("A-11", method.key, cost=20) for method in METHODS}
+COARSE = {m.key: run("A-11", f"{m.key}_coarse") for m in (SIGNORINI, SNC, TWO_STEP, PERSISTENT)}
+COARSE.update({INC[a].key: run("A-13", INC[a].key) for a in (2, 3, 4, 5)})
+BANDS = {
+    key: band(COARSE[key], 5, 1e-2, 2)
+    for key in ("signorini", "snc", "two_step", "persistent", "inc2", "inc3")
+}
+EXPONENTS = (2, 3, 4, 5)
+
+
+def draw_lines(axes, runs, start=GAP):
+    """Curves, from a list of run, colour and label."""
+    for one, colour, label in runs:
+        curve(axes, one, energy, start, colour, label, 1.0)
+    axes.set_xlabel(AGAINST)
+    axes.legend(fontsize=8)
+
+
+def share_row(name, one, *columns):
+    """What is lost is what friction and viscosity took."""
+    table = one.read()
+    taken = sum(table[column][-1] for column in columns) / table["energy"][0]
+    error = abs(taken - lost(one))
+    return check(
+        f"{name}: energy lost less the work of {' and '.join(c.split('_')[0] for c in columns)}",
+        f"{error:.1e}",
+        error < 1e-9,
+        "< 1e-9 of the energy: nothing else dissipates",
+        exact="0",
+    )
+
+
+def rigid_loss(mu):
+    """Energy that a rigid ring loses that rebounds with the speed it came with.
+
+    It slides with friction mu until it rolls; the two components of its velocity are equal.
+    """
+    inertia = (9**2 + 10**2) / (2 * 10**2)  # over mass and outer radius squared
+    impulse = min(2 * mu, inertia / (1 + inertia))  # over mass and speed
+    return (1 - (1 - impulse) ** 2 - impulse**2 / inertia) / 2
+
+
+def rigid_row(name, mu, one, paper="-"):
+    """A soft ring rebounds more slowly, as it vibrates: it loses less than a rigid one."""
+    rigid = rigid_loss(mu)
+    return check(
+        f"{name}: energy lost, and by a rigid ring that rebounds elastically",
+        f"{100 * lost(one):.2f} %, {100 * rigid:.2f} %",
+        0.5 * rigid < lost(one) < rigid,
+        "between half of the rigid ring's and all of it",
+        paper,
+    )

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Figures and checks: what the file of a figure is made of."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+# What a row of the table can say.
+YES = "yes"  # the number meets its criterion
+NO = "NO"  # it does not: make.py fails
+NOTE = "note"  # a statement of the paper that our data do not bear out
+INFO = "info"  # a number without a criterion
+
+
+@dataclass
+class Check:
+    """A number of a figure, beside the paper's and the exact one."""
+
+    quantity: str
+    ours: str
+    status: str
+    paper: str = "-"
+    exact: str = "-"
+    criterion: str = ""  # what was asked of the number
+    figure: str = ""  # filled in by make.py
+
+
+def check(quantity, ours, passed, criterion, paper="-", exact="-"):
+    """A row that fails when `passed` is false."""
+    return Check(quantity, ours, YES if passed else NO, paper, exact, criterion)
+
+
+def note(quantity, ours, remark, paper="-", exact="-"):
+    """A row on a statement of the paper that does not hold here."""
+    return Check(quantity, ours, NOTE, paper, exact, remark)
+
+
+def info(quantity, ours, paper="-", exact="-", remark=""):
+    """A row that reports a number."""
+    return Check(quantity, ours, INFO, paper, exact, remark)
+
+
+@dataclass
+class Figure:
+    """A figure of a paper, or one of our own.
+
+    `text` is the docstring of its file: the title, an empty line, the caption. `draw()`
+    returns a matplotlib figure, `checks()` a list of rows. Both read the results of `runs`,
+    which are there when they are called.
+    """
+
+    name: str  # paper and number, such as C-6; D, O, R, S for those of no paper
+    text: str
+    runs: list
+    draw: Callable
+    checks: Callable = list
+    timed: bool = False  # shows seconds: made by its name or "timed" only, one run at a time
+    animate: Callable | None = None  # `animate(path)` writes a GIF
+
+    @property
+    def title(self):
+        return self.text.partition("\n\n")[0].strip().removesuffix(".")
+
+    @property
+    def caption(self):
+        return " ".join(self.text.partition("\n\n")[2].split())
+
+    @property
+    def is_short(self):
+        """Whether its runs take less than a quarter of a minute, all of them together."""
+        return not self.timed and not self.animate and sum(run.cost for run in self.runs) < 15
+
+    @property
+    def image(self):
+        return f"{self.name}.png"
+
+    @property
+    def animation(self):
+        return f"{self.name}.gif" if self.animate else None

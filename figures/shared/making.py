@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Makes figures: runs what is missing, draws, checks, and writes table and page."""
+
+import collections
+import time
+
+import matplotlib.pyplot as plt
+
+from . import report, runs
+from .figure import NO, NOTE, YES
+
+LOOK = {
+    "figure.dpi": 100,
+    "savefig.dpi": 160,
+    "font.size": 10,
+    "axes.titlesize": 11,
+    "axes.grid": True,
+    "grid.color": "0.9",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "legend.frameon": False,
+    "lines.linewidth": 1.2,
+}
+
+
+def _draw(figure, folder):
+    """Write the image of a figure, and its animation."""
+    image = figure.draw()
+    image.savefig(folder / figure.image, bbox_inches="tight")
+    plt.close(image)
+    print(f"  output/figures/{figure.image}", flush=True)
+    if figure.animation:
+        figure.animate(folder / figure.animation)
+        print(f"  output/figures/{figure.animation}", flush=True)
+
+
+def make(figures, build_dir, jobs, force):
+    """Make the figures; return whether all numbers are as they should be."""
+    start = time.monotonic()
+    folder = runs.OUTPUT / "figures"
+    folder.mkdir(parents=True, exist_ok=True)
+
+    # Seconds are measured with nothing else at work.
+    for timed in (False, True):
+        wanted = [run for figure in figures if figure.timed == timed for run in figure.runs]
+        if wanted:
+            runs.ensure(wanted, build_dir, 1 if timed else jobs, force)
+
+    plt.rcParams.update(LOOK)
+    checks = []
+    for figure in figures:
+        _draw(figure, folder)
+        for check in figure.checks():
+            check.figure = figure.name
+            checks.append(check)
+
+    report.write_csv(checks, folder / "checks.csv")
+    report.write_html(figures, checks, folder / "index.html")
+    print()
+    report.print_table(checks)
+    count = collections.Counter(check.status for check in checks)
+    print(
+        f"\n{count[YES]} checks passed, {count[NO]} failed, {count[NOTE]} notes; "
+        f"{time.monotonic() - start:.0f} s; see output/figures/index.html"
+    )
+    return count[NO] == 0

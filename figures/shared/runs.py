@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs of the programs: what to run, running it once, reading what it wrote."""
+
+import concurrent.futures
+import hashlib
+import json
+import os
+import threading
+import time
+from dataclasses import dataclass
+
+import ricochet
+from ricochet import RicochetError, prm, programs, read_table
+
+from . import CHECKOUT
+
+OUTPUT = CHECKOUT / "output"
+
+# Overrides of runs for curves, which need no fields for ParaView and no line per
+# step.
+QUIET = ("Output/Fields every=0", "Output/Log every=0")
+
+# Written after a run has ended well, with all that its result depends on.
+STAMP = "finished.json"
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of a program: a curve of a figure, or a point of one.
+
+    `figure` and `curve` name its folder, output/runs/<figure>/<curve>. `cost`
+    is a rough time in seconds: the longest runs start first.
+    """
+
+    figure: str
+    curve: str
+    program: str
+    parameter_file: str = ""  # in parameter_files/; none: the program's defaults
+    overrides: tuple = ()  # "Section/Name=value"
+    table: str = "energy.csv"  # the file that proves that the run wrote something
+    cost: float = 0.3
+
+    @property
+    def name(self):
+        return f"{self.figure}/{self.curve}"
+
+    @property
+    def folder(self):
+        return OUTPUT / "runs" / self.figure / self.curve
+
+    @property
+    def results(self):
+        """What the run has left, as the package reads it."""
+        return ricochet.Run(self.folder)
+
+    def field_file(self, step):
+        """The VTU file of a step."""
+        return self.results.field_file(step).path
+
+    def command(self, build_dir):
+        """The command line, with paths relative to the checkout."""
+        command = [os.path.relpath(build_dir / self.program, CHECKOUT)]
+        if self.parameter_file:
+            command.append(f"parameter_files/{self.parameter_file}")
+        for override in self.overrides:
+            command += ["--set", override]
+        command += [
+            "--quiet",
+            "--overwrite",
+            "--output-dir",
+            str(self.folder.relative_to(CHECKOUT)),
+        ]
+        return command
+
+    def read(self, table=None):
+        """The columns of a CSV table of the run, by their names without units."""
+        return read_table(self.folder / (table or self.table)).columns
+
+
+def _fingerprint(run, build_dir):
+    """All that the result of a run depends on.
+
+    The program and the library count by their time stamps, since a build writes
+    them anew; parameter files by their text, since a checkout touches them.
+    """
+    program = build_dir / run.program
+    if not program.is_file():
+        raise RicochetError(
+            f"There is no program {program}. Build the project, or name the folder "
+            "with the programs by --build-dir."
+        )
+    binaries = [program, *sorted(build_dir.glob("libricochet*"))]
+    parameters = hashlib.sha256()
+    if run.parameter_file:
+        path = CHECKOUT / "parameter_files" / run.parameter_file
+        if not path.is_file():
+            raise RicochetError(f"There is no parameter file {path}, which {run.name} needs.")
+        for file in prm.read(path).files:
+            parameters.update(file.read_bytes())
+    return {
+        "command": run.command(build_dir),
+        "parameters": parameters.hexdigest(),
+        "binaries": {path.name: path.stat().st_mtime_ns for path in binaries},
+    }
+
+
+def _is_finished(run, fingerprint):
+    """Whether the folder of the run holds the end of this very run."""
+    try:
+        stamp = json.loads((run.folder / STAMP).read_text(encoding="utf-8"))
+        size = (run.folder / run.table).stat().st_size
+    except (OSError, ValueError):
+        return False
+    return stamp == {**fingerprint, "size": size}
+
+
+def _execute(run, build_dir, fingerprint):
+    """Run the program; afterwards, and only if all went well, write the stamp."""
+    run.folder.mkdir(parents=True, exist_ok=True)
+    for stale in (STAMP, run.table):
+        (run.folder / stale).unlink(missing_ok=True)
+    # The runs share the cores among them: a run of its own takes one.
+    exit_code, text = programs.execute(run.command(build_dir), CHECKOUT)
+    table = run.folder / run.table
+    if exit_code != 0 or not table.is_file():
+        raise RicochetError(
+            f"The run {run.name} failed (exit code {exit_code}):\n"
+            f"  {' '.join(run.command(build_dir))}\n{text.strip()[-2000:]}"
+        )
+    # The fingerprint was taken before the run: if the program was rebuilt
+    # meanwhile, the stamp does not fit the new one and the run is repeated.
+    stamp = {**fingerprint, "size": table.stat().st_size}
+    (run.folder / STAMP).write_text(json.dumps(stamp, indent=1), encoding="utf-8")
+
+
+def ensure(runs, build_dir, jobs, force=False):
+    """Run what is missing or out of date, `jobs` at a time; print progress."""
+    runs = list({run.folder: run for run in runs}.values())
+    fingerprints = {run: _fingerprint(run, build_dir) for run in runs}
+    todo = [run for run in runs if force or not _is_finished(run, fingerprints[run])]
+    todo.sort(key=lambda run: -run.cost)
+    print(f"{len(runs)} runs, {len(runs) - len(todo)} of them are there already", flush=True)
+
+    done = 0
+    lock = threading.Lock()
+
+    def work(run):
+        nonlocal done
+        start = time.monotonic()
+        _execute(run, build_dir, fingerprints[run])
+        with lock:
+            done += 1
+            seconds = time.monotonic() - start
+            print(f"  [{done:3}/{len(todo)}] {run.name:<42} {seconds:6.1f} s", flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(max_workers=jobs) as pool:
+        futures = [pool.submit(work, run) for run in todo]
+        try:
+            for future in concurrent.futures.as_completed(futures):
+                future.result()
+        except BaseException:
+            # Those that have started end by themselves; no other one starts.
+            for future in futures:
+                future.cancel()
+            raise

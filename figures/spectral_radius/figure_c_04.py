@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Spectral radii of HHT and TR-BDF2.
+
+As figure C-3, with TR-BDF2, whose spectral radius tends to zero.
+"""
+
+import numpy as np
+
+from shared.figure import Figure, check
+
+from .common import ALPHAS, SPECTRUM, order_check, plot_hht, radius_axes
+
+
+def draw():
+    table = SPECTRUM.read()
+    figure, axes = radius_axes()
+    axes.plot(table["omega_tilde"], table["Crank-Nicolson"], "0.4", label=r"$\tilde\alpha = 0$")
+    plot_hht(axes, table, ALPHAS)
+    axes.plot(
+        table["omega_tilde"],
+        table["TR-BDF2"],
+        color="#CC79A7",
+        linewidth=2,
+        label=r"TR-BDF2, $\tilde\gamma = 2 - \sqrt{2}$",
+    )
+    axes.set_ylim(0, 1.03)
+    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
+    return figure
+
+
+def checks():
+    table = SPECTRUM.read()
+    omega, radius = table["omega_tilde"], table["TR-BDF2"]
+    # L-stability: the stability function falls like 1/(omega dt), that is like
+    # omega_tilde^(-1/2). The factor is 2 (1 + sqrt 2) = 4.83: 1.5e-3 at 1e7.
+    far = omega >= 1e5
+    slope = np.polyfit(np.log(omega[far]), np.log(radius[far]), 1)[0]
+    factor = 2 * (1 + np.sqrt(2))
+    return [
+        check(
+            "TR-BDF2: spectral radius at omega = 1e7",
+            f"{radius[-1]:.6f}",
+            abs(radius[-1] * np.sqrt(omega[-1]) / factor - 1) < 1e-3,
+            "within 0.1 % of 2 (1 + sqrt 2)/sqrt(omega), which tends to 0",
+            paper="0 (limit)",
+            exact=f"{factor / np.sqrt(omega[-1]):.6f}",
+        ),
+        check(
+            "TR-BDF2: slope of the radius for omega >= 1e5",
+            f"{slope:.4f}",
+            abs(slope + 0.5) < 1e-3,
+            "within 1e-3 of -1/2: falls to 0, L-stable",
+            exact="-1/2",
+        ),
+        order_check("Crank-Nicolson", 2),
+        order_check("TR-BDF2", 2),
+    ]
+
+
+FIGURE = Figure("C-4", __doc__, [SPECTRUM], draw, checks)

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The figures as they are written down: one file each, found by their names, with what
+they need. What they show is checked by figures/make.py itself."""
+
+from common import *
+
+FIGURES = ROOT / "figures"
+sys.path.insert(0, str(FIGURES))
+
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+    from shared import finding, paper_numbers
+    from ricochet import RicochetError
+except ImportError:
+    matplotlib = None
+
+
+@unittest.skipIf(matplotlib is None, "matplotlib, NumPy or VTK is missing")
+class Figures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.figures = finding.find()
+
+    def test_names(self):
+        """Each file is a figure, and they come in order: figures before tables."""
+        files = [*FIGURES.glob("*/figure_*.py"), *FIGURES.glob("*/table_*.py")]
+        self.assertEqual(len(self.figures), len(files))
+        names = list(self.figures)
+        self.assertEqual(names[:4], ["A-3", "A-4", "A-5", "A-6"])
+        self.assertLess(names.index("A-9"), names.index("A-10"))
+        self.assertLess(names.index("A-15"), names.index("A-T1"))
+        self.assertLess(names.index("A-T4"), names.index("B-3"))
+
+    def test_texts(self):
+        for name, figure in self.figures.items():
+            self.assertTrue(figure.title and figure.caption.endswith("."), name)
+
+    def test_runs(self):
+        """Parameter files are there; a folder is that of one run."""
+        runs = {}
+        for figure in self.figures.values():
+            for run in figure.runs:
+                self.assertEqual(runs.setdefault(run.folder, run), run)
+                self.assertTrue((ROOT / "parameter_files" / run.parameter_file).exists(), run)
+
+    def test_list(self):
+        result = subprocess.run([sys.executable, FIGURES / "make.py", "--list"],
+                                capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual([line.split()[0] for line in result.stdout.splitlines()],
+                         list(self.figures))
+
+    def test_paper_numbers(self):
+        """Each place has a source; what is not there is an error that tells what is."""
+        numbers = paper_numbers.numbers
+        everything = paper_numbers.everything()
+        self.assertEqual(set(everything), {"A", "B", "C"})
+        for paper, places in everything.items():
+            for place in places:
+                self.assertIn("section", numbers(f"{paper}.{place}")["source"])
+        self.assertEqual(numbers("A.table_1")["persistent"], 1.54e-2)
+        for place, name, message in (
+                ("A.table_1", "inc7", "no 'inc7' in [A.table_1] of figures/paper_numbers.toml; "
+                 "there are source, signorini,"),
+                ("A.table_9", "", "no 'table_9' in [A] of figures/paper_numbers.toml"),
+                ("D.table_1", "", "no 'D' in figures/paper_numbers.toml; there are A, B, C.")):
+            with self.assertRaises(RicochetError) as context:
+                numbers(place)[name]
+            self.assertIn(message, str(context.exception))
+
+
+if __name__ == "__main__":
+    main()
