@@ -65,7 +65,8 @@ namespace Ricochet
           points.push_back(nearest);
         }
       BoundingBox<dim> box(points);
-      box.extend(size);
+      // In the plane a line costs nothing, wherever the body goes.
+      box.extend(dim == 2 && obstacle.shape().is_plane() ? 5. * size : size);
       return box;
     }
 

@@ -106,3 +106,17 @@ def array_of_points(grid: Any) -> Array:
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     return np.asarray(vtk_to_numpy(grid.GetPoints().GetData()), dtype=float)
+
+
+def area(grid: Any) -> float:
+    """Of all cells of a grid in the plane, where they were at the start."""
+    import vtk
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    sizes = vtk.vtkCellSizeFilter()
+    sizes.SetInputData(grid)
+    sizes.ComputeLengthOff()
+    sizes.ComputeVolumeOff()
+    sizes.ComputeVertexCountOff()
+    sizes.Update()
+    return float(vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Area")).sum())

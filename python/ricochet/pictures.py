@@ -96,7 +96,7 @@ def _scene(run: Run, colour: str, files: Sequence[FieldFile], pixels: int) -> _S
         lowest = min(lowest, float(values.min()))
         largest = max(largest, float(values.max()))
         # A few points at an edge of contact would take all colours for themselves.
-        part = 100.0 if colour == "contact_pressure" else 99.8
+        part = 100.0 if colour == "contact_pressure" else 99.0
         highest = max(highest, float(np.percentile(values, part)))
         places = fields.array_of_points(grid) + fields.displacements(grid)
         low, high = np.minimum(low, places.min(axis=0)), np.maximum(high, places.max(axis=0))
@@ -146,7 +146,9 @@ def _scene(run: Run, colour: str, files: Sequence[FieldFile], pixels: int) -> _S
         + depth * np.cross(right, up)
     )
     scale = pixels / max(width, height)
-    area, seen = width * height * scale**2, cells if dim == 2 else 2 * cells ** (2 / 3)
+    # How large a cell is in the picture: a thin ring has small cells in a large view.
+    seen = cells if dim == 2 else 2 * cells ** (2 / 3)
+    area = (fields.area(run.fields(files[0].step)) if dim == 2 else width * height) * scale**2
     view = render.View(
         tuple(map(float, centre)),  # type: ignore[arg-type]
         tuple(map(float, right)),  # type: ignore[arg-type]
@@ -255,13 +257,12 @@ def _time(run: Run, file: FieldFile) -> str:
 
 
 def instants(run: Run) -> list[FieldFile]:
-    """The files of the beginning, of the largest force of contact and of the end."""
+    """The files of the beginning, of the largest stored energy and of the end."""
     files = run.field_files
-    force = np.nan_to_num(measures.contact_force(run.table))
-    middle = len(files) // 2
-    if force.max(initial=0.0) > 0:
-        time = float(run.table["time"][force.argmax()])
-        middle = int(np.abs(run.times - time).argmin())
+    time = float(run.table["time"][run.table["elastic_energy"].argmax()])
+    middle = int(np.abs(run.times - time).argmin())
+    if middle in (0, len(files) - 1):
+        middle = len(files) // 2
     return [files[k] for k in sorted({0, middle, len(files) - 1})]
 
 
@@ -288,7 +289,7 @@ def _is_bar(run: Run) -> bool:
 def draw_instants(
     run: Run, colour: str, path: pathlib.Path, title: str | None = None
 ) -> pathlib.Path:
-    """A picture of the body at the beginning, at the largest force of contact and at the end;
+    """A picture of the body at the beginning, at the largest stored energy and at the end;
     of a bar the field over place and time.
 
     Raises:

@@ -78,7 +78,7 @@ class SelfContactTest(ProgramTest):
     def pictures(self, name):
         """The numbers of the steps with a picture, and the files."""
         self.shared_run(name)
-        files = sorted((shared_folder / str(name) / "solution").glob("*.vtu"))
+        files = sorted((shared_folder / str(name) / "solution").glob("step-*.vtu"))
         self.assertGreater(len(files), 20)
         return [(int(file.stem.split("-")[1]), file) for file in files]
 
