@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Opens a run in ParaView: bodies where they are, coloured by von Mises stress.
+"""Opens a run in ParaView: bodies where they are, coloured by von Mises stress, and rigid
+obstacles.
 
     RICOCHET_RUN=output/elastic_ball/default paraview --script=python/paraview_open.py
     pvpython python/paraview_open.py output/elastic_ball/default picture.png
@@ -42,7 +43,15 @@ simple.GetColorTransferFunction("von_mises").ApplyPreset("Viridis (matplotlib)",
 shown.RescaleTransferFunctionToDataRangeOverTime()
 shown.SetScalarBarVisibility(view, True)
 
+obstacles = os.path.join(os.path.dirname(str(bodies.FileName)), "obstacles.pvd")
 simple.ResetCamera(view)
+if os.path.isfile(obstacles):
+    surfaces = simple.PVDReader(FileName=obstacles)
+    look = simple.Show(surfaces, view)
+    simple.ColorBy(look, None)
+    look.DiffuseColor = look.AmbientColor = [0.7, 0.7, 0.7]
+    look.Opacity = 0.5
+    look.LineWidth = 3.0
 simple.Render(view)
 if len(sys.argv) > 2:
     simple.SaveScreenshot(sys.argv[2], view)
