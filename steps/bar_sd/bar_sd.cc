@@ -2,36 +2,146 @@
 
 // # 1D-SD: a bar between a wall and an obstacle
 //
-// A bar of unit length, unit modulus and unit density is held at its right
-// end. It is stretched away from a rigid obstacle at its left end, let go, and
-// hits the obstacle again and again:
+// An elastic bar is held at its right end. Its left end is pushed away from a
+// rigid obstacle, so that the bar is compressed to half its length, and let go:
+// it hits the obstacle again and again. This is the benchmark 1D-SD of paper C
+// (Huang, Pignet, Drouet and Chouly, "HHT-alpha and TR-BDF2 schemes for dynamic
+// contact problems", section 4.1), which goes back to Dabaghi, Petrov, Pousin
+// and Renard (2016). It is the place to begin: one space dimension, one point
+// that can touch, an exact solution, and yet everything that makes dynamic
+// contact difficult.
 //
-//     u_tt - u_xx = 0                            for 0 < x < 1,
-//     u(1, t) = 0,
-//     u(0, t) >= 0,  u_x(0, t) <= 0,  u(0, t) u_x(0, t) = 0,
-//     u(x, 0) = 1/2 - x/2,  u_t(x, 0) = 0.
+// ## The problem
 //
-// This is the benchmark 1D-SD of paper C (Huang, Pignet, Drouet and Chouly,
-// "HHT-alpha and TR-BDF2 schemes for dynamic contact problems", section 4.1),
-// which goes back to Dabaghi, Petrov, Pousin and Renard (2016). The exact
-// solution has the period 3: the left end flies for one unit of time, stays in
-// contact with the pressure 1/2 for one, and flies back for one. The energy is
-// 1/8 at all times.
+// The bar has unit length, unit modulus and unit density, so that waves travel
+// with speed one. Its displacement $u(x, t)$ obeys (C (34))
 //
-// Everything that matters can go wrong here: the velocity of the end jumps at
-// the impact, and a discrete end has mass, so that the pressure oscillates and
-// energy may appear or be lost. The program runs any contact treatment with any
-// time scheme, with the consistent mass or with one that has no inertia on the
-// contact boundary, and compares with the exact solution.
+// $$ \ddot u - u_{xx} = 0 \quad (0 < x < 1), \qquad u(1, t) = 0, $$
 //
-// Run it as
+// $$ u(x, 0) = \tfrac12 - \tfrac{x}{2}, \qquad \dot u(x, 0) = 0 . $$
+//
+// The obstacle fills the points left of zero. The **gap** $g$ is the distance
+// of the left end from it, positive when they are apart; here it is the
+// displacement, $g = u(0, t)$. The **contact pressure** $p$ is the force by
+// which the obstacle pushes the end away, positive in compression; here
+// $p = -u_x(0, t)$. Both obey *Signorini's condition* (A (2.1), C (1)(v)):
+//
+// $$ g \ge 0, \qquad p \ge 0, \qquad p\, g = 0 . $$
+//
+// The end does not enter the obstacle, the obstacle does not pull, and it
+// pushes only where it is touched. The first two are inequalities and the third
+// one is not linear: that is all that contact adds to linear elasticity, and it
+// is enough.
+//
+// ## What happens
+//
+// The left end is free at first, so that a wave starts from it behind which the
+// bar has no strain and moves to the left with the velocity $-1/2$. At $t = 1$
+// the wave is at the wall and the end at the obstacle. The obstacle stops the
+// left end, the wall the right one, and a wave starts from each. Until that of
+// the wall arrives at the left end, at $t = 2$, there is contact with the
+// pressure $1/2$. Then the end flies off with $+1/2$, and at $t = 3$ everything
+// is as it was. This repeats for ever, with the energy
+//
+// $$ E = \tfrac12 \int_0^1 \dot u^2 \, dx + \tfrac12 \int_0^1 u_x^2 \, dx
+//      = \tfrac18 . $$
+//
+// The velocity of the end jumps from $-1/2$ to $0$ at the impact. In the exact
+// solution this costs nothing, because a point has no mass. The end node of a
+// mesh has some, and something has to happen to its kinetic energy: the
+// pressure oscillates, and energy may be lost or, worse, made.
+//
+// ## Weak form
+//
+// Multiply by a test function $v$ with $v(1) = 0$ and integrate by parts. What
+// remains at the left end is the pressure times $v(0)$, which is how much the
+// gap changes along $v$:
+//
+// $$ \int_0^1 \ddot u \, v \, dx + \int_0^1 u_x v_x \, dx - p \, v(0) = 0 . $$
+//
+// Finite elements turn this into (C (22))
+//
+// $$ M \ddot U + K U + F_c(U) = 0, $$
+//
+// with the mass matrix $M$, the stiffness matrix $K$ and the contact force
+// $F_c$, which is $-p$ in the row of the left end. How $p$ follows from $U$ is
+// the **contact treatment**; how time is divided into steps is the **time
+// scheme**. The program runs any of the one with any of the other.
+//
+// ## Nitsche's method, the default treatment
+//
+// Signorini's condition is the same as one equation: for any $\gamma > 0$
+//
+// $$ p = [\, p - \gamma g \,]_+, \qquad [x]_+ = \max(x, 0). $$
+//
+// (If $p > 0$ it says $g = 0$, and if $p = 0$ it says $g \ge 0$.) A bar has a
+// pressure of its own, that of its stress, $p(u_h) = -\sigma_n(u_h)$. Nitsche's
+// method puts it in the place of $p$ and takes the right-hand side for the
+// force, with $\gamma = \gamma_0/h$ (C (6) to (9); in our signs, with
+// $q = p - \gamma g$)
+//
+// $$ F_c(u)\,[v] = -\frac{\theta}{\gamma}\, p(u)\, p(v)
+//    + \frac{1}{\gamma}\, [q(u)]_+ \big( \theta p(v) - \gamma v(0) \big). $$
+//
+// The exact solution satisfies this without any error (the method is
+// *consistent*), and no multiplier is needed. $\theta = 1$ is the symmetric
+// variant, which is the derivative of a potential: so there is a **modified
+// energy** (C (13)),
+//
+// $$ E_N = E + \frac{1}{2\gamma} \big( [q]_+^2 - p(u)^2 \big), $$
+//
+// which is what a perfect time scheme would keep. It is in
+// `lib/contact/laws/nitsche.h`, line by line. The bar needs $\gamma_0 > 1$, its
+// modulus; below that the modified energy can be negative, and the program
+// refuses to start.
+//
+// The **penalty** method (C (14) to (17), `lib/contact/laws/penalty.h`) takes a
+// spring instead, $p = [-g]_+ / \epsilon$ with $\epsilon = \epsilon_0 h$. It is
+// simpler, but there is no pressure without penetration.
+//
+// ## One step of this program
+//
+// With the Crank-Nicolson scheme, C (24) with $\alpha = 0$, a step of length
+// $\Delta t$ from the old state $(U_0, V_0, A_0)$ to the new one is
+//
+// $$ U_1 = U_0 + \Delta t\, V_0 + \tfrac14 \Delta t^2 (A_0 + A_1), \qquad
+//    V_1 = V_0 + \tfrac12 \Delta t\, (A_0 + A_1), $$
+//
+// $$ M A_1 + K U_1 + F_c(U_1) = 0 . $$
+//
+// The first line gives $A_1$ by $U_1$; put into the second it is one nonlinear
+// system for $U_1$,
+//
+// $$ \frac{4}{\Delta t^2} M (U_1 - \hat U) + K U_1 + F_c(U_1) = 0, \qquad
+//    \hat U = U_0 + \Delta t\, V_0 + \tfrac14 \Delta t^2 A_0, $$
+//
+// which is piecewise linear: there is one matrix with contact and one without.
+// Newton's method tries one, looks at the sign of $q$, and is done after one or
+// two solutions. In the library: the scheme is `lib/time_integration/hht.cc`,
+// the system SemiDiscreteSystem::solve_stage, the iteration
+// `lib/solvers/newton.cc`.
+//
+// While contact lasts, or while there is none, $F_c$ is linear and
+// Crank-Nicolson keeps $E_N$ exactly. Only a step in which contact begins or
+// ends changes it. With a force $\gamma [x]_+$ ($x = q/\gamma$) the trapezoidal
+// rule then counts a work that differs from the change of the potential by
+//
+// $$ \Delta E_N = \tfrac{\gamma}{2}\, x_0 x_1 \;\text{ where contact begins},
+//    \quad
+//    \Delta E_N = -\tfrac{\gamma}{2}\, x_0 x_1 \;\text{ where it ends}. $$
+//
+// $x_0$ and $x_1$ have different signs: beginning loses and ending gains. You
+// can see it in the lowest panel of figure C-6, whose steps are at the eight
+// times at which contact changes and nowhere else.
+//
+// ## Run it
 //
 //     bar_sd parameter_files/bar_sd/default.prm
 //     bar_sd parameter_files/bar_sd/default.prm --set "Time/Scheme=TR-BDF2"
 //     bar_sd --help
 //
 // Nitsche's method with Crank-Nicolson (the defaults) has a mean displacement
-// of the left end over the first contact (t = 1.00 ... 2.10) of 5.0e-4; the
+// of the left end over the first contact ($t$ = 1.00 ... 2.10) of 5.0e-4; the
 // penalty method has -3.8e-3: it lets the bar penetrate.
 
 #include <contact/obstacles/half_space.h>
@@ -49,13 +159,14 @@ public:
   void
   run(RunFolder &folder);
 
-  // h = dt = 0.05, T = 12, gamma_0 = 1/epsilon_0 = 5, unless the parameter file
-  // says otherwise.
+  // $h = \Delta t = 0.05$, $T = 12$, $\gamma_0 = 1/\epsilon_0 = 5$, unless the
+  // parameter file says otherwise.
   BarParameters parameters;
 };
 
 
 
+// ## The run
 void
 BarSD::run(RunFolder &folder)
 {
@@ -64,9 +175,12 @@ BarSD::run(RunFolder &folder)
   parallel::shared::Triangulation<1> triangulation(folder.communicator);
   make_bar_grid(parameters.mesh_size, triangulation);
 
-  // A bar of modulus lambda + 2 mu = 1, and an obstacle that fills x < 0. The
-  // signed distance of a point to it is its coordinate, so that the gap of the
-  // left end is its displacement.
+  // ### Data
+  //
+  // The bar is a body of linear elasticity with strains in one direction,
+  // $\sigma = (\lambda + 2\mu)\, u_x$: the modulus is one. The obstacle fills
+  // $x < 0$; what it is asked for is the signed distance of a point, here its
+  // coordinate, so that the gap of the left end is its displacement.
   const LinearElastic material{/* lambda */ 0., /* mu */ .5};
   ImpactSetup<1>      setup{material};
   setup.density   = 1.;
@@ -75,15 +189,31 @@ BarSD::run(RunFolder &folder)
   setup.obstacles = {
     {BarEnds::left, half_space_at_rest<1>(Point<1>(0.), Tensor<1, 1>({1.}))}};
 
-  // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
+  // ### The equation of motion
+  //
+  // Mesh and data make $M \ddot U + K U + F_c(U) = 0$: the mass $M$, the
+  // stiffness $K$ (`lib/discretization/linear_bulk.cc`), the contact force
+  // $F_c$ (`lib/contact/treatments/pointwise_contact.cc`, which asks the law
+  // that the parameter file names), and the scheme. With
+  // `Time/Mass = redistributed` $M$ is changed so that the end node has no
+  // mass: total mass, centre and moment of inertia stay what they are (C 2.4,
+  // `lib/time_integration/mass_redistribution.h`). A node without mass is in
+  // equilibrium at any time, and there is nothing in it that could oscillate.
   Impact<1> bar(impact, triangulation, setup, folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
              " elements, " + std::to_string(bar.body.owned_indices().size()) +
              " unknowns, " + impact.contact.treatment + ", " +
              impact.scheme.name + ", " + impact.mass + " mass");
 
+  // ### The start
+  //
+  // The exact solution: $\dot u + u_x$ is constant along lines $x + t$ = const.
+  // and $\dot u - u_x$ along $x - t$ = const., and what happens at an end turns
+  // one into the other (`lib/exact_solutions/bar_characteristics.h`).
+  //
   // The initial displacement is linear, so that the interpolation is exact. The
-  // initial acceleration follows from it.
+  // initial acceleration follows from it, $A_0 = -M^{-1}(K U_0 + F_c(U_0))$ (C,
+  // section 4).
   BarCharacteristics exact(/* u(0, 0) */ .5,
                            /* strain */ -.5,
                            /* velocity */ 0.,
@@ -96,8 +226,23 @@ BarSD::run(RunFolder &folder)
   const State initial_state =
     bar.system.initial_state(displacement, velocity, /* time */ 0.);
 
-  // The time loop writes energies and contact for every benchmark. We add what
-  // the figures of the paper plot: the motion of the left end, and the error.
+  // ### Time
+  //
+  // The time loop takes step after step. Each one is "one step of this program"
+  // above, unless Newton's method fails and the step is halved, and is entered
+  // into the table energy.csv: kinetic and elastic energy, $E_N$, the work of
+  // contact, the dissipation of the scheme, gap and pressure. In each row
+  //
+  //     E_new - E_old = external work - work against contact
+  //                     - numerical dissipation
+  //
+  // must hold to round-off; what is left over is the column `balance_residual`.
+  // The numerical dissipation comes from a formula of its own, that of the
+  // scheme (in HHT::step), not from this difference: so the residual would tell
+  // of a wrong tangent or a wrong force.
+  //
+  // We add what the figures of the paper plot: the motion of the left end, and
+  // the error.
   TimeLoop loop(impact.time,
                 folder,
                 bar.system,
@@ -113,6 +258,7 @@ BarSD::run(RunFolder &folder)
 
   loop.run(initial_state);
 
+  // The error of figure C-10.
   char line[100];
   std::snprintf(line,
                 sizeof(line),

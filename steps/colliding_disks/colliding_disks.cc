@@ -2,28 +2,103 @@
 
 // # Colliding disks
 //
-// Two elastic disks fly at each other and part again: contact of two deformable
-// bodies without any rigid one,
+// Two elastic disks fly at each other and part again, head-on or with an offset
+// $b$ of their paths: contact of two deformable bodies without any rigid one.
+// What the programs elastic_ball and hyperelastic_ring say of pressures,
+// friction and the midpoint scheme stays as it is. What is new is the gap: both
+// sides of it move.
 //
-//     rho u_tt - div (F S) = 0                  in both disks,
-//     gap >= 0, p >= 0, p gap = 0 or its like   between their circles,
-//     |t| <= mu p, t along the slip             (Coulomb),
+// ## The problem
 //
-// of a Saint Venant-Kirchhoff material in plane strain, head-on or with an offset b
-// of their paths. No force comes from outside: linear and angular momentum of both
-// together are kept, whatever the method, and energy by the methods that are made for
-// it. With an offset the circles roll and slide on each other, so that nodes of one
-// pass the vertices of the other.
+// In both disks, of a Saint Venant-Kirchhoff material in plane strain (linear
+// between $C - I$ and the stress $S$, for large rotations),
 //
-// The meshes are rings of triangles of different numbers; the finer one is the slave,
-// unless it is told otherwise: which one it is must not matter by more than the error
-// of the discretisation.
+// $$ \rho\, \ddot u - \mathrm{Div} (F S) = 0 , $$
+//
+// and between their circles $g \ge 0$, $p \ge 0$, $p\, g = 0$ or its like, and
+// Coulomb's friction, $|t| \le \mu p$ and against the slip. No force comes from
+// outside. Linear and angular momentum of both together are kept, whatever the
+// method; energy by the methods that are made for it. With an offset the
+// circles roll and slide on each other, so that nodes of one pass the vertices
+// of the other.
+//
+// ## The gap between two bodies
+//
+// Contact is formulated in the nodes $y$ of one surface, the **slave**. Each is
+// before a facet from $a$ to $b$ of the other one, the **master**, whose
+// outside is on its left. All three move. With $e = b - a$ and $r = y - a$, the
+// gap is the distance from the line of the facet, and $\xi$ tells where along
+// it the point is (B (2.5)):
+//
+// $$ g = \frac{A}{\sqrt B}, \qquad \xi = \frac{P}{B}, \qquad
+//    A = e \times r, \quad B = e \cdot e, \quad P = e \cdot r . $$
+//
+// ## Weak form
+//
+// A pressure pushes both bodies. It is multiplied by how much the gap changes
+// along $v$, and since the gap depends on the displacements of the point and of
+// both ends of the facet, so does this (B (2.29) to (2.31), with our signs):
+//
+// $$ \int \rho\, \ddot u \cdot v \, dx + \int F S : \nabla v \, dx
+//    - \sum_j w_j \big( p_j \delta g_j(v) + t_j \delta s_j(v) \big) = 0 , $$
+//
+// where $s$ is the way along the facet. Action and reaction are in it: a motion
+// of all three points together changes neither gap nor way, so that their
+// forces have no sum and no moment.
+//
+// ## The scheme
+//
+// Over a step of the midpoint scheme the changes $\delta g$ and $\delta s$ are
+// rows $D$ and $T$ on the coordinates $x = (y, a, b)$ of the three points, such
+// that
+//
+// $$ D \cdot (x_1 - x_0) = g_1 - g_0, \qquad
+//    T \cdot (x_1 - x_0) = L_m (\xi_1 - \xi_0) . $$
+//
+// The gradient of $g$ anywhere in the step is not enough, because $g$ is not
+// linear. But $A$, $B$ and $P$ are quadratic, and the gradient of a quadratic
+// function in the middle of a step is exactly its quotient of differences. The
+// rules for products and quotients do the rest: with $L = \sqrt B$ and $m$ for
+// the middle,
+//
+// $$ D = \tfrac12 \Big( \frac{1}{L_0} + \frac{1}{L_1} \Big) \nabla A_m
+//    - \frac{A_0 + A_1}{2 L_0 L_1 (L_0 + L_1)} \nabla B_m , $$
+//
+// $$ T = L_m \Big[
+//    \tfrac12 \Big( \frac{1}{B_0} + \frac{1}{B_1} \Big) \nabla P_m
+//    - \frac{P_0 + P_1}{2 B_0 B_1} \nabla B_m \Big] . $$
+//
+// A point that passes a vertex during the step gets the mean of the rows of
+// both facets, by the part of its way on each, and a small couple for the
+// change of the angle between them, so that the first equation stays exact
+// (`lib/contact/surfaces/facet_chain.h`). B (3.6) prints the change of the
+// distance in the middle of the step, which is not the same once the normal
+// turns.
+//
+// ## One step of this program
+//
+//     predict  where all points will be in the middle of the step
+//     choose   the facet before each node of the slave, and keep it
+//     solve    M (V_1 - V_0)/dt + F_int(U_0, U_1) = sum of w (p D + t T)
+//              U_1 - U_0 = dt (V_0 + V_1)/2
+//              for U_1, and for p and t where they are constraints:
+//              persistent contact: p >= 0, D . dx >= 0, p D . dx = 0
+//
+// The work of contact is then $p\,(g_1 - g_0)$ for each point, as before a
+// plane, and all that elastic_ball says of the treatments holds. The file is
+// `lib/contact/treatments/pair_contact.h`.
+//
+// ## Which is the slave?
+//
+// The meshes are rings of triangles of different numbers; the finer one is the
+// slave, unless it is told otherwise: which one it is must not matter by more
+// than the error of the discretisation.
 //
 // At the end the program prints the velocities of the centres of mass, the
-// restitution along the line of the centres at the first touch, the energy that is
-// left and the largest penetration, with eight digits.
+// restitution along the line of the centres at the first touch, the energy that
+// is left and the largest penetration, with eight digits.
 //
-// Run it as
+// ## Run it
 //
 //     colliding_disks parameter_files/colliding_disks/default.prm
 //     colliding_disks --set "Disks/Offset=1" --set "Contact/Friction coefficient=0.2"
@@ -88,7 +163,7 @@ private:
 
 
 
-// ### Data
+// ## Data
 CollidingDisks::CollidingDisks()
 {
   material.law           = "Saint Venant-Kirchhoff";
@@ -187,7 +262,7 @@ CollidingDisks::unused_parameters() const
 
 
 
-// ### Mesh
+// ## Mesh
 Point<2>
 CollidingDisks::centre(const unsigned int disk) const
 {
@@ -208,14 +283,17 @@ CollidingDisks::make_grid(Triangulation<2> &triangulation) const
 
 
 
-// ### The run
+// ## The run
 void
 CollidingDisks::run(RunFolder &folder)
 {
   parallel::shared::Triangulation<2> triangulation(folder.communicator);
   make_grid(triangulation);
 
-  // Two parts in one mesh, and the surfaces that may touch.
+  // Two parts in one mesh, and the surfaces that may touch. One mesh means one
+  // vector of unknowns, one $M$ and one $F_{int}$; the disks share no node, so
+  // that $D$ and $T$ are all that connects them. They bring couplings that come
+  // and go.
   const Material<2> elastic = material.make<2>();
   ImpactSetup<2>    setup{elastic};
   setup.parts.push_back(
@@ -233,6 +311,8 @@ CollidingDisks::run(RunFolder &folder)
 
   const State initial_state = collision.state_of_parts();
 
+  // Energy, momenta and work of each disk and of both, beside what every
+  // program writes.
   TimeLoop             loop(impact.time,
                 folder,
                 collision.system,
@@ -260,9 +340,11 @@ CollidingDisks::run(RunFolder &folder)
 
 
 
-// ### What came out
+// ## What came out
 //
-// Numbers that other programs can be compared with.
+// Numbers that other programs can be compared with. The restitution is the
+// velocity with which the centres part along their line, over that with which
+// they came.
 void
 CollidingDisks::report(const Impact<2>      &collision,
                        const PartColumns<2> &parts,

@@ -2,42 +2,85 @@
 
 // # Colliding spheres
 //
-// Two elastic balls fly at each other in space, and may spin,
+// Two elastic balls fly at each other in space, and may spin. This is the
+// program colliding_disks with one dimension more: a point is before a triangle
+// and not before a line, there are two directions along a surface, and six
+// momenta to be kept.
 //
-//     rho u_tt - div P(F) = 0                   in both balls,
-//     gap >= 0, p >= 0, p gap = 0 or its like   between their surfaces,
-//     |t| <= mu p, t along the slip             (Coulomb),
+// ## The problem
 //
-// with the first Piola-Kirchhoff stress P. No force comes from outside: linear and
-// angular momentum of both together, all six numbers, are kept whatever the method, and
-// energy by the methods that are made for it.
+// $$ \rho\, \ddot u - \mathrm{Div}\, \Pi(F) = 0 \quad\text{in both balls}, $$
 //
-// Contact is formulated in the nodes y of one surface, the slave. Each of them is
-// before a triangle (a, b, c) of the other one, and its gap is the distance from the
-// triangle's plane,
+// with the first Piola-Kirchhoff stress $\Pi = F S$, and between their surfaces
+// $g \ge 0$, $p \ge 0$, $p\, g = 0$ or its like, and Coulomb's friction
+// $|t| \le \mu p$, against the slip. No force comes from outside: linear and
+// angular momentum of both together, all six numbers, are kept whatever the
+// method, and energy by the methods that are made for it.
 //
-//     g = det(b - a, c - a, y - a) / |(b - a) x (c - a)|.
+// ## The gap
 //
-// Over a step from x_0 to x_1 the pressure p acts along a row D on the coordinates of
-// all four points with D . (x_1 - x_0) = g_1 - g_0: what the pressure does to both
-// bodies is then p times the increment of the gap, to the last digit. D is made of
-// functions that no motion of all four points together changes, whence its sum and its
-// moment are zero: lib/contact/surfaces/point_before_triangle.h. So one step of this
-// program is, with the midpoint scheme,
+// Contact is formulated in the nodes $y$ of one surface, the slave. Each of
+// them is before a triangle $(a, b, c)$ of the other one, and its gap is the
+// distance from the triangle's plane,
 //
-//     M (v_1 - v_0)/dt + F_int(u_0, u_1) = sum over points p D - t_1 T_1 - t_2 T_2,
+// $$ g = \frac{V}{\sqrt B}, \qquad V = \det(b - a,\, c - a,\, y - a), \qquad
+//    \sqrt B = |(b - a) \times (c - a)| . $$
 //
-// where F_int is the discrete gradient of the stored energy
-// (lib/materials/gonzalez.h), and p and t follow from gap, increment and slip by the
-// treatment that the parameter file asks for.
+// The point of the plane before which it is,
+// $a + \xi_1 (b - a) + \xi_2 (c - a)$, follows from products of the three
+// differences $w_i$ alone.
 //
-// With persistent contact energy is kept to round-off; but a node that has come d
-// deep in the step in which it touches stays there. What a collision at the speed v
-// takes from the motion of the centres is what goes on in vibrations: for elastic
-// spheres that is little when the contact lasts much longer than waves need to cross
-// them (Hertz).
+// ## Weak form
 //
-// Run it as
+// As between disks: for all $v$
+//
+// $$ \int \rho\, \ddot u \cdot v \, dx + \int \Pi : \nabla v \, dx
+//    - \sum_j w_j \big( p_j\, \delta g_j(v) + t_{1,j}\, \delta s_{1,j}(v)
+//    + t_{2,j}\, \delta s_{2,j}(v) \big) = 0 . $$
+//
+// ## The scheme
+//
+// Over a step from $x_0$ to $x_1$, the coordinates of all four points, the
+// pressure acts along a row $D$ with
+//
+// $$ D \cdot (x_1 - x_0) = g_1 - g_0 , $$
+//
+// so that its work on both bodies is $p\, (g_1 - g_0)$ to the last digit. The
+// products $q_{ij} = w_i \cdot w_j$ are quadratic, and their gradients in the
+// middle of the step are their quotients of differences. $V$ is cubic, and the
+// gradient in the middle lacks $\tfrac14 \det(\Delta w)$ of its change. That is
+// put back along a direction that does not push or turn the four points
+// together:
+//
+// $$ D_V = \nabla V_m + \tfrac14 \det(\Delta w) \,
+//    \frac{\sum \Delta q_{ij} \nabla q_{ij} + v \nabla V_m / \ell^2}
+//         {\sum (\Delta q_{ij})^2 + v^2 / \ell^2} , \qquad
+//    v = \nabla V_m \cdot \Delta x, \quad
+//    \ell^2 = \tfrac12 \big( \sqrt{B_0} + \sqrt{B_1} \big) . $$
+//
+// The rules for products, quotients and roots make $D$ of it, and $T_1$ and
+// $T_2$ for the slip in the same way
+// (`lib/contact/surfaces/point_before_triangle.h`). All of these functions are
+// the same after a motion of all four points together, whence the sum of the
+// forces and of their moments is zero.
+//
+// ## One step of this program
+//
+// $$ M \frac{V_1 - V_0}{\Delta t} + F_{int}(U_0, U_1)
+//    = \sum_j w_j \big( p_j D_j + t_{1,j} T_{1,j} + t_{2,j} T_{2,j} \big),
+//    \qquad \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2} , $$
+//
+// where $F_{int}$ is the discrete gradient of the stored energy
+// (`lib/materials/gonzalez.h`), and $p$ and $t$ follow from gap, increment and
+// slip by the treatment that the parameter file asks for.
+//
+// With persistent contact energy is kept to round-off; but a node that has come
+// $d$ deep in the step in which it touches stays there. What a collision takes
+// from the motion of the centres is what goes on in vibrations: for elastic
+// spheres that is little when the contact lasts much longer than waves need to
+// cross them (Hertz).
+//
+// ## Run it
 //
 //     colliding_spheres parameter_files/colliding_spheres/default.prm
 //     colliding_spheres parameter_files/colliding_spheres/oblique_spin.prm
@@ -129,7 +172,7 @@ private:
 
 
 
-// ### Data
+// ## Data
 CollidingSpheres::CollidingSpheres()
 {
   material.law           = "neo-Hookean";
@@ -261,11 +304,11 @@ CollidingSpheres::unused_parameters() const
 
 
 
-// ### Mesh
+// ## Mesh
 //
-// The first rank makes both balls, puts them side by side into one mesh, which knows
-// them by their material id, and hands out the parts. No two bodies share a node, so
-// that the mesh is one in name only.
+// The first rank makes both balls, puts them side by side into one mesh, which
+// knows them by their material id, and hands out the parts. No two bodies share
+// a node, so that the mesh is one in name only.
 Point<3>
 CollidingSpheres::centre(const unsigned int sphere) const
 {
@@ -324,7 +367,10 @@ CollidingSpheres::make_whole_mesh(Triangulation<3> &mesh) const
 
 
 
-// ### The run
+// ## The run
+//
+// A ball that flies with $v_c$ and spins with $\omega$ about its middle $c$ has
+// the velocity $v_c + \omega \times (x - c)$.
 Tensor<1, 3>
 CollidingSpheres::initial_velocity(const Point<3> &x) const
 {
@@ -342,7 +388,8 @@ CollidingSpheres::run(RunFolder &folder)
     distribute_mesh<3>([&](Triangulation<3> &whole) { make_whole_mesh(whole); },
                        folder.communicator);
 
-  // Two parts in one mesh, and the surfaces that may touch.
+  // Two parts in one mesh, and the surfaces that may touch: slave first, whose
+  // nodes are the points $y$, then the master, whose faces are the triangles.
   const Material<3> elastic = material.make<3>();
   ImpactSetup<3>    setup{elastic};
   setup.parts.push_back({"left", elastic, material.density});
@@ -391,11 +438,11 @@ CollidingSpheres::run(RunFolder &folder)
 
 
 
-// ### What came out
+// ## What came out
 //
-// The angular momentum of a sphere about its own middle is what is left of that about
-// the origin when the middle's momentum is taken away. Where the middle is, products
-// with translations tell: m c x e for each direction e.
+// The angular momentum of a sphere about its own middle is what is left of that
+// about the origin when the middle's momentum is taken away. Where the middle
+// is, products with translations tell: $m\, c \times e$ for each direction $e$.
 Tensor<1, 3>
 CollidingSpheres::own_angular_momentum(const unsigned int    sphere,
                                        const Impact<3>      &collision,

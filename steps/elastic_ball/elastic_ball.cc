@@ -2,40 +2,140 @@
 
 // # The elastic ball
 //
-// A disk of radius 10 m, free in the plane, flies down at 10 m/s and hits a rigid
-// foundation, the half plane below x_2 = 0:
+// A disk of radius 10 m, free in the plane, flies down at 10 m/s and hits a
+// rigid foundation, the half plane below $x_2 = 0$. This is the first benchmark
+// of paper A (Barboteu, Bonaldi, Danan and El-Hadri, "An improved normal
+// compliance method for dynamic hyperelastic problems with energy conservation
+// property", section 6.1) and of paper B (section 6.1, with viscosity). It asks
+// one question: how much of its energy does a ball lose because of the method
+// by which its contact is computed?
 //
-//     rho u_tt - div sigma(u) = 0                 in the disk,
-//     gap >= 0, p >= 0, p gap = 0                 on the circle, with
-//     gap = x_2 + u_2, p the contact pressure,
-//     u = 0, u_t = (0, -10 m/s)                   at t = 0,
+// ## The problem
 //
-// with linear elasticity in plane stress. This is the first benchmark of paper A
-// (Barboteu, Bonaldi, Danan and El-Hadri, "An improved normal compliance method
-// for dynamic hyperelastic problems with energy conservation property", section
-// 6.1) and of paper B (section 6.1, with viscosity).
+// In the disk, with linear elasticity in plane stress,
+//
+// $$ \rho\, \ddot u - \mathrm{div}\, \sigma(u) = 0, \qquad
+//    \sigma = \lambda^* \,\mathrm{tr}(\varepsilon)\, I + 2 \mu\, \varepsilon,
+//    \qquad \varepsilon = \tfrac12 (\nabla u + \nabla u^T), $$
+//
+// $\lambda^* = 2 \lambda \mu / (\lambda + 2 \mu)$, with Lamé's parameters
+// $\lambda = E \kappa / ((1 + \kappa)(1 - 2\kappa))$ and
+// $\mu = E / (2 (1 + \kappa))$ of Young's modulus and Poisson's ratio. On its
+// circle $\Gamma$ there is a **gap** to the foundation and a **contact
+// pressure**,
+//
+// $$ g = x_2 + u_2, \qquad p = -\sigma_n = \nu \cdot \sigma n, $$
+//
+// ($\nu = (0, 1)$ is the normal of the foundation towards the ball, $n$ the
+// outward normal of the ball, which is $-\nu$ where it touches) with
+// Signorini's condition (A (2.1); the paper's $\delta_\nu$ is our $-g$, its
+// $\lambda_\nu$ our $p$):
+//
+// $$ g \ge 0, \qquad p \ge 0, \qquad p\, g = 0 . $$
+//
+// At $t = 0$ is $u = 0$ and $\dot u = (0, -10)$ m/s.
+//
+// ## Weak form
+//
+// For all test functions $v$ (A (2.22), without friction and with our signs)
+//
+// $$ \int_\Omega \rho\, \ddot u \cdot v \, dx
+//    + \int_\Omega \sigma(u) : \varepsilon(v) \, dx
+//    - \int_\Gamma p \; \nu \cdot v \, ds = 0 . $$
+//
+// Take $v = \dot u$: then $\nu \cdot v$ is the rate $\dot g$ of the gap, and
+// the energy
+// $E = \tfrac12 \int \rho |\dot u|^2 + \tfrac12 \int \sigma : \varepsilon$
+// obeys (A (2.30))
+//
+// $$ \dot E = \int_\Gamma p\, \dot g \, ds . $$
+//
+// While a point touches, $\dot g = 0$; while it does not, $p = 0$. So contact
+// does no work, and the ball keeps its energy. The question is whether a
+// discrete ball does.
+//
+// ## The scheme
+//
+// The midpoint scheme (A (3.2), (3.9); `lib/time_integration/midpoint.cc`) goes
+// from $(U_0, V_0)$ to $(U_1, V_1)$ by
+//
+// $$ \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2}, \qquad
+//    M \frac{V_1 - V_0}{\Delta t} + K \frac{U_0 + U_1}{2}
+//    - \sum_j w_j\, p_j N_j = 0 . $$
+//
+// The sum goes over the nodes $j$ of the circle: $p_j$ is the pressure of the
+// node, $w_j$ the part of the circle that belongs to it, and $N_j$ has the
+// normal $\nu$ in the rows of its displacement. Multiply the second equation by
+// $U_1 - U_0$. The first one makes a difference of squares out of the inertia,
+// and
+//
+// $$ E_1 - E_0 = \sum_j w_j\, p_j \, (g_{j,1} - g_{j,0}) $$
+//
+// is exact, with any step (A proposition 3.1). So for the energy a contact
+// treatment is a choice of $p_j$ as a function of the two gaps $g_0$ and $g_1$
+// of a node, and one can read off what it does:
+//
+// **Signorini at the end of the step.** $g_1 \ge 0$, $p \ge 0$, $p\, g_1 = 0$.
+// A node that lands loses $p\, g_0$. A single mass with the speed $v$ that
+// meets the obstacle after the part $s$ of the step has the velocity
+// $(1 - 2 s) v$ then, away from the obstacle: it has lost $4 s (1 - s)$ of its
+// energy, all of it if it lands in the middle of the step and nothing at either
+// end. (`lib/contact/treatments/active_set_contact.h`)
+//
+// **Standard normal compliance** (A (2.10)),
+// $p = c_\nu \tfrac{\alpha}{2} [-g_1]_+^{\alpha - 1}$: a spring, evaluated at
+// the end of the step. What it gives back is less than what it took.
+//
+// **Improved normal compliance** (A (3.10), (3.11)), the default here: the same
+// spring has the potential $\tfrac{c_\nu}{2} [-g]_+^\alpha$, and the pressure
+// is its quotient of differences,
+//
+// $$ p = \frac{c_\nu}{2} \,
+//    \frac{[-g_1]_+^\alpha - [-g_0]_+^\alpha}{g_0 - g_1} , $$
+//
+// so that $p\, (g_1 - g_0)$ is minus the change of the potential, exactly. What
+// the ball lacks during the impact is in the spring, and it comes back
+// (A (3.16)). (`lib/contact/laws/normal_compliance.h`)
+//
+// **Persistent contact** (B (3.7)): where the gap that is expected in the
+// middle of the step, $g_0 + \tfrac{\Delta t}{2} \dot g$ with the mean rate
+// $\dot g$ of the step before, is not positive, $g_1 - g_0 \ge 0$, $p \ge 0$
+// and $p\, (g_1 - g_0) = 0$. Its work is zero, at any time. The price: a gap
+// that is closed too late stays as deep as it is.
+//
+// ## One step of this program
+//
+//     guess:    U = U_0 + dt V_0, free flight
+//     Newton:   gaps of all nodes of the circle from U
+//               pressures from g_0 and g_1 by the treatment
+//               residual 2/dt^2 M (U - U_0 - dt V_0) + K (U_0 + U)/2 - contact
+//               solve with its derivative; until the residual is round-off
+//     then:     V_1 = 2 (U_1 - U_0)/dt - V_0
+//     ledger:   E_1 - E_0 + work against contact = 0 ?
+//
+// This is Midpoint::step, SemiDiscreteSystem::solve_stage and
+// `lib/solvers/newton.cc`. The matrix of the ball is the same in all steps and
+// is factored once; contact is a small correction of it.
+//
+// ## Numbers
 //
 // The impact lasts some 25 ms, in which waves run up and down the ball twice.
-// Kinetic energy goes into them and comes back, and the question is how much of
-// it a contact method loses on the way: Signorini's condition imposed at the end
-// of a step kills the velocity of every node that lands; persistent contact and
-// improved normal compliance are made to lose nothing.
+// Two numbers of the papers are misprints. With $E$ = 100 GPa the impact would
+// last 5 ms and the tables could not be reproduced; they follow from $E$ = 10
+// GPa and $c_\nu$ = 2.6e12 Pa/m^(alpha-1), which are the defaults here
+// (as_printed.prm has the printed ones). And the initial gap is 15 m, since
+// contact starts at 1.5 s. Where within a step the impact falls matters, by
+// $4 s (1 - s)$ above: 15 m is a whole number of steps of 1 ms, and hides most
+// of what happens; the default of 15.005 m falls in the middle of a step.
 //
-// Two numbers of the papers are misprints. With E = 100 GPa the impact would last
-// 5 ms and the tables could not be reproduced; they follow from E = 10 GPa and
-// c_nu = 2.6e12 Pa/m^(alpha-1), which are the defaults here (as_printed.prm has the
-// printed ones). And the initial gap is 15 m, since contact starts at 1.5 s. Where
-// within a step the impact falls matters: 15 m is a whole number of steps of
-// 1 ms, and hides most of what happens; the default of 15.005 m falls in the
-// middle of a step.
-//
-// Run it as
+// ## Run it
 //
 //     elastic_ball parameter_files/elastic_ball/default.prm
 //     elastic_ball parameter_files/elastic_ball/default.prm --set "Contact/Treatment=persistent contact"
 //     elastic_ball --help
 //
-// and look at the column `energy` of energy.csv.
+// and look at the column `energy` of energy.csv. To see the impact alone, in a
+// few seconds, take impact_1ms.prm of the same folder.
 
 #include <base/program.h>
 #include <problems/thrown_body.h>
@@ -79,9 +179,10 @@ private:
 
 
 
-// ### Data
+// ## Data
 //
-// The defaults of the benchmark; a parameter file says what differs.
+// The defaults of the benchmark; a parameter file says what differs. Contact
+// parameters that have the unit of a modulus are measured by the ball's.
 ElasticBall::ElasticBall()
 {
   parameters.initial_gap      = 15.005;
@@ -103,7 +204,8 @@ ElasticBall::ElasticBall()
   impact.contact.compliance_coefficient = 2.6e12;
   impact.contact.compliance_exponent    = 2.;
   impact.contact.tangential_compliance  = 1e9;
-  // What has the unit of a modulus is measured by the ball's.
+  // These are for other treatments. The augmentation steers Newton's method of
+  // the treatments with active sets and leaves their solution alone.
   impact.contact.augmentation      = 1e10;
   impact.contact.nitsche_gamma_0   = 1e11;
   impact.contact.penalty_epsilon_0 = 1e-11;
@@ -149,10 +251,10 @@ ElasticBall::validate() const
 
 
 
-// ### Mesh
+// ## Mesh
 //
 // The reference position is the one at the start, so that the displacement
-// begins with zero and the gap is the second coordinate.
+// begins with zero and the gap is the second coordinate: $g = x_2 + u_2$.
 void
 ElasticBall::make_grid(Triangulation<2> &triangulation) const
 {
@@ -172,13 +274,14 @@ ElasticBall::make_grid(Triangulation<2> &triangulation) const
 
 
 
-// ### The run
+// ## The run
 //
 // What comes now is the same for every thrown body, and told in
-// lib/problems/thrown_body.cc: the equation of motion from mesh and data, a ball
-// that flies, undeformed, the time loop. Momenta in its table tell whether a scheme
-// does more than keep the energy: without friction nothing pushes the ball along
-// the foundation.
+// `lib/problems/thrown_body.cc`: the equation of motion from mesh and data, a
+// ball that flies, undeformed, the time loop. Momenta in its table tell whether
+// a scheme does more than keep the energy: the forces $p\, \nu$ have no
+// component along the foundation, so that the horizontal momentum stays zero;
+// the vertical one changes by the impulse of the contact force.
 void
 ElasticBall::run(RunFolder &folder)
 {

@@ -2,42 +2,94 @@
 
 // # Obstacle course
 //
-// A disk or a block falls, slides or rolls, under its weight, on a rigid obstacle
-// that may be curved and may move:
+// A disk or a block falls, slides or rolls, under its weight, on a rigid
+// obstacle that may be curved and may move. In the benchmarks of papers A to C
+// the obstacle is a plane, and the gap is an affine function of the
+// displacement. Here it is not, and the direction of the contact force turns
+// while the body moves along the surface. The introduction of the program
+// elastic_ball comes first, that of hyperelastic_ring has friction.
 //
-//     rho u_tt - div Pi(u) = rho g                in the body,
-//     gap >= 0, p >= 0, p gap = 0                 on its boundary, with
-//     gap = phi(x + u, t), p the contact pressure,
-//     |friction| <= mu p                          against the slip.
+// ## The problem
 //
-// phi is the distance to the surface of the obstacle. In the benchmarks of papers A
-// to C it is the height above a plane, an affine function of u; here it is not,
-// and the direction of the contact force turns while the body moves along the
-// surface. What keeps the energy is the choice of that direction: over a step from
-// x_0 to x_1 the force acts along a discrete gradient D of the distance, with
+// In the body
 //
-//     D . (x_1 - x_0) = phi(x_1) - phi(x_0)
+// $$ \rho\, \ddot u - \mathrm{Div}\, \Pi(u) = \rho\, b , $$
 //
-// exactly, so that the work of the pressure is that of the change of the gap, as
-// on the plane. For a circle around c it is (x_0 + x_1 - 2 c) / (|x_0 - c| + |x_1 -
-// c|), which has no moment about c either: a disk in a bowl keeps its energy and,
-// without gravity, its angular momentum about the middle of the bowl. See
-// lib/contact/obstacles/ for the other shapes and for moving ones.
+// with the first Piola-Kirchhoff stress $\Pi = F S$ (or $\sigma$, if the body
+// is linear), and on its boundary
 //
-// The examples in parameter_files/obstacle_course/ have answers by hand:
+// $$ g = \phi(x + u, t), \qquad g \ge 0, \quad p \ge 0, \quad p\, g = 0, \qquad
+//    |t| \le \mu p \;\text{ against the slip} . $$
 //
-//   block_slides, block_sticks   on an incline of tan(beta) = 1/2, with mu = 0.49
-//                                and 0.51: a = g (sin beta - mu cos beta), or 0
-//   disk_slips, disk_rolls       there with mu = 0.15 and 0.18: a disk rolls with
-//                                a = 2/3 g sin(beta) where mu > tan(beta)/3, and
-//                                slips with the block's a otherwise
-//   bowl                         a disk runs to and fro and keeps its energy
-//   rising_plate                 a ball on a plate that is lifted
-//   drum                         a body in a drum that turns and drags it along
-//   folding_strip                a strip that falls on its end buckles, and touches
-//                                itself where it folds
+// $\phi$ is the distance to the surface of the obstacle, positive outside.
 //
-// Run it as
+// ## Weak form
+//
+// The force on a point acts along the gradient of $\phi$ where the point is,
+// since that is how the gap changes with the displacement:
+//
+// $$ \int \rho\, \ddot u \cdot v \, dx + \int \Pi(u) : \nabla v \, dx
+//    - \int_\Gamma p\; \nabla \phi(x + u, t) \cdot v \, ds
+//    - \int_\Gamma t \cdot v_\tau \, ds = \int \rho\, b \cdot v \, dx . $$
+//
+// ## The scheme: a discrete gradient
+//
+// The midpoint scheme keeps energy because the work of the pressure over a step
+// is pressure times the change of the gap. On a plane that is so by itself. On
+// a curved surface the normal at the beginning of the step, at its end or in
+// the middle gives a work that is a little wrong, in each step. So the force
+// acts along a **discrete gradient** $D$ of the distance: a direction that
+// depends on both places $x_0$ and $x_1$ of the point, with
+//
+// $$ D \cdot (x_1 - x_0) = \phi(x_1) - \phi(x_0) $$
+//
+// exactly. For a circle around $c$, with $r = x - c$, it is
+//
+// $$ D = \frac{r_0 + r_1}{|r_0| + |r_1|} , $$
+//
+// since $|r_1|^2 - |r_0|^2 = (r_0 + r_1) \cdot (r_1 - r_0)$. It has no moment
+// about $c$ either: a disk in a bowl keeps its energy and, without gravity, its
+// angular momentum about the middle of the bowl
+// (`lib/contact/obstacles/radial_distance.h`; the other shapes are beside it).
+//
+// A **moving obstacle** has a place and a rotation that are functions of time.
+// The point is looked at in the frame of the obstacle, where the gap is again
+// $\phi$ of one place: $D$ is made there and turned back. Of the work
+// $p\, D \cdot$ (way) that is done on the body a part is the change of the gap,
+// and the rest is the work of the motion of the obstacle
+// (`lib/contact/obstacles/rigid_obstacle.h`).
+//
+// ## One step of this program
+//
+// $$ M \frac{V_1 - V_0}{\Delta t} + F_{int}(U_0, U_1)
+//    - \sum_j w_j\, \big( p_j D_j(U_0, U_1) + t_j \big) = L, \qquad
+//    \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2} , $$
+//
+// where $p_j$ follows from the gaps $g_0$ and $g_1$ of the node by any
+// treatment of elastic_ball, $t_j$ from the way along the surface against that
+// of the obstacle, as in hyperelastic_ring, and $L$ is the weight. Newton's
+// method has to know that $D$ turns while the end of the step is sought, and so
+// its matrix has the derivative $p\, \partial D / \partial x_1$ beside the
+// stiffness of the law. Multiplied by $U_1 - U_0$:
+//
+//     E_new - E_old = work of gravity - work against contact and friction
+//
+// ## Examples
+//
+// Those in `parameter_files/obstacle_course/` have answers by hand:
+//
+//     block_slides, block_sticks   on an incline of tan(beta) = 1/2, with mu = 0.49
+//                                  and 0.51: a = g (sin beta - mu cos beta), or 0
+//     disk_slips, disk_rolls       there with mu = 0.15 and 0.18: a disk rolls with
+//                                  a = 2/3 g sin(beta) where mu > tan(beta)/3, and
+//                                  slips with the block's a otherwise
+//     bowl                         a disk runs to and fro and keeps its energy
+//     rising_plate                 a ball on a plate that is lifted
+//     drum                         a body in a drum that turns and drags it along
+//     folding_strip                a strip that falls on its end buckles, and touches
+//                                  itself where it folds
+//
+// ## Run it
 //
 //     obstacle_course parameter_files/obstacle_course/default.prm
 //     obstacle_course --print-parameters
@@ -98,7 +150,7 @@ private:
 
 
 
-// ### Data
+// ## Data
 //
 // By default, a soft disk that falls onto another one, which is rigid.
 ObstacleCourse::ObstacleCourse()
@@ -228,7 +280,7 @@ ObstacleCourse::unused_parameters() const
 
 
 
-// ### Mesh
+// ## Mesh
 void
 ObstacleCourse::make_grid(Triangulation<2> &triangulation) const
 {
@@ -255,7 +307,7 @@ ObstacleCourse::make_grid(Triangulation<2> &triangulation) const
 
 
 
-// ### The run
+// ## The run
 void
 ObstacleCourse::run(RunFolder &folder)
 {
@@ -263,6 +315,11 @@ ObstacleCourse::run(RunFolder &folder)
   make_grid(triangulation);
 
   // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
+  // What is said of the obstacle here is all that there is: its shape, which
+  // knows $\phi$ and $D$, and its motion. The kinematics of a plane at rest,
+  // whose $D$ is the same for ever, and of any other obstacle are two classes
+  // behind one interface (`lib/contact/kinematics/contact_kinematics.h`), and
+  // no treatment knows which it has.
   const Material<2> elastic = material.make<2>();
   ImpactSetup<2>    setup{elastic};
   setup.density   = material.density;
@@ -280,7 +337,8 @@ ObstacleCourse::run(RunFolder &folder)
              " unknowns, " + material.law + ", " + impact.contact.treatment +
              ", " + impact.scheme.name + ", obstacle: " + obstacle.shape);
 
-  // The body moves as a rigid one: velocity of the middle, and spin about it.
+  // The body moves as a rigid one: velocity of the middle, and spin about it,
+  // $v = v_c + \omega\, e_3 \times (x - c)$.
   const State initial_state =
     course.state_in_motion(FunctionFromFunctionObjects<2>(
       {[&](const Point<2> &x) {
@@ -290,8 +348,10 @@ ObstacleCourse::run(RunFolder &folder)
          return initial_velocity[1] + initial_spin * (x[0] - centre[0]);
        }}));
 
-  // The time loop writes energies and contact; momenta tell the rest: the motion
-  // of the middle, and the spin.
+  // The time loop writes energies and contact; momenta tell the rest: the
+  // motion of the middle, and the spin. The work of a moving obstacle is told a
+  // second time, from force, moment and motion: an independent number for what
+  // the balance says.
   TimeLoop loop(impact.time, folder, course.system, *course.scheme, contacts);
   const Momenta<2> momenta(course.body,
                            course.system.mass_matrix(),

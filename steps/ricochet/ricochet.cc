@@ -2,8 +2,9 @@
 
 // # Ricochet
 //
-// Your own bodies, obstacles and contacts, from a parameter file. The other programs
-// are benchmarks, each of one situation; here the file says what there is:
+// Your own bodies, obstacles and contacts, from a parameter file. The other
+// programs are benchmarks, each of one situation; here the file says what there
+// is:
 //
 //     set Program   = ricochet
 //     set Dimension = 2
@@ -22,36 +23,73 @@
 //       set Against = floor
 //     end
 //
-// There are as many bodies, obstacles, contacts, conditions at boundaries and probes
-// as sections `Body NAME`, `Obstacle NAME`, `Contact NAME`, `Condition NAME` and `Probe
-// NAME`. All bodies together are
+// There are as many bodies, obstacles, contacts, conditions at boundaries and
+// probes as sections `Body NAME`, `Obstacle NAME`, `Contact NAME`,
+// `Condition NAME` and `Probe NAME`.
 //
-//     rho u_tt - div P(F) = rho b                        in each body,
-//     u = u_D or P N = t                                 where a condition says so,
-//     gap >= 0, p >= 0, p gap = 0 or its like,
-//     |friction| <= mu p                                 in each contact,
+// ## The problem
 //
-// with the treatment, the friction and the parameters of each contact. What has a unit
-// and is not given follows from moduli, densities and mesh sizes of the bodies that take
-// part, so that a problem in millimetres and tonnes has the solution of the same one in
-// metres and kilograms; the values are in log.txt and parameters.prm.
+// All bodies together are, with the first Piola-Kirchhoff stress $\Pi$,
 //
-// One step with the midpoint scheme, which is the default, is
+// $$ \rho\, \ddot u - \mathrm{Div}\, \Pi(u) = \rho\, b
+//    \quad\text{in each body}, \qquad
+//    u = u_D \;\text{ or }\; \Pi n = f \;\text{ where a condition says so}, $$
 //
-//     M (v_1 - v_0)/dt + F_int(u_0, u_1) + sum over contacts F_c(u_0, u_1) = F_ext,
+// and in each contact, with the gap $g$ (positive when separated), the pressure
+// $p$ (positive in compression) and the friction traction $t$,
 //
-// where each F_c is pressure times a row whose product with the step is the change of the
-// gap. So the ledger closes whatever is combined: change of energy = work of loads and
-// prescribed displacements - what contacts, friction and viscosity take.
+// $$ g \ge 0, \quad p \ge 0, \quad p\, g = 0 \;\text{ or its like}, \qquad
+//    |t| \le \mu p \;\text{ against the slip}, $$
 //
-// Run it as
+// with the treatment, the friction and the parameters of each contact. What has
+// a unit and is not given follows from moduli, densities and mesh sizes of the
+// bodies that take part, so that a problem in millimetres and tonnes has the
+// solution of the same one in metres and kilograms; the values are in log.txt
+// and parameters.prm.
+//
+// ## Weak form
+//
+// For all $v$ that are zero where displacements are prescribed,
+//
+// $$ \int \rho\, \ddot u \cdot v \, dx + \int \Pi(u) : \nabla v \, dx
+//    - \sum_c \int_{\Gamma_c} \big( p \delta g(v) + t \cdot \delta s(v) \big)
+//    \, ds = \int \rho\, b \cdot v \, dx + \int_{\Gamma_N} f \cdot v \, ds . $$
+//
+// Here $\delta g(v)$ and $\delta s(v)$ are the changes of gap and slip along
+// $v$. Against an obstacle $\delta g(v) = \nu \cdot v$ with its normal $\nu$
+// (see the programs elastic_ball and obstacle_course); between bodies it has a
+// part on each of them (colliding_disks).
+//
+// ## One step of this program
+//
+// With the midpoint scheme, which is the default,
+//
+// $$ M \frac{V_1 - V_0}{\Delta t} + F_{int}(U_0, U_1)
+//    - \sum_c \sum_j w_j \big( p_j D_j + T_j t_j \big) = L + R, \qquad
+//    \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2} , $$
+//
+// where each $D_j$ is a row whose product with the displacement of the step is
+// the change of the gap, and the forces $R$ are those that hold or move what is
+// prescribed. So the ledger closes whatever is combined:
+//
+//     change of energy = work of loads and prescribed displacements
+//                        - what contacts, friction and viscosity take
+//
+// Each term has a file: $F_{int}$ `lib/materials/gonzalez.h` and
+// `lib/discretization/hyperelastic_bulk.cc`; $D_j$ `lib/contact/kinematics/`;
+// $p_j$ `lib/contact/laws/` and `lib/contact/treatments/`; the sum over
+// contacts `lib/contact/treatments/contact_sum.h`; the step
+// `lib/time_integration/midpoint.cc`. How the sections of the file become these
+// is told in `lib/scene/scene.h`.
+//
+// ## Run it
 //
 //     ricochet examples/belt_with_spring.prm
 //     ricochet examples/belt_with_spring.prm --validate
 //     ricochet --print-parameters
 //
-// The second tells what is there, without a run; the third has all sections, with NAME
-// for the names of your own.
+// The second tells what is there, without a run; the third has all sections,
+// with NAME for the names of your own.
 
 #include <base/program.h>
 #include <scene/scene.h>

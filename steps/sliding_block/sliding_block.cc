@@ -2,30 +2,76 @@
 
 // # A block on a strip
 //
-// An elastic block slides, under its weight, along an elastic strip that is held
-// below and may be a slope: two deformable bodies with Coulomb's friction,
+// An elastic block slides, under its weight, along an elastic strip that is
+// held below and may be a slope: two deformable bodies with Coulomb's friction.
+// The answers are those of a rigid block, which everybody can compute. Gap and
+// forces between bodies are explained in the program colliding_disks.
 //
-//     rho u_tt - div sigma = rho g          in block and strip,
-//     gap >= 0, p >= 0, p gap = 0           between them, or its like,
-//     |t| <= mu p, t along the slip,
-//     u = 0                                 below the strip.
+// ## The problem
 //
-// The strip lies along x; a slope turns gravity instead, g (sin beta, -cos beta).
-// The answers are those of a rigid block: on a slope it slides if mu < tan(beta), with
-// the acceleration g (sin beta - mu cos beta), and rests otherwise; on the level it is
-// slowed down by mu g.
+// In block and strip, with a stress that is linear in the strain $C - I$ (Saint
+// Venant and Kirchhoff) and some viscosity (Curnier, $S_v = 2 \eta \dot C$),
 //
-// The weight is there at once, and what it excites does not die away by itself: the
-// midpoint rule keeps all vibrations. So there is some viscosity by default; without,
-// a block stops late.
+// $$ \rho\, \ddot u - \mathrm{Div} (F S) = \rho\, b, \qquad
+//    b = \bar g \, (\sin \beta, -\cos \beta) , $$
 //
-// Run it as
+// where $\bar g$ is gravity's acceleration: the strip lies along $x$, and a
+// slope of the angle $\beta$ turns gravity instead. Below the strip $u = 0$.
+// Between both $g \ge 0$, $p \ge 0$, $p\, g = 0$ or its like, and Coulomb's
+// friction (A (2.2), B (2.1)) for the traction $t$ along the strip,
+//
+// $$ |t| \le \mu p, \qquad t = -\mu p \,\frac{\dot s}{|\dot s|}
+//    \;\text{ if the slip rate } \dot s \ne 0 . $$
+//
+// Seen as a rigid body, the block slides down a slope if $\mu < \tan \beta$,
+// with the acceleration $\bar g (\sin \beta - \mu \cos \beta)$, and rests
+// otherwise; on the level it is slowed down by $\mu \bar g$. A block of many
+// elements has to find that by itself: its underside is pressed unevenly, and
+// each node sticks or slips on its own.
+//
+// ## Weak form
+//
+// $$ \int \rho\, \ddot u \cdot v \, dx + \int F S : \nabla v \, dx
+//    - \sum_j w_j \big( p_j\, \delta g_j(v) + t_j\, \delta s_j(v) \big)
+//    = \int \rho\, b \cdot v \, dx . $$
+//
+// ## One step of this program
+//
+// With the midpoint scheme, rows $D$ and $T$ of each node of the underside on
+// its own coordinates and on those of the facet below it,
+// $D \cdot \Delta x = \Delta g$ and $T \cdot \Delta x = \Delta s$:
+//
+// $$ M \frac{V_1 - V_0}{\Delta t} + F_{int}(U_0, U_1)
+//    = \sum_j w_j \big( p_j D_j + t_j T_j \big) + L, \qquad
+//    \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2} . $$
+//
+// With persistent contact (the default) $p$ and $t$ are unknowns in each node,
+// and the equations for them are chosen by active sets (B section 5; Hüeber,
+// Stadler and Wohlmuth 2008):
+//
+//     no contact   p = 0,  t = 0
+//     stick        dg = 0, ds = 0          while |t - r ds| < mu p
+//     slip         dg = 0, t = -mu p ds/|ds|
+//
+// with any $r > 0$. The work of friction over the step is
+// $-t\, \Delta s \ge 0$: it is zero in nodes that stick and $\mu p |\Delta s|$
+// in those that slip. Multiplied by $U_1 - U_0$ the equation is the row of the
+// ledger,
+//
+//     E_1 - E_0 = work of gravity - friction - viscosity
+//
+// The weight is there at once, and what it excites does not die away by itself:
+// the midpoint rule keeps all vibrations. So there is some viscosity by
+// default; without, a block stops late.
+//
+// ## Run it
 //
 //     sliding_block parameter_files/sliding_block/default.prm
 //     sliding_block --set "Slope/Tangent=0.5" --set "Start/Initial velocity=0"
 //     sliding_block --print-parameters
 //
-// and look at the column slide_block of energy.csv, how far the middle has come.
+// and look at the column slide_block of energy.csv, how far the middle has
+// come.
 
 #include <base/exceptions.h>
 #include <base/program.h>
@@ -74,7 +120,7 @@ private:
 
 
 
-// ### Data
+// ## Data
 SlidingBlock::SlidingBlock()
 {
   material.law           = "Saint Venant-Kirchhoff";
@@ -184,9 +230,9 @@ SlidingBlock::unused_parameters() const
 
 
 
-// ### Mesh
+// ## Mesh
 //
-// Part 0 is the block, part 1 the strip; both touch at y = 0.
+// Part 0 is the block, part 1 the strip; both touch at $y = 0$.
 void
 SlidingBlock::make_grid(Triangulation<2> &triangulation) const
 {
@@ -213,7 +259,7 @@ SlidingBlock::make_grid(Triangulation<2> &triangulation) const
 
 
 
-// ### The run
+// ## The run
 void
 SlidingBlock::run(RunFolder &folder)
 {
@@ -226,10 +272,12 @@ SlidingBlock::run(RunFolder &folder)
     {"block", elastic, material.density, Tensor<1, 2>({initial_velocity, 0.})});
   setup.parts.push_back({"strip", elastic, material.density});
   setup.clamped = {rectangle_side(1, Rectangle::lower)};
-  // The block is the slave: its nodes stay before the strip, whose ends it does not
-  // reach.
+  // The block is the slave, whose nodes carry $p$ and $t$: they stay before the
+  // strip, whose ends the block does not reach.
   const types::boundary_id underside = rectangle_side(0, Rectangle::lower);
   setup.pairs = {{"block", {underside}, {rectangle_side(1, Rectangle::upper)}}};
+  // Gravity of a slope of the angle $\beta$,
+  // $b = \bar g (\sin \beta, -\cos \beta)$.
   const double angle = std::atan(slope);
   setup.gravity = gravity * Tensor<1, 2>({std::sin(angle), -std::cos(angle)});
   Impact<2> assembly(impact, triangulation, setup, folder.communicator);
@@ -251,6 +299,8 @@ SlidingBlock::run(RunFolder &folder)
                              elastic.linear.has_value(),
                              {"block", "strip"});
   parts.add_to(loop);
+  // How far the block has come: its momentum, with displacements for
+  // velocities, over its mass.
   const double mass =
     parts.momenta(0).linear(assembly.uniform(Tensor<1, 2>({1., 0.})))[0];
   loop.add_column("slide_block", "m", [&](const State &state) {

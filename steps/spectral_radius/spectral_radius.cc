@@ -2,29 +2,75 @@
 
 // # Spectral radii of the time schemes
 //
-// How much does a time scheme damp a vibration that it cannot resolve? For an
-// oscillator m u'' + k u = 0 a step maps the state (u, dt u', dt^2 u'') linearly
-// to the next one; the largest modulus of the eigenvalues of this
-// amplification matrix, as a function of (omega dt)^2 = k/m dt^2, is the answer
-// (paper C, sections 3.2.1 and 3.3, figures 3 and 4).
+// How much does a time scheme damp a vibration that it cannot resolve? At an
+// impact many of them begin at once: those of the last elements before the
+// obstacle, whose periods are shorter than the time step. A scheme that keeps
+// them for ever shows them in the pressure for ever; one that damps too much
+// takes energy that it should not. The question has an answer without any
+// contact (paper C, sections 3.2.1 and 3.3, figures 3 and 4).
 //
-// The matrices are not typed in from the paper: each of their columns is one
-// step of the very integrator that the benchmarks use, from a unit state. The
-// oscillator is a bar of one linear element that is held at its right end and
-// far from any obstacle: m = 1/3 and k = 1 in its left end.
+// ## The problem
+//
+// A linear body without load, $M \ddot U + K U = 0$, falls apart into its
+// vibrations. Each of them is an oscillator of its own (C (25)),
+//
+// $$ m \ddot u + k u = 0, \qquad \omega^2 = k/m , $$
+//
+// and a linear time scheme treats each as if it were alone. So it is enough to
+// know what the scheme does to one oscillator, as a function of
+// $\omega \Delta t$.
+//
+// ## One step of this program
+//
+// A step maps the state $Y = (u, \Delta t\, \dot u, \Delta t^2 \ddot u)$
+// linearly to the next one (C (29)):
+//
+// $$ Y_{n+1} = A(\omega \Delta t) \, Y_n . $$
+//
+// $A$ is the **amplification matrix**, and its **spectral radius** $\rho$, the
+// largest modulus of its eigenvalues (C (30)), is the factor by which a
+// vibration shrinks in a step after many of them. $\rho \le 1$ for all
+// $\omega \Delta t$ means that the scheme is stable with any step. For small
+// $\omega \Delta t$ it should be one: what is resolved is kept. For large
+// $\omega \Delta t$ it should be less.
+//
+// The matrices are not typed in from the paper (C (37)): each column is one
+// step of the very integrator that the benchmarks use, from a unit state. With
+// HHT (C (24), `lib/time_integration/hht.cc`) that is
+//
+// $$ u_1 = u_0 + \Delta t\, \dot u_0
+//    + \Delta t^2 \big( (\tfrac12 - \beta) \ddot u_0 + \beta \ddot u_1 \big),
+//    \qquad
+//    \dot u_1 = \dot u_0 + \Delta t \big( (1 - \gamma) \ddot u_0
+//    + \gamma \ddot u_1 \big), $$
+//
+// $$ m \ddot u_1 + (1 - \alpha)\, k u_1 + \alpha\, k u_0 = 0, \qquad
+//    \beta = \tfrac14 (1 + |\alpha|)^2, \quad \gamma = \tfrac12 + |\alpha| . $$
+//
+// Crank-Nicolson is $\alpha = 0$; TR-BDF2 (C (33)) has its equations in the
+// introduction of the program bar_ss. In the limit of large $\omega \Delta t$
+// the spectral radii are
+//
+// $$ \rho_\infty = \frac{1 - |\alpha|}{1 + |\alpha|} \;\text{(HHT)}, \qquad
+//    1 \;\text{(Crank-Nicolson)}, \qquad 0 \;\text{(TR-BDF2)}. $$
+//
+// (The paper's $(1 - |\alpha|^2)/(1 + |\alpha|)^2$ after C (32) is the same
+// number.)
 //
 // The program also integrates the oscillator over a fixed time with smaller and
-// smaller steps, and writes the errors, from which the order of each scheme
-// follows: 2 for Crank-Nicolson, HHT with alpha > 0 and TR-BDF2. For alpha < 0
-// with gamma = 1/2 + |alpha| it is 1, whatever paper C, (28), says.
+// smaller steps, from which the **order** of each scheme follows: the exponent
+// of $\Delta t$ in the error. It is 2 for Crank-Nicolson, HHT with $\alpha > 0$
+// and TR-BDF2. For $\alpha < 0$ it is 1, whatever C (28) says: second order
+// takes $\gamma = \tfrac12 + \alpha$ with the sign of $\alpha$, and what is
+// used is $\gamma = \tfrac12 + |\alpha|$.
 //
-// Run it as
+// ## Run it
 //
 //     spectral_radius
 //     spectral_radius --set "Spectrum/Points=50"
 //
-// The limits for large (omega dt)^2 are (1 - |alpha|)/(1 + |alpha|) for HHT, 1
-// for Crank-Nicolson and 0 for TR-BDF2.
+// The first prints the spectral radii for $(\omega \Delta t)^2 = 10^7$ beside
+// their limits, and the orders.
 
 #include <contact/obstacles/half_space.h>
 #include <base/exceptions.h>
@@ -84,7 +130,9 @@ private:
   std::vector<double> alphas       = {.02, -.02, .05, -.05, .1, -.1};
   double              trbdf2_gamma = TimeScheme::Parameters().trbdf2_gamma;
 
-  // The one unknown that moves: the left end. The other one is held.
+  // The one unknown that moves: the left end of a bar of one linear element, of
+  // which the other end is held. The mass of its hat function is
+  // $m = \int_0^1 (1 - x)^2 dx = 1/3$, the stiffness $k = 1$.
   static constexpr types::global_dof_index left = 0;
   static constexpr double                  mass = 1. / 3., stiffness = 1.;
 };
@@ -151,6 +199,9 @@ SpectralRadius::schemes() const
 
 
 
+// ## The oscillator
+//
+// It is a bar like the others, with an obstacle that it never reaches.
 std::unique_ptr<Impact<1>>
 SpectralRadius::make_oscillator(const Triangulation<1>       &triangulation,
                                 const TimeScheme::Parameters &scheme,
@@ -174,8 +225,11 @@ SpectralRadius::make_oscillator(const Triangulation<1>       &triangulation,
 
 
 
-// One step from each of the three unit states gives the three columns of the
-// amplification matrix.
+// ## The amplification matrix
+//
+// One step from each of the three unit states, $u = 1$, $\Delta t\, \dot u = 1$
+// and $\Delta t^2 \ddot u = 1$, gives the three columns of $A$. The states need
+// not be ones that a motion passes through; the scheme does not ask.
 double
 SpectralRadius::spectral_radius(Impact<1>   &oscillator,
                                 const double time_step) const
@@ -202,7 +256,10 @@ SpectralRadius::spectral_radius(Impact<1>   &oscillator,
 
 
 
-// Free vibration from u = 1 at rest: u = cos(omega t).
+// ## The order
+//
+// Free vibration from $u = 1$ at rest is $u = \cos(\omega t)$. What a scheme
+// makes of it at the final time, against this, is the error.
 double
 SpectralRadius::error(Impact<1>         &oscillator,
                       const double       final_time,

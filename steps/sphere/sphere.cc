@@ -2,31 +2,97 @@
 
 // # The sphere
 //
-// An elastic ball of diameter 40 falls from a height of 2 on a rigid foundation,
-// the half space below x_3 = 0:
+// An elastic ball of diameter 40 falls from a height of 2 on a rigid
+// foundation, the half space below $x_3 = 0$, and bounces. All numbers are
+// without unit, as in paper C, section 4.3, of which this is the benchmark in
+// three dimensions. It has the contact treatments and the time schemes of the
+// bars (begin with the program bar_sd) on a body with some ten thousand
+// unknowns, where what a step costs begins to matter.
 //
-//     rho u_tt - div sigma(u) = rho g             in the ball,
-//     gap >= 0, p >= 0, p gap = 0                 on the lower half, with
-//     gap = x_3 + u_3, p the contact pressure,
-//     u = 0, u_t = 0                              at t = 0,
+// ## The problem
 //
-// with linear elasticity and g = (0, 0, -0.1). All numbers are without unit, as in
-// paper C, section 4.3, of which this is the benchmark in three dimensions.
+// In the ball
 //
-// The soft sphere (lambda = mu = 20) is squashed to some two thirds of its height
-// and takes twenty units of time for its first bounce. The hard one (lambda = mu =
-// 30000, hard.prm) touches a spot of a few elements for one unit of time.
+// $$ \rho\, \ddot u - \mathrm{div}\, \sigma(u) = \rho\, b , \qquad
+//    \sigma = \lambda \,\mathrm{tr}(\varepsilon)\, I + 2 \mu\, \varepsilon , $$
 //
-// Gravity makes a load, and what a scheme should keep is the energy (modified by
-// Nitsche's terms) less the work of the load: the columns `modified_energy` and
-// `external_work` of energy.csv.
+// with the acceleration of gravity $b = (0, 0, -0.1)$, from rest (C (1)). On
+// the lower half of its surface, with the gap $g = x_3 + u_3$ and the contact
+// pressure $p = -\sigma_n$,
 //
-// The body is linear, so that the matrix of its equation of motion is the same in
-// all steps: it is factored once, and contact is a correction of low rank (see
-// lib/solvers/low_rank_correction.h). Large bodies, and those on several ranks, are
-// solved by multigrid; the end of the log says which.
+// $$ g \ge 0, \qquad p \ge 0, \qquad p\, g = 0 . $$
 //
-// Run it as
+// The soft sphere ($\lambda = \mu = 20$) is squashed to some two thirds of its
+// height and takes twenty units of time for its first bounce. The hard one
+// ($\lambda = \mu = 30000$, hard.prm) touches a spot of a few elements for one
+// unit of time.
+//
+// ## Weak form
+//
+// Nitsche's method for the whole surface (C (8), (9); in our signs, with
+// $p(v) = -\sigma_n(v)$, the normal $\nu$ of the foundation,
+// $\gamma = \gamma_0 / h_T$ and $q = p(u) - \gamma g$): for all $v$
+//
+// $$ \int_\Omega \rho\, \ddot u \cdot v \, dx
+//    + \int_\Omega \sigma(u) : \varepsilon(v) \, dx
+//    - \int_\Gamma \frac{\theta}{\gamma}\, p(u)\, p(v) \, ds
+//    + \int_\Gamma \frac{1}{\gamma}\, [q]_+
+//      \big( \theta\, p(v) - \gamma\, \nu \cdot v \big) \, ds
+//    = \int_\Omega \rho\, b \cdot v \, dx . $$
+//
+// The integrals over $\Gamma$ are sums over quadrature points, in each of which
+// `lib/contact/laws/nitsche.h` is asked once. The **proximal augmented
+// Lagrangian** (C (18) to (20), `lib/contact/laws/augmented_lagrangian.h`) is
+// the same with a multiplier $\lambda_h$ in the place of $p(u)$, which has the
+// equation
+//
+// $$ \int_\Gamma \frac{1}{\gamma}
+//    \big( [\lambda_h - \gamma g]_+ - \lambda_h \big) \, \mu_h \, ds = 0
+//    \quad\text{for all } \mu_h . $$
+//
+// Gravity makes a load, and what a scheme should keep is the modified energy
+// less the work of the load: the columns `modified_energy` and `external_work`
+// of energy.csv.
+//
+// ## One step of this program
+//
+// As in bar_sd: with Crank-Nicolson and HHT (C (24)) one nonlinear system
+//
+// $$ \frac{1}{\beta \Delta t^2} M (U_1 - \hat U)
+//    + (1 - \alpha) \big( K U_1 + F_c(U_1) - L \big)
+//    + \alpha \big( K U_0 + F_c(U_0) - L \big) = 0, $$
+//
+// $$ \hat U = U_0 + \Delta t\, V_0 + \Delta t^2 (\tfrac12 - \beta) A_0, \qquad
+//    A_1 = \frac{U_1 - \hat U}{\beta \Delta t^2}, \qquad
+//    V_1 = V_0 + \Delta t \big( (1 - \gamma) A_0 + \gamma A_1 \big) $$
+//
+// ($\gamma$ of the scheme here), with TR-BDF2 (C (33)) two. Algorithm 1 of the
+// paper prints a factor $1/(2 \beta \Delta t^2)$, which should be
+// $1/(\beta \Delta t^2)$.
+//
+// The **Nitsche-hybrid** scheme (C (38), (39)) is the midpoint rule with a rule
+// of its own for the positive part: the mean of the states where the step
+// begins in contact, the mean of the positive parts where it does not,
+//
+// $$ H(q_0) \, \Big[ \frac{q_0 + q_1}{2} \Big]_+
+//    + H(-q_0) \, \frac{[q_0]_+ + [q_1]_+}{2}, \qquad H(0) = \tfrac12 , $$
+//
+// and with it $E_N$ never grows. (As printed, (39) has the two weights
+// exchanged and $w$ for $P_N(w)$, and $E_N$ does grow:
+// `lib/contact/laws/nitsche_two_point.h`.)
+//
+// ## What a step costs
+//
+// The matrix $\frac{1}{\beta \Delta t^2} M + (1 - \alpha) K$ is the same in all
+// steps: it is factored once. Contact adds to it in the quadrature points where
+// $q > 0$, so that the matrix of an iteration is the factored one and a
+// correction of low rank $U C V^T$, with one column for each such point, and
+// the formula of Sherman, Morrison and Woodbury solves with it at the price of
+// a small dense system (`lib/solvers/low_rank_correction.h`). Large bodies, and
+// those on several ranks, are solved by multigrid; the end of the log says
+// which.
+//
+// ## Run it
 //
 //     sphere parameter_files/sphere/default.prm
 //     sphere parameter_files/sphere/hard.prm --set "Time/Scheme=TR-BDF2"
@@ -118,7 +184,7 @@ private:
 
 
 
-// ### Data
+// ## Data
 //
 // The soft sphere with Nitsche's method and Crank-Nicolson.
 Sphere::Sphere()
@@ -130,7 +196,8 @@ Sphere::Sphere()
   impact.scheme.name           = "Crank-Nicolson";
   impact.contact.treatment     = "Nitsche";
   impact.contact.nitsche_theta = 1.;
-  // 100 mu, as the paper has it; the penalty parameter is its inverse.
+  // $\gamma_0 = 100\, \mu$, as the paper has it; the penalty parameter
+  // $\epsilon_0$ is its inverse.
   impact.contact.nitsche_gamma_0        = 2000.;
   impact.contact.augmentation           = 2000.;
   impact.contact.penalty_epsilon_0      = 5e-4;
@@ -272,17 +339,17 @@ Sphere::unused_parameters() const
 
 
 
-// ### Mesh
+// ## Mesh
 //
 // Each rank keeps its part of the mesh only. A file, or tetrahedra by Gmsh, are
 // taken as a whole by the first rank, cut and handed out; hexahedra are refined
 // where they are.
 //
-// A ball with straight edges lacks what is between its faces and the sphere: with
-// h = 4 its volume is 1.4 % too small, and it touches the foundation with a vertex or
-// a flat facet, which the hard sphere feels. Curved cells have a node on each edge
-// besides, on the sphere where the edge is on the surface: the geometry is then as
-// good as displacements of degree 2 are.
+// A ball with straight edges lacks what is between its faces and the sphere:
+// with $h = 4$ its volume is 1.4 % too small, and it touches the foundation
+// with a vertex or a flat facet, which the hard sphere feels. Curved cells have
+// a node on each edge besides, on the sphere where the edge is on the surface:
+// the geometry is then as good as displacements of degree 2 are.
 CellNodes<3>
 Sphere::make_whole_mesh(Triangulation<3> &mesh) const
 {
@@ -325,13 +392,16 @@ Sphere::make_mesh(const MPI_Comm communicator) const
 
 
 
-// ### The run
+// ## The run
 void
 Sphere::run(RunFolder &folder)
 {
   const Mesh mesh = make_mesh(folder.communicator);
 
-  // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
+  // Mesh and data make the equation of motion: $M$, $K$, $F_c$ and $L$ of "one
+  // step of this program", and the scheme. `foundation_below` is the half space
+  // $x_3 < 0$: its distance function makes $g$, its normal the direction of the
+  // force.
   const Material<3> material(LinearElastic{lambda, mu});
   ImpactSetup<3>    setup{material};
   setup.density   = density;
@@ -350,8 +420,9 @@ Sphere::run(RunFolder &folder)
   // It starts undeformed.
   const State initial_state = sphere.state_in_flight(initial_velocity);
 
-  // The time loop writes energies and contact; the lowest point shows how the
-  // sphere vibrates.
+  // The time loop writes energies and contact: the force
+  // $\int_\Gamma [q]_+ \, ds$, the gap, both pressures. The lowest point shows
+  // how the sphere vibrates.
   TimeLoop           loop(impact.time,
                 folder,
                 sphere.system,

@@ -2,40 +2,76 @@
 
 // # A stent in an artery
 //
-// A longitudinal section, in plane stress, of a soft tube and of a stent that is
-// pressed against its wall: two deformable bodies, both of which move,
+// A longitudinal section, in plane stress, of a soft tube and of a stent that
+// is pressed against its wall: two deformable bodies, both of which move, with
+// friction. This is the last example of paper B (section 7). The paper gives no
+// drawing to scale; what is here shows what its figures 13 to 16 show. The
+// programs hyperelastic_ring (material, Gonzalez' stress, friction) and
+// colliding_disks (gap between bodies) explain what is used here; what is new
+// is a motion that is prescribed, and its work.
 //
-//     rho u_tt - div (F S) = 0                    in wall and stent,
-//     gap >= 0, p >= 0, p gap' = 0                between the inner wall and the
-//                                                 upper side of the stent,
-//     |t| <= mu p, t along the slip               (Coulomb),
-//     u = (1.0, 0.4) r(t) mm, r = 3 t^2 - 2 t^3   on the lower side of the stent,
-//     u = 0                                       on the outer side and the ends of
-//                                                 the artery,
+// ## The problem
 //
-// from rest. Both are Ciarlet-Geymonat materials, the stent 400 times stiffer. This
-// is the last example of paper B (section 7). The paper gives no drawing to scale;
-// what is here shows what its figures 13 to 16 show.
+// In wall and stent, both Ciarlet-Geymonat materials, the stent 400 times
+// stiffer,
 //
-// Units are mm, N, MPa, s and tonnes, so energies are in mJ = N mm: any consistent
-// system does, and the labels of the library, which are those of SI units, mean the
-// ones of this system.
+// $$ \rho\, \ddot u - \mathrm{Div} (F S) = 0 , $$
 //
-// The nodes of the wall are the slave points. Each is before a facet of the stent, in
-// front of or behind which it has the gap g. The force of a point is its pressure
-// along a row D of coefficients on its own unknowns and on those of the facet's
-// nodes, and that of friction along another one, T; over each step D . du is exactly
-// the change of the gap, and neither D nor T pushes or turns the bodies together
-// (lib/contact/surfaces/facet_chain.h). So persistent contact does no work, and the
-// balance of energy,
+// between the inner wall and the upper side of the stent **persistent contact**
+// (B (2.10)) and Coulomb's friction (B (2.1)),
 //
-//     change of energy = work of the imposed displacement
-//                        - friction - viscosity
+// $$ g > 0: \; p = 0, \qquad
+//    g = 0: \; \dot g \ge 0, \; p \ge 0, \; p\, \dot g = 0, \qquad
+//    |t| \le \mu p \;\text{ against the slip} . $$
 //
-// closes to the tolerance of Newton's method in each step, also when nodes slide
-// over the vertices of the stent. That is the column balance_residual of energy.csv.
+// The outer side and the ends of the artery are held, and the lower side of the
+// stent is moved by
 //
-// Run it as
+// $$ u = (1.0,\, 0.4)\, r(t) \;\mathrm{mm}, \qquad r = 3 t^2 - 2 t^3 , $$
+//
+// from rest to rest in one second. Units are mm, N, MPa, s and tonnes, so
+// energies are in mJ = N mm: any consistent system does, and the labels of the
+// library, which are those of SI units, mean the ones of this system.
+//
+// ## Weak form
+//
+// For all $v$ that are zero where the displacement is prescribed (B (2.29)),
+//
+// $$ \int \rho\, \ddot u \cdot v \, dx + \int F S : \nabla v \, dx
+//    - \sum_j w_j \big( p_j \delta g_j(v) + t_j \delta s_j(v) \big) = 0 . $$
+//
+// The nodes $j$ of the wall are the slave points. Each is before a facet of the
+// stent, in front of or behind which it has the gap $g_j$; along the facet it
+// has come by $s_j$.
+//
+// ## One step of this program
+//
+// With the midpoint scheme (B (3.4)), Gonzalez' stress (B (3.2)) in $F_{int}$,
+// and rows with $D \cdot \Delta x = \Delta g$ and $T \cdot \Delta x = \Delta s$
+// (`lib/contact/surfaces/facet_chain.h`):
+//
+// $$ M \frac{V_1 - V_0}{\Delta t} + F_{int}(U_0, U_1)
+//    - \sum_j w_j \big( p_j D_j + t_j T_j \big) = R, \qquad
+//    \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2} . $$
+//
+// $R$ is zero but in the unknowns that are prescribed: there $U_1$ is known,
+// and $R$ is what the equation leaves over, the force of whatever moves the
+// stent. Which nodes may touch is decided once in a step (B (3.7)): those whose
+// gap in the middle of the step is not positive, if the rate of the step before
+// goes on, and those that were pressed in the step before. For them
+// $\Delta g \ge 0$, $p \ge 0$ and $p\, \Delta g = 0$, by active sets within
+// Newton's method (B 5.3). Multiplied by $U_1 - U_0$:
+//
+//     E_1 - E_0 = R . (U_1 - U_0)     work of the imposed displacement
+//                 - friction - viscosity
+//
+// Persistent contact does no work, so it has no term. The balance closes to the
+// tolerance of Newton's method in each step, also when nodes slide over the
+// vertices of the stent: this is the column `balance_residual` of energy.csv,
+// over the largest energy so far (at first there is next to none, so that the
+// quotient begins larger).
+//
+// ## Run it
 //
 //     stent_artery parameter_files/stent_artery/default.prm
 //     stent_artery --set "Contact/Friction coefficient=0.2"
@@ -86,7 +122,10 @@ private:
 
 
 
-// ### Data
+// ## Data
+//
+// Both laws have $\mu = 2 (c_1 + c_2)$ and $\lambda = 4 (c_2 + d)$ at small
+// strains: about 1 MPa and 1.4 MPa for the wall.
 StentArtery::StentArtery()
 {
   artery.section     = "Artery";
@@ -219,7 +258,10 @@ StentArtery::unused_parameters() const
 
 
 
-// ### The deployment
+// ## The deployment
+//
+// $r = 3 t^2 - 2 t^3$ begins and ends at rest, so that nothing is hit by the
+// start.
 Tensor<1, 2>
 StentArtery::deployment(const double time) const
 {
@@ -229,7 +271,7 @@ StentArtery::deployment(const double time) const
 
 
 
-// ### The run
+// ## The run
 void
 StentArtery::run(RunFolder &folder)
 {
