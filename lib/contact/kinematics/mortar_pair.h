@@ -5,6 +5,8 @@
 #include <contact/kinematics/pair_before_chains.h>
 #include <contact/surfaces/facet_chain.h>
 
+#include <Sacado_Fad_SLFad.hpp>
+
 namespace Ricochet
 {
   /**
