@@ -37,6 +37,7 @@ view = simple.GetActiveViewOrCreate("RenderView")
 simple.Hide(bodies, view)
 shown = simple.Show(moved, view)
 shown.SetRepresentationType("Surface With Edges")
+shown.EdgeColor = [0.3, 0.3, 0.3]
 simple.ColorBy(shown, ("POINTS", "von_mises"))
 simple.GetColorTransferFunction("von_mises").ApplyPreset("Viridis (matplotlib)", True)
 # The same colours at all times.
@@ -44,14 +45,19 @@ shown.RescaleTransferFunctionToDataRangeOverTime()
 shown.SetScalarBarVisibility(view, True)
 
 obstacles = os.path.join(os.path.dirname(str(bodies.FileName)), "obstacles.pvd")
+low, high = bodies.GetDataInformation().GetBounds()[4:6]
+if high > low:
+    # In space: from the side and above, with z up.
+    view.CameraPosition, view.CameraViewUp = [1.0, -2.5, 1.0], [0.0, 0.0, 1.0]
+    view.CameraFocalPoint = [0.0, 0.0, 0.0]
 simple.ResetCamera(view)
 if os.path.isfile(obstacles):
     surfaces = simple.PVDReader(FileName=obstacles)
     look = simple.Show(surfaces, view)
-    simple.ColorBy(look, None)
+    look.ColorArrayName = ["POINTS", ""]
     look.DiffuseColor = look.AmbientColor = [0.7, 0.7, 0.7]
     look.Opacity = 0.5
     look.LineWidth = 3.0
 simple.Render(view)
 if len(sys.argv) > 2:
-    simple.SaveScreenshot(sys.argv[2], view)
+    simple.SaveScreenshot(sys.argv[2], view, ImageResolution=[1200, 900])
