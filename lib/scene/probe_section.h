@@ -35,8 +35,7 @@ namespace Ricochet
 
     /**
      * Add the columns to @p loop, which @p impact must outlive.
-     * @param materials of all parts.
-     * @param parts first part of each body, and their number.
+     * @param first_part of each body, and the number of all.
      * @throws InputError for a body that does not exist, or a point that is not in it.
      */
     void
