@@ -39,7 +39,7 @@ mathjax2_config = {
         "processClass": "tex2jax_process|mathjax_process|math|output_area",
         "ignoreClass": "document",
     },
-    "SVG": {"font": "TeX", "linebreaks": {"automatic": True, "width": "container"}},
+    "SVG": {"font": "TeX", "scale": 92, "linebreaks": {"automatic": True, "width": "container"}},
     "showMathMenu": False,
     "messageStyle": "none",
     "menuSettings": {"explorer": False, "assistiveMML": False},

@@ -49,9 +49,7 @@ def only_fonts_of_tex(folder: str, names: list[str]) -> list[str]:
 def copy_pictures(made: site.Site) -> None:
     """The pictures of README.md, which other pages include."""
     for path in (site.DOC / "images").iterdir():
-        target = made.target / "images" / path.name
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(path, target)
+        made.copy(path, f"images/{path.name}")
 
 
 def copy_notebooks(made: site.Site) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import pathlib
 import re
 
 from . import figures, site, text
@@ -10,7 +11,7 @@ from . import figures, site, text
 PAGE = "examples/index"
 
 
-def head_of(path: site.pathlib.Path) -> str:
+def head_of(path: pathlib.Path) -> str:
     """The comment at the head of a parameter file, as Markdown."""
     lines = []
     for line in path.read_text(encoding="utf-8").splitlines():
@@ -18,6 +19,15 @@ def head_of(path: site.pathlib.Path) -> str:
             break
         lines.append(re.sub(r"^# ?", "", line))
     return text.prose(lines)
+
+
+def title_of(path: pathlib.Path) -> str:
+    """The name of an example, with the apostrophes that its head has."""
+    first = re.split("[,:.]", head_of(path), maxsplit=1)[0]
+    plain = re.sub(r"[^a-z]", "", first.lower())
+    return (
+        first if plain == path.stem.replace("_", "") else path.stem.replace("_", " ").capitalize()
+    )
 
 
 def _rows(readme: str) -> dict[str, list[str]]:
@@ -52,7 +62,7 @@ def make(made: site.Site) -> None:
     sections = []
     for name in rows:
         picture = folder / "images" / f"{name}.png"
-        title = name.replace("_", " ").capitalize()
+        title = title_of(folder / f"{name}.prm")
         made.copy(picture, f"examples/pictures/{name}.png")
         figures.thumbnail(picture, made.extra(f"examples/thumbnails/{name}.png"))
         items.append((f"#example-{text.slug(name)}", f"thumbnails/{name}.png", title))
@@ -61,8 +71,7 @@ def make(made: site.Site) -> None:
         file = f"examples/{name}.prm"
         sections += [
             f"(example-{text.slug(name)})=\n### {title}",
-            f'<a class="picture" href="pictures/{name}.png"><img src="pictures/{name}.png" '
-            f'loading="lazy" alt="{text.escape(what)}"></a>',
+            text.picture(picture, f"pictures/{name}.png", what),
             f"{what[:1].upper()}{what[1:]}.",
             f"- **Must be:** {must_be}\n- **Is:** {is_}\n- **File:** "
             + text.anchor(text.parameter_file_link(PAGE, file), f"<code>{file}</code>")

@@ -36,7 +36,7 @@ class Entry:
 
     @property
     def name(self) -> str:
-        return self.figure.name
+        return str(self.figure.name)
 
     @property
     def anchor(self) -> str:
@@ -92,8 +92,8 @@ class Gallery:
             self._take_pictures(entry)
 
     def _take_pictures(self, entry: Entry) -> None:
-        for name in filter(None, (entry.figure.image, entry.figure.animation)):
-            if (self.pictures / name).is_file():
+        for name in (entry.figure.image, entry.figure.animation):
+            if name and (self.pictures / name).is_file():
                 self.site.copy(self.pictures / name, f"{FOLDER}/pictures/{name}")
         if self.is_made(entry):
             thumbnail(
@@ -102,7 +102,7 @@ class Gallery:
             )
 
     def is_made(self, entry: Entry) -> bool:
-        return (self.pictures / entry.figure.image).is_file()
+        return bool((self.pictures / entry.figure.image).is_file())
 
     def page(self, entry: Entry) -> str:
         return f"{FOLDER}/{entry.group}"
@@ -116,21 +116,19 @@ class Gallery:
     # Parts of a page --------------------------------------------------------
 
     def _picture(self, entry: Entry, page: str) -> str:
+        figure = entry.figure
         command = f"figures/make.py {entry.name}"
         if not self.is_made(entry):
-            seconds = sum(run.cost for run in entry.figure.runs)
+            seconds = sum(run.cost for run in figure.runs)
             return (
                 f'<p class="missing">This picture has not been made. <code>{command}</code> makes '
                 f"it; its runs take about {max(1, round(seconds))} s on one core.</p>"
             )
         lines = []
-        for name, what in ((entry.figure.image, ""), (entry.figure.animation, ", moving")):
+        for name, what in ((figure.image, ""), (figure.animation, ", moving")):
             if name and (self.pictures / name).is_file():
                 address = site.link(page, f"{FOLDER}/pictures/{name}")
-                lines.append(
-                    f'<a class="picture" href="{address}"><img src="{address}" loading="lazy" '
-                    f'alt="{text.escape(entry.figure.title + what)}"></a>'
-                )
+                lines.append(text.picture(self.pictures / name, address, figure.title + what))
         return "\n".join(lines)
 
     def _curves(self, entry: Entry, page: str) -> str:
@@ -192,10 +190,8 @@ class Gallery:
             )
         if figure.runs:
             n_runs = len({run.folder for run in figure.runs})
-            noun = "run" if n_runs == 1 else "runs"
-            parts.append(
-                text.details(f"{n_runs} {noun}: their parameter files", self._curves(entry, page))
-            )
+            what = "1 run" if n_runs == 1 else f"{n_runs} runs"
+            parts.append(text.details(f"{what}, by parameter files", self._curves(entry, page)))
         return "\n\n".join(parts)
 
 

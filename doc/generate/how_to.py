@@ -11,7 +11,7 @@ import textwrap
 
 import ricochet
 
-from . import api, site, text
+from . import site, text
 
 # In which order they stand.
 ORDER = ("scenes", "law", "material", "scheme", "step", "cluster", "python", "figures", "speed")
@@ -88,7 +88,7 @@ def make(made: site.Site) -> None:
     names.sort(key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name))
     for name in names:
         page = f"how_to/{name}"
-        content = text.with_includes(hand_written(page), page)
+        content = text.with_headers(text.with_includes(hand_written(page), page), page)
         if name == "python":
             content += "\n\n" + python_reference()
         made.page(page, content)
@@ -98,25 +98,13 @@ def make(made: site.Site) -> None:
     made.page("how_to/index", "\n\n".join([index, text.toctree(names, hidden=False)]))
 
     library = text.with_includes(hand_written("library"), "library")
-    # Headers lead to their pages.
-    headers = {
-        path.relative_to(site.ROOT / "lib").as_posix()
-        for path in (site.ROOT / "lib").rglob("*.h")
-    }
-
-    def to_header(match: re.Match[str]) -> str:
-        if match[1] not in headers:
-            return match[0]
-        return text.anchor(api.address(f"lib/{match[1]}"), match[0])
-
-    made.page("library", re.sub(r"`([\w/]+\.h)`", to_header, library))
-
+    made.page("library", text.with_headers(library, "library"))
     listed = [f"notebooks/{path.stem}" for path in notebooks()]
     made.page(
         "index",
         "\n\n".join(
             [
-                text.with_includes(hand_written("index"), "index"),
+                text.with_pictures(text.with_includes(hand_written("index"), "index"), "index"),
                 text.toctree(("steps/index", *listed), "Learn"),
                 text.toctree(("gallery/index", "examples/index"), "Look"),
                 text.toctree(

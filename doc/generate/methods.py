@@ -7,14 +7,17 @@ A page may begin with lines between two lines of three dashes; lists are separat
     kind: treatment                         or scheme, material
     source: lib/contact/laws/normal_compliance.h
     conserves: energy and contact potential, at the end of an impact
+
+A line `<!-- energy-curve: NAME -->` is where the curve of that treatment goes. What stands before
+the first section of index.md goes before the tables.
 """
 
 from __future__ import annotations
 
-import ast
 import functools
+import pathlib
+import posixpath
 import re
-import shutil
 from dataclasses import dataclass
 
 from ricochet import Run, curves, prm
@@ -33,18 +36,13 @@ CHOICES = {
 }
 TITLES = {
     "treatment": "Contact treatments",
+    "friction": "Friction",
     "scheme": "Time schemes",
     "material": "Materials",
     "viscosity": "Viscosity",
+    "mass": "Mass",
+    "kinematics": "Contact kinematics",
     "": "More",
-}
-
-# What tests/integration/common.py has lists of: treatments whose energy is tested, with the
-# midpoint scheme and without friction and viscosity.
-TESTED = {
-    "KEEP_ENERGY": "the energy, in each step",
-    "KEEP_MODIFIED_ENERGY": "the energy with its contact potential, in each step",
-    "LOSE_ENERGY": "nothing; the energy never grows",
 }
 
 
@@ -52,7 +50,7 @@ TESTED = {
 class Method:
     """A page of doc/methods."""
 
-    path: site.pathlib.Path
+    path: pathlib.Path
     title: str
     body: str
     kind: str
@@ -66,7 +64,7 @@ class Method:
 
 
 @functools.cache
-def choices(programs: site.pathlib.Path) -> dict[str, list[str]]:
+def choices(programs: pathlib.Path) -> dict[str, list[str]]:
     """The names of all methods, as the programs have them."""
     found = {}
     for kind, (program, name) in CHOICES.items():
@@ -75,19 +73,7 @@ def choices(programs: site.pathlib.Path) -> dict[str, list[str]]:
     return found
 
 
-def tested() -> dict[str, str]:
-    """Of each treatment, what the tests say that it conserves."""
-    tree = ast.parse((site.ROOT / "tests/integration/common.py").read_text(encoding="utf-8"))
-    found = {}
-    for node in tree.body:
-        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
-            words = TESTED.get(node.targets[0].id)
-            if words:
-                found.update({name: words for name in ast.literal_eval(node.value)})
-    return found
-
-
-def read(path: site.pathlib.Path, names: dict[str, list[str]]) -> Method:
+def read(path: pathlib.Path, names: dict[str, list[str]]) -> Method:
     """Read a page.
 
     Raises:
@@ -151,97 +137,102 @@ def _curve(made: site.Site, page: str, name: str, run: Run) -> str:
     with curves.settings():
         figure = curves.energies(curves.lines_of([run]))
         curves.save(figure, made.extra(file))
-    address = site.link(page, file)
     what = f"Energies of the elastic ball through an impact, {name}, steps of 1 ms"
-    return (
-        f'<a class="picture" href="{address}"><img src="{address}" alt="{text.escape(what)}">'
-        f"</a>\n\n*{text.plain(what)}.*"
-    )
+    picture = text.picture(made.extra(file), site.link(page, file), what)
+    return f"{picture}\n\n*{text.plain(what)}.*"
 
 
 # Pages ----------------------------------------------------------------------
 
 
+def _source(method: Method, file: str) -> str:
+    if not (site.ROOT / file).is_file():
+        raise site.SiteError(f"{site.shown(method.path)}: there is no file {file}.")
+    code = f"<code>{file}</code>"
+    if not file.endswith(".h"):
+        return code
+    return text.anchor(site.link(method.page, api.address(file)), code)
+
+
 def _page(made: site.Site, method: Method, runs: dict[str, Run]) -> str:
-    links = []
-    for file in method.source:
-        if not (site.ROOT / file).is_file():
-            raise site.SiteError(f"{site.shown(method.path)}: there is no file {file}.")
-        links.append(
-            text.anchor(site.link(method.page, api.address(file)), f"<code>{file}</code>")
-        )
     rows = [("in parameter files", ", ".join(f"<code>{name}</code>" for name in method.names))]
-    rows += [("source", "<br>".join(links))]
-    conserves = _conserves(method, method.names)
-    rows += [("conserves", text.escape(conserves))]
-    pieces = [f"# {method.title}", text.facts(row for row in rows if row[1])]
-    pieces.append(text.with_includes(method.body, method.page))
-    with_curve = [name for name in method.names if name in runs]
-    if with_curve:
-        pieces.append("## Its energy on the elastic ball")
-        pieces += [_curve(made, method.page, name, runs[name]) for name in with_curve]
-    elif method.kind == "treatment":
-        pieces.append(
-            "*Its energy curve on the elastic ball is shown here once `figures/make.py A-4 B-4` "
-            "has made the run, if the treatment is one of that figure.*"
-        )
-    return "\n\n".join(pieces)
+    if "**Source:**" not in method.body:
+        rows.append(("source", "<br>".join(_source(method, file) for file in method.source)))
+    rows.append(("keeps", text.escape(method.conserves)))
+
+    def curve(name: str) -> str:
+        if name not in runs:
+            return (
+                "*Its energy curve on the elastic ball is not here, since its run has not been "
+                "made; `figures/make.py A-4 B-4` makes those of papers A and B.*"
+            )
+        return _curve(made, method.page, name, runs[name])
+
+    body = text.with_includes(method.body, method.page)
+    body = text.with_pictures(body, method.page, posixpath.dirname(method.page))
+    body = text.with_headers(body, method.page)
+    body = _CURVE.sub(lambda match: curve(match[1]), body)
+    return "\n\n".join([f"# {method.title}", text.facts(row for row in rows if row[1]), body])
 
 
-def _conserves(method: Method | None, names: list[str]) -> str:
-    if method and method.conserves:
-        return method.conserves
-    known = tested()
-    return "; ".join(dict.fromkeys(known[name] for name in names if name in known))
+_CURVE = re.compile(r"^<!-- energy-curve: (.+?) -->$", re.MULTILINE)
+
+
+def pages(names: dict[str, list[str]]) -> list[Method]:
+    """All pages of doc/methods, in the order of the programs' tables."""
+    found = [
+        read(path, names)
+        for path in sorted((site.DOC / "methods").glob("**/*.md"))
+        if path.stem != "index"
+    ]
+    for method in found:
+        if method.kind not in TITLES:
+            raise site.SiteError(
+                f"{site.shown(method.path)}: there is no kind '{method.kind}'; there are "
+                f"{', '.join(filter(None, TITLES))}."
+            )
+
+    def place(method: Method) -> tuple[int, int, str]:
+        listed = names.get(method.kind, [])
+        first = min((listed.index(name) for name in method.names if name in listed), default=99)
+        return list(TITLES).index(method.kind), first, method.title
+
+    return sorted(found, key=place)
+
+
+def _introduction() -> str:
+    path = site.DOC / "methods" / "index.md"
+    if not path.is_file():
+        return "# Methods\n\nWhat can be chosen in a parameter file. Each choice is one page."
+    content = path.read_text(encoding="utf-8")
+    content = re.sub(r"\A<!--.*?-->\s*", "", content, flags=re.DOTALL)
+    return content.partition("\n## ")[0]
 
 
 def make(made: site.Site, gallery: figures.Gallery) -> None:
-    """Write the pages of the methods, and their table."""
-    names = choices(made.programs)
-    folder = site.DOC / "methods"
-    pages = [
-        read(path, names) for path in sorted(folder.glob("**/*.md")) if path.stem != "index"
-    ]
-    for path in folder.glob("**/*"):
-        if path.is_file() and path.suffix != ".md":
-            copy = made.target / path.relative_to(site.DOC)
-            copy.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(path, copy)
-    runs = ball_runs(gallery)
-    for method in pages:
+    """Write the pages of the methods, and their tables."""
+    found = pages(choices(made.programs))
+    for path in (site.DOC / "methods").glob("**/*"):
+        if path.suffix in (".svg", ".png", ".gif"):
+            made.copy(path, path.relative_to(site.DOC).as_posix())
+    runs = ball_runs(gallery) if found else {}
+    for method in found:
         made.page(method.page, _page(made, method, runs))
 
-    by_name = {name: method for method in pages for name in method.names}
-    pieces = [
-        "# Methods",
-        "What can be chosen in a parameter file: how contact is treated, how time is "
-        "integrated, of what a body is made. Each choice is one file of the library.",
-    ]
     index = f"{FOLDER}/index"
+    pieces = [_introduction()]
     for kind, title in TITLES.items():
-        listed = names.get(kind, [])
-        rows = []
-        for name in listed:
-            method = by_name.get(name)
-            shown = f"<code>{text.escape(name)}</code>"
-            if method:
-                shown = text.anchor(site.page_link(index, method.page), shown)
-            rows.append((shown, text.escape(_conserves(method, [name])) or "–"))
-        more = [each for each in pages if each.kind == kind and not set(each.names) & set(listed)]
-        for method in more:
-            link = text.anchor(site.page_link(index, method.page), text.escape(method.title))
-            rows.append((link, text.escape(method.conserves) or "–"))
-        if not rows:
-            continue
-        pieces.append(f"## {title}")
-        if kind in ("treatment", "scheme"):
-            pieces.append(text.table(("name", "conserves"), rows))
-        else:
-            pieces.append("\n".join(f"- {row[0]}" for row in rows))
-        if kind == "treatment":
-            pieces.append(
-                "Without friction and viscosity, with the midpoint scheme where the treatment "
-                "takes it; each line is tested."
+        rows = [
+            (
+                text.anchor(site.page_link(index, method.page), text.escape(method.title)),
+                "<br>".join(f"<code>{text.escape(name)}</code>" for name in method.names),
+                text.escape(method.conserves),
             )
-    pieces.append(text.toctree([f"/{method.page}" for method in pages]) if pages else "")
-    made.page(index, "\n\n".join(piece for piece in pieces if piece))
+            for method in found
+            if method.kind == kind
+        ]
+        if rows:
+            pieces += [f"## {title}", text.table(("method", "in parameter files", "keeps"), rows)]
+    if found:
+        pieces.append(text.toctree(f"/{method.page}" for method in found))
+    made.page(index, "\n\n".join(pieces))

@@ -60,7 +60,7 @@ def read(kind: str) -> list[Item]:
 def find(items: list[Item], name: str) -> Item | None:
     """The item that tells of a name."""
     fitting = [item for item in items if item.pattern.fullmatch(name)]
-    return max(fitting, key=lambda item: item.length, default=None)
+    return max(fitting, key=lambda item: item.length) if fitting else None
 
 
 def _section(title: str, kind: str, introduction: str) -> str:

@@ -127,7 +127,7 @@ def _own_text(step: Step) -> tuple[str, str]:
     if not path.is_file():
         return "", ""
     content = path.read_text(encoding="utf-8")
-    content = re.sub(r"\A<!--.*?-->\s*(# .*\n)?", "", content, flags=re.DOTALL)
+    content = re.sub(r"\A<!--.*?-->\s*(# [^\n]*\n)?", "", content, flags=re.DOTALL)
     content = text.with_includes(content, step.page)
     before, heading, exercises = content.partition("## Exercises\n")
     return (
@@ -142,9 +142,7 @@ def page_text(step: Step, gallery: figures.Gallery) -> str:
     heading = README_HEADINGS.get(step.name, "")
     readme = (site.ROOT / "README.md").read_text(encoding="utf-8")
     if not results and heading and text.has_section(readme, heading):
-        results = text.headings_from(
-            text.with_links(text.section(readme, heading), step.page), 3
-        )
+        results = text.headings_from(text.with_links(text.section(readme, heading), step.page), 3)
     shown = [results]
     for figure in gallery.of_program(step.name):
         shown.append(gallery.section(figure, step.page, level=3, folded=True))
@@ -176,7 +174,7 @@ def page_text(step: Step, gallery: figures.Gallery) -> str:
             else ("parameter files", "none; its defaults are the case"),
         ]
     )
-    return "\n\n".join(
+    page = "\n\n".join(
         [
             f"# {step.title}",
             links,
@@ -188,6 +186,7 @@ def page_text(step: Step, gallery: figures.Gallery) -> str:
             exercises,
         ]
     )
+    return text.with_headers(page, step.page)
 
 
 def make(made: site.Site, gallery: figures.Gallery) -> None:

@@ -5,10 +5,11 @@ from __future__ import annotations
 
 import html
 import pathlib
+import posixpath
 import re
 from collections.abc import Callable, Iterable, Sequence
 
-from . import site
+from . import api, site
 
 escape = html.escape
 
@@ -100,6 +101,44 @@ def anchor(href: str, content: str) -> str:
     return f'<a href="{escape(href)}">{content}</a>'
 
 
+def _inches(path: pathlib.Path) -> float:
+    """The width of a picture on paper."""
+    if path.suffix == ".svg":
+        match = re.search(r'<svg[^>]*? width="([0-9.]+)pt"', path.read_text(encoding="utf-8"))
+        return float(match[1]) / 72 if match else 6.0
+    from PIL import Image
+
+    with Image.open(path) as image:
+        return float(image.width / image.info.get("dpi", (100,))[0])
+
+
+def picture(path: pathlib.Path, address: str, alt: str) -> str:
+    """A picture as HTML, which leads to itself at full size.
+
+    On a narrow screen it is at least as wide as its letters need: they have some 10 points on
+    paper, and are to have 9 pixels.
+    """
+    least = round(65 * _inches(path))
+    return (
+        f'<div class="picture"><a href="{address}"><img src="{address}" loading="lazy" '
+        f'style="--least: {least}px" alt="{escape(alt)}"></a></div>'
+    )
+
+
+def with_pictures(content: str, page: str, folder: str = "") -> str:
+    """Markdown in which pictures that stand alone lead to themselves at full size.
+
+    They are in doc/ where they are in the site: below `folder`, or, with a slash before them, at
+    the place that they name.
+    """
+
+    def change(match: re.Match[str]) -> str:
+        name = posixpath.normpath(posixpath.join("/", folder, match[2])).lstrip("/")
+        return picture(site.DOC / name, site.link(page, name), match[1])
+
+    return re.sub(r"^!\[([^\]]*)\]\(([^)\s:]+)\)$", change, content, flags=re.MULTILINE)
+
+
 def toctree(entries: Iterable[str], caption: str = "", hidden: bool = True) -> str:
     """The directive that says which pages there are."""
     options = [":maxdepth: 1"]
@@ -114,9 +153,7 @@ def headings_from(text: str, level: int) -> str:
     new = {old: min(level + number, 6) for number, old in enumerate(found)}
     return _map_lines(
         text,
-        lambda line: re.sub(
-            r"^(#+)(?= )", lambda match: "#" * new.get(len(match[1]), level), line
-        ),
+        lambda line: re.sub(r"^(#+)(?= )", lambda match: "#" * new.get(len(match[1]), level), line),
     )
 
 
@@ -183,10 +220,10 @@ def with_links(text: str, page: str, folder: str = "") -> str:
     """Markdown of a file of the project, in `folder`, for a page of the site.
 
     Links to what the site has lead there; of others the text remains. Pictures are those of
-    the staged folder images/.
+    doc/images.
     """
 
-    def picture(match: re.Match[str]) -> str:
+    def own_picture(match: re.Match[str]) -> str:
         name = pathlib.PurePosixPath(match[2]).name
         return f"![{match[1]}](/images/{name})"
 
@@ -194,14 +231,15 @@ def with_links(text: str, page: str, folder: str = "") -> str:
         label, target = match[1], match[2]
         if re.match(r"[a-z]+:", target):
             return match[0]
-        path = site.posixpath.normpath(site.posixpath.join(folder, target))
+        path = posixpath.normpath(posixpath.join(folder, target))
         if path in PAGES_OF_FILES:
             return anchor(site.page_link(page, PAGES_OF_FILES[path]), label)
         if path.endswith(".prm") and (site.ROOT / path).is_file():
             return anchor(parameter_file_link(page, path), label)
         return label
 
-    text = re.sub(r"!\[([^\]]*)\]\(([^)\s]+)\)", picture, text)
+    text = re.sub(r"!\[([^\]]*)\]\(([^)\s]+)\)", own_picture, text)
+    text = with_pictures(text, page)
     return re.sub(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)", change, text)
 
 
@@ -218,6 +256,20 @@ def parameter_file_page(path: str) -> str:
 
 def parameter_file_link(page: str, path: str) -> str:
     return site.page_link(page, parameter_file_page(path), parameter_file_label(path))
+
+
+_HEADER = re.compile(r"(?<![\[`>])`(?:lib/)?([\w/]+/\w+\.h)`")
+
+
+def with_headers(content: str, page: str) -> str:
+    """Markdown in which headers of the library, as `contact/laws/penalty.h`, are links."""
+
+    def change(match: re.Match[str]) -> str:
+        if not (site.ROOT / "lib" / match[1]).is_file():
+            return match[0]
+        return anchor(site.link(page, api.address(f"lib/{match[1]}")), match[0])
+
+    return _map_lines(content, lambda line: _HEADER.sub(change, line))
 
 
 _INCLUDE = re.compile(r"^<!-- include: (\S+)(?: # (.+?))? -->$", re.MULTILINE)

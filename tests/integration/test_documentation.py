@@ -10,7 +10,16 @@ sys.path.insert(0, str(ROOT / "doc"))
 
 import check_links  # noqa: E402
 import check_spelling  # noqa: E402
-from generate import examples, figures, methods, parameters, results, site, steps, text  # noqa: E402
+from generate import (
+    examples,
+    figures,
+    methods,
+    parameters,
+    results,
+    site,
+    steps,
+    text,
+)  # noqa: E402
 
 # A scene with all that adds columns: two bodies, two contacts, each kind of probe.
 SCENE = """
@@ -85,7 +94,6 @@ def folder_of_programs():
 
 
 class Pages(unittest.TestCase):
-
     def test_a_program_is_split_without_loss(self):
         for name in site.steps():
             with self.subTest(name):
@@ -94,26 +102,48 @@ class Pages(unittest.TestCase):
                 self.assertTrue(any(not block.is_prose for block in step.blocks))
                 page = steps.program_text(step)
                 lines = steps.source(name).read_text().splitlines()
-                code = [line.strip() for line in lines if line.strip()
-                        and not re.match(r"\s*//(?!/)", line)]
+                code = [
+                    line.strip()
+                    for line in lines
+                    if line.strip() and not re.match(r"\s*//(?!/)", line)
+                ]
                 position = 0
                 for line in code:
                     position = page.index(line, position)
 
     def test_comments_within_expressions_stay_code(self):
-        blocks = steps.blocks_of(["// Prose", "f(1,", "  // one", "  // two", "  2);", "  // a", "",
-                                  "  // b", "  // c", "/// For Doxygen.", "int a;"])
+        blocks = steps.blocks_of(
+            [
+                "// Prose",
+                "f(1,",
+                "  // one",
+                "  // two",
+                "  2);",
+                "  // a",
+                "",
+                "  // b",
+                "  // c",
+                "/// For Doxygen.",
+                "int a;",
+            ]
+        )
         self.assertEqual([block.is_prose for block in blocks], [True, False, True, False])
         self.assertEqual(blocks[2].lines, ["b", "c"])
 
     def test_prose_keeps_templates_and_formulas(self):
-        self.assertEqual(text.prose(["A `Body<dim>` and a Body<dim>, $0 <x$"]),
-                         "A `Body<dim>` and a Body\\<dim>, $0 <x$")
+        self.assertEqual(
+            text.prose(["A `Body<dim>` and a Body<dim>, $0 <x$"]),
+            "A `Body<dim>` and a Body\\<dim>, $0 <x$",
+        )
 
     def test_what_is_included_is_there(self):
-        for path in [*(ROOT / "doc/how_to").glob("*.md"), *(ROOT / "doc").glob("*.md"),
-                     *(ROOT / "doc/results").glob("*.md"), *(ROOT / "doc/methods").glob("*.md"),
-                     *(ROOT / "doc/tutorials").glob("*.md")]:
+        for path in [
+            *(ROOT / "doc/how_to").glob("*.md"),
+            *(ROOT / "doc").glob("*.md"),
+            *(ROOT / "doc/results").glob("*.md"),
+            *(ROOT / "doc/methods").glob("*.md"),
+            *(ROOT / "doc/tutorials").glob("*.md"),
+        ]:
             with self.subTest(path.name):
                 page = path.relative_to(ROOT / "doc").with_suffix("").as_posix()
                 self.assertNotIn("<!-- include", text.with_includes(path.read_text(), page))
@@ -122,7 +152,10 @@ class Pages(unittest.TestCase):
 
     def test_exercises_belong_to_steps(self):
         for path in (ROOT / "doc/tutorials").glob("*.md"):
-            self.assertIn(path.stem, site.steps())
+            with self.subTest(path.stem):
+                self.assertIn(path.stem, site.steps())
+                results, exercises = steps._own_text(steps.read(path.stem))
+                self.assertGreater(len(results) + len(exercises), 0.9 * path.stat().st_size - 200)
 
     def test_figures(self):
         entries = figures.load()
@@ -134,8 +167,7 @@ class Pages(unittest.TestCase):
                 self.assertTrue(set(entry.programs) <= set(site.steps()), entry.programs)
                 for run in entry.figure.runs:
                     if run.parameter_file:
-                        self.assertTrue(
-                            (ROOT / "parameter_files" / run.parameter_file).is_file())
+                        self.assertTrue((ROOT / "parameter_files" / run.parameter_file).is_file())
 
     def test_examples_have_a_row_and_a_picture(self):
         folder = ROOT / "examples"
@@ -148,12 +180,10 @@ class Pages(unittest.TestCase):
 
 
 class Parameters(unittest.TestCase):
-
     def test_each_parameter_has_a_text(self):
         programs = folder_of_programs()
         with ThreadPoolExecutor(max_workers=2) as pool:
-            lists = list(pool.map(lambda name: parameters.declared(programs / name),
-                                  site.steps()))
+            lists = list(pool.map(lambda name: parameters.declared(programs / name), site.steps()))
         for name, found in zip(site.steps(), lists):
             with self.subTest(name):
                 self.assertGreater(len(found), 5)
@@ -167,23 +197,30 @@ class Parameters(unittest.TestCase):
 
     def test_what_is_allowed(self):
         programs = folder_of_programs()
-        self.assertEqual(parameters.try_impossible(programs / "bar_sd", "Time/Time step"),
-                         "a number above 0")
+        self.assertEqual(
+            parameters.try_impossible(programs / "bar_sd", "Time/Time step"), "a number above 0"
+        )
         for pattern, words in (
-                ("An integer n such that 0 <= n <= 2147483647", "a whole number from 0 to 2147483647"),
-                ("An integer n such that 2 <= n <= MAX_INT", "a whole number, at least 2"),
-                ("A floating point number v such that -MAX_DOUBLE <= v <= MAX_DOUBLE", "a number"),
-                ("A floating point number v such that 0.01 <= v <= 0.99", "a number from 0.01 to 0.99"),
-                ("A boolean value (true or false)", "true or false"),
-                ("Any one of a, b c", "one of: a, b c"),
-                ("A list of 2 to 2 elements where each element is [An integer]",
-                 "2 values, each a whole number")):
+            ("An integer n such that 0 <= n <= 2147483647", "a whole number from 0 to 2147483647"),
+            ("An integer n such that 2 <= n <= MAX_INT", "a whole number, at least 2"),
+            ("A floating point number v such that -MAX_DOUBLE <= v <= MAX_DOUBLE", "a number"),
+            ("A floating point number v such that 0.01 <= v <= 0.99", "a number from 0.01 to 0.99"),
+            ("A boolean value (true or false)", "true or false"),
+            ("Any one of a, b c", "one of: a, b c"),
+            (
+                "A list of 2 to 2 elements where each element is [An integer]",
+                "2 values, each a whole number",
+            ),
+        ):
             self.assertEqual(parameters.in_words(pattern), words)
 
     def test_units(self):
-        for meaning, unit in (("Length (m).", "m"), ("See (paper A, (2.10)), c (Pa/m^(alpha-1)).",
-                                                     "Pa/m^(alpha-1)"),
-                              ("A number (see above).", ""), ("Density (kg/m^3).", "kg/m^3")):
+        for meaning, unit in (
+            ("Length (m).", "m"),
+            ("See (paper A, (2.10)), c (Pa/m^(alpha-1)).", "Pa/m^(alpha-1)"),
+            ("A number (see above).", ""),
+            ("Density (kg/m^3).", "kg/m^3"),
+        ):
             self.assertEqual(parameters.unit_of(meaning), unit)
 
     def test_files_that_set_a_parameter(self):
@@ -191,37 +228,40 @@ class Parameters(unittest.TestCase):
         file = "parameter_files/bar_sd/default.prm"
         self.assertEqual(of_bar[file, "Time/Scheme"], "Crank-Nicolson")
         sections = {"Body NAME", "Time"}
-        self.assertEqual(parameters.general_name("Body ball/Radius", sections),
-                         "Body NAME/Radius")
+        self.assertEqual(parameters.general_name("Body ball/Radius", sections), "Body NAME/Radius")
         self.assertEqual(parameters.general_name("Time/Scheme", sections), "Time/Scheme")
 
 
 class Methods(unittest.TestCase):
-
     def test_each_method_has_a_page(self):
-        programs = folder_of_programs()
-        names = methods.choices(programs)
+        names = methods.choices(folder_of_programs())
         self.assertIn("persistent contact", names["treatment"])
         self.assertIn("TR-BDF2", names["scheme"])
-        self.assertTrue(set(methods.tested()) <= set(names["treatment"]))
-        pages = [methods.read(path, names) for path in (ROOT / "doc/methods").glob("**/*.md")
-                 if path.stem != "index"]
-        told = {name for page in pages for name in page.names}
+        pages = methods.pages(names)
         if not pages:
             self.skipTest("there are no pages of methods yet")
-        for kind in ("treatment", "scheme"):
-            for name in names[kind]:
-                with self.subTest(name):
+        told = {name for page in pages for name in page.names}
+        for kind, list_ in names.items():
+            for name in set(list_) - {"none"}:
+                with self.subTest(kind=kind, name=name):
                     self.assertIn(name, told)
+        for page in pages:
+            with self.subTest(page.title):
+                self.assertTrue(set(page.names) <= set().union(*names.values()), page.names)
+                self.assertGreater(len(page.conserves), 5)
+                self.assertTrue(page.source)
+                for file in page.source:
+                    self.assertTrue((ROOT / file).is_file(), file)
 
 
 class Results(ProgramTest):
-
     def test_columns_and_fields(self):
         """What programs write is told of, and what is told of is written."""
         (self.folder / "scene.prm").write_text(SCENE)
-        cases = [(program, ROOT / f"parameter_files/{program}/{file}.prm" if file else None,
-                  values) for program, file, values in RUNS]
+        cases = [
+            (program, ROOT / f"parameter_files/{program}/{file}.prm" if file else None, values)
+            for program, file, values in RUNS
+        ]
         cases.append(("ricochet", self.folder / "scene.prm", []))
 
         def run(numbered):
@@ -231,8 +271,9 @@ class Results(ProgramTest):
             names = set()
             for path in folder.glob("solution/*.vtu"):
                 head = path.read_bytes()
-                names |= {name.decode() for name in
-                          re.findall(rb'<DataArray [^>]*Name="([^"]+)"', head)}
+                names |= {
+                    name.decode() for name in re.findall(rb'<DataArray [^>]*Name="([^"]+)"', head)
+                }
             return program, dict(zip(ledger.names, ledger.units)), names, folder
 
         columns, fields = results.read("columns"), results.read("fields")
@@ -251,19 +292,18 @@ class Results(ProgramTest):
                         self.assertIsNotNone(item, "not in doc/results/fields.toml")
                         seen.add(item.name)
                 heads = re.search(r"^ *step/of.*$", (folder / "log.txt").read_text(), re.MULTILINE)
-                self.assertEqual(heads[0].split(),
-                                 [item.name for item in results.read("console")])
+                self.assertEqual(heads[0].split(), [item.name for item in results.read("console")])
         for item in columns + fields:
             with self.subTest(item.name):
                 self.assertIn(item.name, seen, "no program writes it")
 
 
 class Checkers(ProgramTest):
-
     def test_broken_links_are_found(self):
         (self.folder / "a.html").write_text(
             '<a href="b.html#here">x</a><a href="b.html#there">x</a><img src="c.png">'
-            '<a href="https://example.org/none">x</a>')
+            '<a href="https://example.org/none">x</a>'
+        )
         (self.folder / "b.html").write_text('<p id="here">x</p>')
         count, broken = check_links.broken_links(self.folder)
         self.assertEqual(count, 3)
@@ -271,8 +311,9 @@ class Checkers(ProgramTest):
 
     @unittest.skipUnless(shutil.which("aspell"), "aspell is not installed")
     def test_misspelt_words_are_found(self):
-        self.assertEqual(check_spelling.unknown("The colour of a contakt in my_file.prm"),
-                         {"contakt"})
+        self.assertEqual(
+            check_spelling.unknown("The colour of a contakt in my_file.prm"), {"contakt"}
+        )
 
     def test_words_are_in_order(self):
         lines = (ROOT / "doc/words.txt").read_text().split("\n\n")
