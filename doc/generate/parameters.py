@@ -28,6 +28,7 @@ class Parameter:
     name: str  # "Section/Name"
     meaning: str
     default: str
+    allowed: str = ""  # if the program prints it, on lines after "Allowed:"
 
     @property
     def section(self) -> str:
@@ -107,10 +108,9 @@ def parse(printed: str) -> list[Parameter]:
             sections.pop()
         elif line.startswith("set "):
             name, _, value = line.removeprefix("set ").partition("=")
-            meaning = " ".join(comment)
-            found.append(
-                Parameter("/".join([*sections, name.strip()]), meaning.strip(), value.strip())
-            )
+            meaning, _, allowed = " ".join(comment).partition("Allowed: ")
+            full_name = "/".join([*sections, name.strip()])
+            found.append(Parameter(full_name, meaning.strip(), value.strip(), in_words(allowed)))
         comment = []
     return found
 
@@ -202,7 +202,7 @@ class Allowed:
         missing = {
             self._key(parameter): (self.programs / program, parameter.name)
             for program, parameter in parameters
-            if self._key(parameter) not in self.known
+            if self._key(parameter) not in self.known and not parameter.allowed
         }
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
             answers = pool.map(lambda question: try_impossible(*question), missing.values())
@@ -212,7 +212,7 @@ class Allowed:
         self.cache.write_text(json.dumps(stored, indent=1), encoding="utf-8")
 
     def __getitem__(self, parameter: Parameter) -> str:
-        return self.known[self._key(parameter)]
+        return parameter.allowed or self.known[self._key(parameter)]
 
 
 # Parameter files ------------------------------------------------------------

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import functools
 import html
 import pathlib
 import posixpath
@@ -258,16 +259,24 @@ def parameter_file_link(page: str, path: str) -> str:
     return site.page_link(page, parameter_file_page(path), parameter_file_label(path))
 
 
-_HEADER = re.compile(r"(?<![\[`>])`(?:lib/)?([\w/]+/\w+\.h)`")
+_HEADER = re.compile(r"(?<![\[`>])`(?:lib/)?((?:\w+/)*\w+\.h)`")
+
+
+@functools.cache
+def _headers() -> dict[str, str]:
+    """The headers of the library, by their paths below lib/ and by their names alone."""
+    found = {}
+    for path in (site.ROOT / "lib").rglob("*.h"):
+        found[path.relative_to(site.ROOT / "lib").as_posix()] = found[path.name] = site.shown(path)
+    return found
 
 
 def with_headers(content: str, page: str) -> str:
     """Markdown in which headers of the library, as `contact/laws/penalty.h`, are links."""
 
     def change(match: re.Match[str]) -> str:
-        if not (site.ROOT / "lib" / match[1]).is_file():
-            return match[0]
-        return anchor(site.link(page, api.address(f"lib/{match[1]}")), match[0])
+        file = _headers().get(match[1])
+        return anchor(site.link(page, api.address(file)), match[0]) if file else match[0]
 
     return _map_lines(content, lambda line: _HEADER.sub(change, line))
 

@@ -214,6 +214,17 @@ class Parameters(unittest.TestCase):
         ):
             self.assertEqual(parameters.in_words(pattern), words)
 
+    def test_what_a_program_prints(self):
+        printed = "# Listing of Parameters\n# ---------------------\n# One\n# text.\nset A = 1\n"
+        printed += "\n\nsubsection B\n  # Another (m). Allowed: An integer\n  set C d = \nend\n"
+        self.assertEqual(
+            parameters.parse(printed),
+            [
+                parameters.Parameter("A", "One text.", "1"),
+                parameters.Parameter("B/C d", "Another (m).", "", "a whole number"),
+            ],
+        )
+
     def test_units(self):
         for meaning, unit in (
             ("Length (m).", "m"),
