@@ -18,6 +18,8 @@ import functools
 import pathlib
 import posixpath
 import re
+import subprocess
+import sys
 from dataclasses import dataclass
 
 from ricochet import Run, curves, prm
@@ -142,6 +144,20 @@ def _curve(made: site.Site, page: str, name: str, run: Run) -> str:
     return f"{picture}\n\n*{text.plain(what)}.*"
 
 
+def _draw() -> None:
+    """Make the drawings of the pages, unless they are younger than what makes them."""
+    script = site.DOC / "methods" / "drawings.py"
+    drawings = list(script.parent.glob("*.svg"))
+    if not script.is_file():
+        return
+    age = script.stat().st_mtime
+    if drawings and all(path.stat().st_mtime > age for path in drawings):
+        return
+    answer = subprocess.run([sys.executable, script], capture_output=True, text=True, check=False)
+    if answer.returncode != 0:
+        raise site.SiteError(f"{site.shown(script)} failed:\n{answer.stderr}")
+
+
 # Pages ----------------------------------------------------------------------
 
 
@@ -212,6 +228,7 @@ def _introduction() -> str:
 def make(made: site.Site, gallery: figures.Gallery) -> None:
     """Write the pages of the methods, and their tables."""
     found = pages(choices(made.programs))
+    _draw()
     for path in (site.DOC / "methods").glob("**/*"):
         if path.suffix in (".svg", ".png", ".gif"):
             made.copy(path, path.relative_to(site.DOC).as_posix())

@@ -65,6 +65,14 @@ subsection Probe squeeze
   set Body = ball
   set Quantity = stress
 end
+subsection Probe turn
+  set Body = ball
+  set Quantity = rotation
+end
+subsection Probe hold
+  set Body = brick: lower
+  set Quantity = force
+end
 subsection Probe push
   set Body = brick: lower
   set Quantity = impulse
@@ -72,6 +80,32 @@ end
 subsection Time
   set Time step = 5e-3
   set Final time = 0.02
+end
+"""
+
+SCENE_IN_SPACE = """
+set Program = ricochet
+set Dimension = 3
+subsection Body box
+  set Shape = block
+  set Size = 1, 1, 1
+  set Cells along = 1, 1, 1
+end
+subsection Obstacle floor
+  set Centre = 0, 0, -0.5
+  set Direction = 0, 0, 1
+end
+subsection Contact below
+  set Surface = box
+  set Against = floor
+end
+subsection Probe turn
+  set Body = box
+  set Quantity = rotation
+end
+subsection Time
+  set Time step = 1e-3
+  set Final time = 2e-3
 end
 """
 
@@ -269,11 +303,13 @@ class Results(ProgramTest):
     def test_columns_and_fields(self):
         """What programs write is told of, and what is told of is written."""
         (self.folder / "scene.prm").write_text(SCENE)
+        (self.folder / "in_space.prm").write_text(SCENE_IN_SPACE)
         cases = [
             (program, ROOT / f"parameter_files/{program}/{file}.prm" if file else None, values)
             for program, file, values in RUNS
         ]
         cases.append(("ricochet", self.folder / "scene.prm", []))
+        cases.append(("ricochet", self.folder / "in_space.prm", []))
 
         def run(numbered):
             number, (program, prm, values) = numbered
