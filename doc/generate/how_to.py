@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pages that are written by hand, with what they include; and the Python package."""
+
+from __future__ import annotations
+
+import inspect
+import pathlib
+import re
+import shutil
+import textwrap
+
+import ricochet
+
+from . import site, text
+
+# In which order they stand.
+ORDER = ("scenes", "law", "material", "scheme", "step", "cluster", "python", "figures", "speed")
+
+# The parts of a docstring, as the site calls them.
+SECTIONS = {"Args:": "Arguments", "Returns:": "Returns", "Raises:": "Raises"}
+
+
+def _docstring(thing: object) -> str:
+    """A docstring as Markdown: indented examples as code, "Args:" and the like as lists."""
+    words = inspect.getdoc(thing) or ""
+    result: list[str] = []
+    in_list = False
+    for line in words.split("\n"):
+        if line in SECTIONS:
+            result += ["", f"**{SECTIONS[line]}**", ""]
+            in_list = True
+        elif in_list and (match := re.match(r" {4}(\w+): (.*)", line)):
+            result.append(f"- `{match[1]}`: {text.plain(match[2])}")
+        elif in_list and line.startswith("        "):
+            result.append(f"  {text.plain(line.strip())}")
+        elif line.startswith("    "):
+            result.append(line)
+        else:
+            in_list = in_list and not line.strip()
+            result.append(text.prose([line]) if line.strip() else "")
+    return re.sub(r"\n{3,}", "\n\n", "\n".join(result))
+
+
+def _signature(thing: object) -> str:
+    try:
+        return re.sub(r"'", "", str(inspect.signature(thing)))  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        return ""
+
+
+def python_reference() -> str:
+    """What the package offers, from its docstrings."""
+    pieces = ["## All that it offers"]
+    for name in ricochet.__all__:
+        thing = getattr(ricochet, name)
+        pieces.append(f"### `ricochet.{name}`")
+        is_error = inspect.isclass(thing) and issubclass(thing, Exception)
+        if not is_error:
+            call = textwrap.fill(f"{name}{_signature(thing)}", 76, subsequent_indent="    ")
+            pieces.append(text.code(call, "python"))
+        pieces.append(_docstring(thing))
+        if not inspect.isclass(thing) or is_error:
+            continue
+        members = []
+        for member, value in vars(thing).items():
+            words = inspect.getdoc(value) if not member.startswith("_") else None
+            if words and (callable(value) or isinstance(value, property) or hasattr(value, "func")):
+                call = f"{member}()" if inspect.isfunction(value) else member
+                members.append(f"`{call}`\n: {text.plain(' '.join(words.split()))}")
+        pieces += members
+    return "\n\n".join(pieces)
+
+
+def hand_written(name: str) -> str:
+    """A page of doc/ without its licence."""
+    content = (site.DOC / f"{name}.md").read_text(encoding="utf-8")
+    return re.sub(r"\A<!-- SPDX.*?-->\s*", "", content, flags=re.DOTALL)
+
+
+def notebooks() -> list[pathlib.Path]:
+    """The notebooks of doc/notebooks."""
+    return sorted((site.DOC / "notebooks").glob("*.ipynb"))
+
+
+def make(made: site.Site) -> None:
+    """Write the pages of doc/how_to, of the library, and the first one."""
+    names = [path.stem for path in (site.DOC / "how_to").glob("*.md") if path.stem != "index"]
+    names.sort(key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name))
+    for name in names:
+        page = f"how_to/{name}"
+        content = text.with_headers(text.with_includes(hand_written(page), page), page)
+        if name == "python":
+            content += "\n\n" + python_reference()
+        made.page(page, content)
+    own_step = site.ROOT / "examples" / "own_step" / "own_step.cc"
+    shutil.copyfile(own_step, made.target / own_step.name)
+    index = hand_written("how_to/index")
+    made.page("how_to/index", "\n\n".join([index, text.toctree(names, hidden=False)]))
+
+    library = text.with_includes(hand_written("library"), "library")
+    made.page("library", text.with_headers(library, "library"))
+    listed = [f"notebooks/{path.stem}" for path in notebooks()]
+    made.page(
+        "index",
+        "\n\n".join(
+            [
+                text.with_pictures(text.with_includes(hand_written("index"), "index"), "index"),
+                text.toctree(("steps/index", *listed), "Learn"),
+                text.toctree(("gallery/index", "examples/index"), "Look"),
+                text.toctree(
+                    ("methods/index", "parameters/index", "files/index", "results/index"),
+                    "Look up",
+                ),
+                text.toctree(("how_to/index", "library"), "Do"),
+            ]
+        ),
+    )

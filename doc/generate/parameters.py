@@ -1,0 +1,398 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A page for each program with all its parameters, and one with each of its files."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import functools
+import json
+import os
+import pathlib
+import re
+import subprocess
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ricochet import prm
+
+from . import site, text
+
+# What a program answers to a value that no pattern but "anything" allows.
+IMPOSSIBLE = "?"
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter as the program declares it."""
+
+    name: str  # "Section/Name"
+    meaning: str
+    default: str
+    allowed: str = ""  # if the program prints it, on lines after "Allowed:"
+
+    @property
+    def section(self) -> str:
+        return self.name.rpartition("/")[0]
+
+    @property
+    def last(self) -> str:
+        return self.name.rpartition("/")[2]
+
+    @property
+    def unit(self) -> str:
+        return unit_of(self.meaning)
+
+
+@dataclass(frozen=True)
+class SetBy:
+    """A parameter file that gives a parameter a value."""
+
+    path: str  # in the checkout
+    name: str  # "Body ball/Radius"
+    value: str
+
+
+_UNITS = {"m", "s", "kg", "N", "Pa", "J", "GB", "rad", "mm", "MPa", "t", "alpha"}
+
+
+def unit_of(meaning: str) -> str:
+    """The unit that stands in brackets in a text; empty if there is none."""
+    for candidate in re.findall(r"\(([^()]*(?:\([^()]*\)[^()]*)*)\)", meaning):
+        words = re.findall(r"[A-Za-z]+", candidate)
+        if words and set(words) <= _UNITS and not re.search(r"[=,;]", candidate):
+            return candidate
+    return ""
+
+
+def ask(program: pathlib.Path, *options: str) -> subprocess.CompletedProcess[str]:
+    """Start a program that only tells something of itself."""
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    return subprocess.run(
+        [str(program), *options], capture_output=True, text=True, env=environment, check=False
+    )
+
+
+@functools.cache
+def description(program: pathlib.Path) -> str:
+    """What a program says that it does."""
+    answer = ask(program, "--help").stdout
+    return " ".join(answer.split("Usage:")[0].split())
+
+
+def declared(program: pathlib.Path) -> list[Parameter]:
+    """The parameters of a program.
+
+    Raises:
+        SiteError: the program does not tell.
+    """
+    answer = ask(program, "--print-parameters")
+    if answer.returncode != 0:
+        raise site.SiteError(f"{program} --print-parameters failed: {answer.stderr.strip()}")
+    return parse(answer.stdout)
+
+
+def parse(printed: str) -> list[Parameter]:
+    """The parameters in what a program prints of them, each with the comment before it."""
+    found: list[Parameter] = []
+    sections: list[str] = []
+    comment: list[str] = []
+    for line in printed.splitlines():
+        line = line.strip()
+        if line.startswith("#"):
+            if line not in ("# Listing of Parameters", "# ---------------------"):
+                comment.append(line.lstrip("# "))
+            continue
+        if line.startswith("subsection "):
+            sections.append(line.removeprefix("subsection "))
+        elif line == "end":
+            sections.pop()
+        elif line.startswith("set "):
+            name, _, value = line.removeprefix("set ").partition("=")
+            meaning, _, allowed = " ".join(comment).partition("Allowed: ")
+            full_name = "/".join([*sections, name.strip()])
+            found.append(Parameter(full_name, meaning.strip(), value.strip(), in_words(allowed)))
+        comment = []
+    return found
+
+
+_NUMBER = r"(-?[0-9.e+-]+|-?MAX_\w+)"
+
+
+def in_words(pattern: str) -> str:
+    """What deal.II says of a pattern, in fewer words."""
+    pattern = pattern.strip()
+    number = r"(A floating point number|An integer) \w (?:such that )?.*?"
+    list_of = r"A list of (\d+) to (\d+) elements.*? where each element is \[(.*)\]$"
+    match = re.match(list_of, pattern)
+    if match:
+        least, most = int(match[1]), int(match[2])
+        if least == most:
+            count = f"{least} values"
+        elif least == 0 and most > 10**6:
+            count = "any number of values"
+        elif most > 10**6:
+            count = f"at least {least} values"
+        else:
+            count = f"{least} to {most} values"
+        return f"{count}, each {in_words(match[3])}"
+    match = re.match(rf"{number}{_NUMBER} <= \w <= {_NUMBER}$", pattern)
+    if match:
+        kind = "a number" if match[1].startswith("A f") else "a whole number"
+        low, high = match[2], match[3]
+        if "MAX" in low and "MAX" in high:
+            return kind
+        if "MAX" in high:
+            tiny = kind == "a number" and 0 < float(low) <= 1e-12
+            return f"{kind} above 0" if tiny else f"{kind}, at least {low}"
+        if "MAX" in low:
+            return f"{kind}, at most {high}"
+        return f"{kind} from {low} to {high}"
+    if pattern.startswith("Any one of "):
+        return "one of: " + ", ".join(pattern.removeprefix("Any one of ").split(", "))
+    if pattern.startswith("A boolean value"):
+        return "true or false"
+    if re.match(r"(A floating point number|Any floating)", pattern):
+        return "a number"
+    if pattern.startswith("An integer"):
+        return "a whole number"
+    return pattern[:1].lower() + pattern[1:]
+
+
+def try_impossible(program: pathlib.Path, name: str) -> str:
+    """What a program says is allowed for a parameter, told by its refusal."""
+    answer = ask(program, "--set", f"{name}={IMPOSSIBLE}", "--print-parameters")
+    if answer.returncode == 0:
+        path = rf"^\s*set .*= /.*{re.escape(IMPOSSIBLE)}$"
+        is_file = re.search(path, answer.stdout, re.MULTILINE)
+        return "the name of a file" if is_file else "a text"
+    match = re.search(r"is not allowed\.\s*Allowed: (.*)", answer.stderr)
+    if match:
+        return in_words(match[1])
+    if "this file is for the program" in answer.stderr:
+        return "this name only"
+    match = re.search(rf"{re.escape(name)} is (.*), not '{re.escape(IMPOSSIBLE)}'", answer.stderr)
+    if match:
+        return match[1]
+    return "the name of a file" if "file" in answer.stderr else "a text"
+
+
+class Allowed:
+    """What is allowed for each parameter; programs are asked once for each build of them.
+
+    Programs share declarations: what has the same name and the same text is asked once.
+    """
+
+    def __init__(self, programs: pathlib.Path, cache: pathlib.Path) -> None:
+        self.programs = programs
+        self.cache = cache
+        libraries = sorted(programs.glob("libricochet*"))
+        self.build = [[path.name, path.stat().st_mtime_ns] for path in libraries]
+        self.known: dict[str, str] = {}
+        if cache.is_file():
+            stored = json.loads(cache.read_text(encoding="utf-8"))
+            if stored["build"] == self.build:
+                self.known = stored["known"]
+
+    @staticmethod
+    def _key(parameter: Parameter) -> str:
+        return f"{parameter.name}: {parameter.meaning}"
+
+    def find(self, parameters: Iterable[tuple[str, Parameter]]) -> None:
+        """Ask for what is not known yet of these parameters, each with its program."""
+        missing = {
+            self._key(parameter): (self.programs / program, parameter.name)
+            for program, parameter in parameters
+            if self._key(parameter) not in self.known and not parameter.allowed
+        }
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+            answers = pool.map(lambda question: try_impossible(*question), missing.values())
+            self.known.update(zip(missing, answers))
+        self.cache.parent.mkdir(parents=True, exist_ok=True)
+        stored = {"build": self.build, "known": self.known}
+        self.cache.write_text(json.dumps(stored, indent=1), encoding="utf-8")
+
+    def __getitem__(self, parameter: Parameter) -> str:
+        return parameter.allowed or self.known[self._key(parameter)]
+
+
+# Parameter files ------------------------------------------------------------
+
+
+@functools.cache
+def files_of(program: str) -> list[pathlib.Path]:
+    """The parameter files of a program; of `ricochet` also the examples."""
+    files = sorted((site.ROOT / "parameter_files" / program).glob("*.prm"))
+    if program == "ricochet":
+        files += sorted((site.ROOT / "examples").glob("*.prm"))
+    # What others build on comes first.
+    return sorted(files, key=lambda path: (path.parent.name, path.stem != "default"))
+
+
+def general_name(name: str, sections: set[str]) -> str:
+    """The name with NAME in place of a name of the user's: "Body ball/Radius" is "Body NAME"'s."""
+    section, slash, last = name.partition("/")
+    kind = section.split(" ", 1)[0]
+    if section not in sections and f"{kind} NAME" in sections:
+        return f"{kind} NAME{slash}{last}"
+    return name
+
+
+@functools.cache
+def settings_of(program: str) -> list[SetBy]:
+    """What each parameter file of a program sets itself, and not the files that it includes."""
+    found = []
+    for path in files_of(program):
+        everything = prm.read(path)
+        included: dict[str, str] = {}
+        for other in everything.files[1:]:
+            included.update(prm.read(other).values)
+        found += [
+            SetBy(site.shown(path), name, value)
+            for name, value in everything.values.items()
+            if included.get(name) != value
+        ]
+    return found
+
+
+def _set_by(program: str, parameter: Parameter, sections: set[str], page: str) -> str:
+    users: dict[str, list[str]] = {}
+    for setting in settings_of(program):
+        if general_name(setting.name, sections) == parameter.name:
+            values = users.setdefault(setting.path, [])
+            if setting.value not in values:
+                values.append(setting.value)
+    if not users:
+        return "no file"
+    rows = [
+        text.anchor(
+            text.parameter_file_link(page, path), f"<code>{pathlib.PurePosixPath(path).name}</code>"
+        )
+        + " <span>= "
+        + "; ".join(f"<code>{text.escape(value) or '(empty)'}</code>" for value in values)
+        + "</span>"
+        for path, values in users.items()
+    ]
+    items = "".join(f"<li>{row}</li>" for row in rows)
+    count = f"{len(rows)} file{'s' if len(rows) > 1 else ''}"
+    return f"<details><summary>{count}</summary><ul>{items}</ul></details>"
+
+
+def page_name(program: str) -> str:
+    return f"parameters/{program}"
+
+
+def anchor_of(parameter: Parameter) -> str:
+    return "parameter-" + text.slug(parameter.name)
+
+
+def _page(program: str, parameters: list[Parameter], allowed: Allowed, says: str) -> str:
+    page = page_name(program)
+    sections = {parameter.section for parameter in parameters}
+    pieces = [
+        f"# Parameters of `{program}`",
+        text.plain(says),
+        text.facts(
+            [
+                ("tutorial", text.anchor(f"../steps/{program}.html", text.escape(program))),
+                (
+                    "its files",
+                    text.anchor(f"../files/{program}.html", "with their contents")
+                    if files_of(program)
+                    else "none",
+                ),
+                ("the same in a terminal", f"<code>{program} --print-parameters</code>"),
+            ]
+        ),
+    ]
+    here = None
+    for parameter in sorted(parameters, key=lambda each: each.section != ""):
+        if parameter.section != here:
+            here = parameter.section
+            pieces.append(f"## {text.plain(here) if here else 'Outside of all sections'}")
+        default = f"<code>{text.escape(parameter.default)}</code>" if parameter.default else "empty"
+        rows = [("default", default)]
+        if parameter.unit:
+            rows.append(("unit", text.escape(parameter.unit)))
+        rows.append(("allowed", text.escape(allowed[parameter])))
+        rows.append(("set by", _set_by(program, parameter, sections, page)))
+        pieces += [
+            f"({anchor_of(parameter)}-of-{text.slug(program)})=\n### {text.plain(parameter.last)}",
+            text.plain(parameter.meaning),
+            text.facts(rows),
+        ]
+    return "\n\n".join(pieces)
+
+
+def _index(of: dict[str, list[Parameter]]) -> str:
+    names: dict[str, list[str]] = {}
+    for program, parameters in of.items():
+        for parameter in parameters:
+            names.setdefault(parameter.name, []).append(program)
+    rows = []
+    for name in sorted(names, key=str.lower):
+        links = [
+            text.anchor(
+                f"{program}.html#parameter-{text.slug(name)}-of-{text.slug(program)}", program
+            )
+            for program in names[name]
+        ]
+        rows.append((f"<code>{text.escape(name)}</code>", ", ".join(links)))
+    return "\n\n".join(
+        [
+            "# Parameters",
+            "What a program reads from its parameter file, or from `--set "
+            '"Section/Name=value"` on the command line. The pages are made of what the programs '
+            "print of themselves. Where a text names a unit, the default is in this unit; the "
+            "program `ricochet` takes any consistent units.",
+            text.toctree((f"{name} <{name}>" for name in of), hidden=False),
+            "## All names",
+            text.table(("parameter", "programs"), rows),
+        ]
+    )
+
+
+def _files_page(program: str) -> str:
+    pieces = [
+        f"# Parameter files of `{program}`",
+        "A file that begins with `include` has the values of the included file, but for those "
+        "that it sets.",
+    ]
+    folder = None
+    for path in files_of(program):
+        if path.parent != folder:
+            folder = path.parent
+            pieces.append(f"## {text.plain(site.shown(folder))}/")
+        content = path.read_text(encoding="utf-8")
+        pieces += [
+            f"({text.parameter_file_label(site.shown(path))})=\n### {text.plain(path.name)}",
+            text.code(content, "prm"),
+        ]
+    return "\n\n".join(pieces)
+
+
+def make(made: site.Site) -> None:
+    """Write the pages of parameters and of parameter files."""
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        lists = pool.map(lambda name: declared(made.programs / name), site.steps())
+        of = dict(zip(site.steps(), lists))
+    allowed = Allowed(made.programs, made.target.parent / "allowed.json")
+    allowed.find((program, each) for program, list_ in of.items() for each in list_)
+    for program, list_ in of.items():
+        made.page(
+            page_name(program), _page(program, list_, allowed, description(made.programs / program))
+        )
+    made.page("parameters/index", _index(of))
+
+    with_files = [program for program in site.steps() if files_of(program)]
+    for program in with_files:
+        made.page(f"files/{program}", _files_page(program))
+    made.page(
+        "files/index",
+        "\n\n".join(
+            [
+                "# Parameter files",
+                "Each curve of a figure is a small file that says what differs from the default.",
+                text.toctree((f"{name} <{name}>" for name in with_files), hidden=False),
+            ]
+        ),
+    )
