@@ -70,8 +70,8 @@ def choices(programs: pathlib.Path) -> dict[str, list[str]]:
     """The names of all methods, as the programs have them."""
     found = {}
     for kind, (program, name) in CHOICES.items():
-        allowed = parameters.try_impossible(programs / program, name)
-        found[kind] = allowed.removeprefix("one of: ").split(", ")
+        of = {each.name: each for each in parameters.declared(programs / program)}
+        found[kind] = of[name].allowed.removeprefix("one of: ").split(", ")
     return found
 
 

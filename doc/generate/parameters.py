@@ -5,12 +5,10 @@ from __future__ import annotations
 
 import concurrent.futures
 import functools
-import json
 import os
 import pathlib
 import re
 import subprocess
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ricochet import prm
@@ -18,7 +16,6 @@ from ricochet import prm
 from . import site, text
 
 # What a program answers to a value that no pattern but "anything" allows.
-IMPOSSIBLE = "?"
 
 
 @dataclass(frozen=True)
@@ -28,7 +25,7 @@ class Parameter:
     name: str  # "Section/Name"
     meaning: str
     default: str
-    allowed: str = ""  # if the program prints it, on lines after "Allowed:"
+    allowed: str = "a text"
 
     @property
     def section(self) -> str:
@@ -92,7 +89,12 @@ def declared(program: pathlib.Path) -> list[Parameter]:
 
 
 def parse(printed: str) -> list[Parameter]:
-    """The parameters in what a program prints of them, each with the comment before it."""
+    """The parameters in what a program prints of them, each with the comment before it.
+
+    What is allowed stands behind all of them, as "#   Section/Name: words of deal.II".
+    """
+    printed, _, rest = printed.partition("# What is allowed:\n")
+    allowed = dict(line.lstrip("# ").split(": ", 1) for line in rest.splitlines() if line)
     found: list[Parameter] = []
     sections: list[str] = []
     comment: list[str] = []
@@ -108,9 +110,9 @@ def parse(printed: str) -> list[Parameter]:
             sections.pop()
         elif line.startswith("set "):
             name, _, value = line.removeprefix("set ").partition("=")
-            meaning, _, allowed = " ".join(comment).partition("Allowed: ")
             full_name = "/".join([*sections, name.strip()])
-            found.append(Parameter(full_name, meaning.strip(), value.strip(), in_words(allowed)))
+            words = {"allowed": in_words(allowed[full_name])} if full_name in allowed else {}
+            found.append(Parameter(full_name, " ".join(comment).strip(), value.strip(), **words))
         comment = []
     return found
 
@@ -156,63 +158,6 @@ def in_words(pattern: str) -> str:
     if pattern.startswith("An integer"):
         return "a whole number"
     return pattern[:1].lower() + pattern[1:]
-
-
-def try_impossible(program: pathlib.Path, name: str) -> str:
-    """What a program says is allowed for a parameter, told by its refusal."""
-    answer = ask(program, "--set", f"{name}={IMPOSSIBLE}", "--print-parameters")
-    if answer.returncode == 0:
-        path = rf"^\s*set .*= /.*{re.escape(IMPOSSIBLE)}$"
-        is_file = re.search(path, answer.stdout, re.MULTILINE)
-        return "the name of a file" if is_file else "a text"
-    match = re.search(r"is not allowed\.\s*Allowed: (.*)", answer.stderr)
-    if match:
-        return in_words(match[1])
-    if "this file is for the program" in answer.stderr:
-        return "this name only"
-    match = re.search(rf"{re.escape(name)} is (.*), not '{re.escape(IMPOSSIBLE)}'", answer.stderr)
-    if match:
-        return match[1]
-    return "the name of a file" if "file" in answer.stderr else "a text"
-
-
-class Allowed:
-    """What is allowed for each parameter; programs are asked once for each build of them.
-
-    Programs share declarations: what has the same name and the same text is asked once.
-    """
-
-    def __init__(self, programs: pathlib.Path, cache: pathlib.Path) -> None:
-        self.programs = programs
-        self.cache = cache
-        libraries = sorted(programs.glob("libricochet*"))
-        self.build = [[path.name, path.stat().st_mtime_ns] for path in libraries]
-        self.known: dict[str, str] = {}
-        if cache.is_file():
-            stored = json.loads(cache.read_text(encoding="utf-8"))
-            if stored["build"] == self.build:
-                self.known = stored["known"]
-
-    @staticmethod
-    def _key(parameter: Parameter) -> str:
-        return f"{parameter.name}: {parameter.meaning}"
-
-    def find(self, parameters: Iterable[tuple[str, Parameter]]) -> None:
-        """Ask for what is not known yet of these parameters, each with its program."""
-        missing = {
-            self._key(parameter): (self.programs / program, parameter.name)
-            for program, parameter in parameters
-            if self._key(parameter) not in self.known and not parameter.allowed
-        }
-        with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-            answers = pool.map(lambda question: try_impossible(*question), missing.values())
-            self.known.update(zip(missing, answers))
-        self.cache.parent.mkdir(parents=True, exist_ok=True)
-        stored = {"build": self.build, "known": self.known}
-        self.cache.write_text(json.dumps(stored, indent=1), encoding="utf-8")
-
-    def __getitem__(self, parameter: Parameter) -> str:
-        return parameter.allowed or self.known[self._key(parameter)]
 
 
 # Parameter files ------------------------------------------------------------
@@ -285,7 +230,7 @@ def anchor_of(parameter: Parameter) -> str:
     return "parameter-" + text.slug(parameter.name)
 
 
-def _page(program: str, parameters: list[Parameter], allowed: Allowed, says: str) -> str:
+def _page(program: str, parameters: list[Parameter], says: str) -> str:
     page = page_name(program)
     sections = {parameter.section for parameter in parameters}
     pieces = [
@@ -313,7 +258,7 @@ def _page(program: str, parameters: list[Parameter], allowed: Allowed, says: str
         rows = [("default", default)]
         if parameter.unit:
             rows.append(("unit", text.escape(parameter.unit)))
-        rows.append(("allowed", text.escape(allowed[parameter])))
+        rows.append(("allowed", text.escape(parameter.allowed)))
         rows.append(("set by", _set_by(program, parameter, sections, page)))
         pieces += [
             f"({anchor_of(parameter)}-of-{text.slug(program)})=\n### {text.plain(parameter.last)}",
@@ -375,12 +320,8 @@ def make(made: site.Site) -> None:
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         lists = pool.map(lambda name: declared(made.programs / name), site.steps())
         of = dict(zip(site.steps(), lists))
-    allowed = Allowed(made.programs, made.target.parent / "allowed.json")
-    allowed.find((program, each) for program, list_ in of.items() for each in list_)
     for program, list_ in of.items():
-        made.page(
-            page_name(program), _page(program, list_, allowed, description(made.programs / program))
-        )
+        made.page(page_name(program), _page(program, list_, description(made.programs / program)))
     made.page("parameters/index", _index(of))
 
     with_files = [program for program in site.steps() if files_of(program)]

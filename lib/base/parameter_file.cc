@@ -360,15 +360,10 @@ namespace Ricochet
     for (const auto &[name, declaration] : declarations_of(parameters))
       {
         list.push_back({name, declaration.value, is_input_file(declaration)});
-        if (dynamic_cast<const dealii::Patterns::Selection *>(
+        if (!dynamic_cast<const dealii::Patterns::Anything *>(
               declaration.pattern.get()))
-          {
-            const std::string text = declaration.pattern->description(
-              dealii::Patterns::PatternBase::OutputStyle::Text);
-            const std::string before = "Any one of ";
-            list.back().choices =
-              text.rfind(before, 0) == 0 ? text.substr(before.size()) : text;
-          }
+          list.back().allowed = declaration.pattern->description(
+            dealii::Patterns::PatternBase::OutputStyle::Text);
       }
     return list;
   }

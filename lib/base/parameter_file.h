@@ -39,8 +39,8 @@ namespace Ricochet
     std::string value;
     /// It is the name of a file that is read.
     bool is_input_file = false;
-    /// What can be chosen: "a, b, c"; empty if it is not a choice.
-    std::string choices = {};
+    /// What is allowed, in deal.II's words; empty if anything is.
+    std::string allowed = {};
   };
 
   /// What parameter files and command line say, before any parameter is declared: for

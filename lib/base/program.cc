@@ -228,13 +228,13 @@ namespace Ricochet
                                   dealii::ParameterHandler::Text);
       if (command_line.print_parameters)
         {
-          std::string choices;
+          std::string allowed;
           for (const ParameterValue &parameter : list_parameters(parameters))
-            if (!parameter.choices.empty())
-              choices +=
-                "#   " + parameter.name + ": " + parameter.choices + "\n";
-          return print(all_parameters.str() + "\n# What can be chosen:\n" +
-                       choices);
+            if (!parameter.allowed.empty())
+              allowed +=
+                "#   " + parameter.name + ": " + parameter.allowed + "\n";
+          return print(all_parameters.str() + "\n# What is allowed:\n" +
+                       allowed);
         }
 
       program.validate();

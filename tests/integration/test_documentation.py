@@ -231,9 +231,9 @@ class Parameters(unittest.TestCase):
 
     def test_what_is_allowed(self):
         programs = folder_of_programs()
-        self.assertEqual(
-            parameters.try_impossible(programs / "bar_sd", "Time/Time step"), "a number above 0"
-        )
+        of_bar = {each.name: each for each in parameters.declared(programs / "bar_sd")}
+        self.assertEqual(of_bar["Time/Time step"].allowed, "a number above 0")
+        self.assertIn("penalty", of_bar["Contact/Treatment"].allowed)
         for pattern, words in (
             ("An integer n such that 0 <= n <= 2147483647", "a whole number from 0 to 2147483647"),
             ("An integer n such that 2 <= n <= MAX_INT", "a whole number, at least 2"),
@@ -250,7 +250,8 @@ class Parameters(unittest.TestCase):
 
     def test_what_a_program_prints(self):
         printed = "# Listing of Parameters\n# ---------------------\n# One\n# text.\nset A = 1\n"
-        printed += "\n\nsubsection B\n  # Another (m). Allowed: An integer\n  set C d = \nend\n"
+        printed += "\n\nsubsection B\n  # Another (m).\n  set C d = \nend\n"
+        printed += "\n# What is allowed:\n#   B/C d: An integer\n"
         self.assertEqual(
             parameters.parse(printed),
             [
