@@ -31,5 +31,5 @@ unshare -m bash -c '
     bash -c \"source scripts/setup.sh; build Release\"
     source scripts/setup.sh
     build/release/tests/unit_tests
-    ctest --test-dir build/release --output-on-failure -R \"\.release\$\""
+    scripts/compare_outputs.sh build/release"
 ' debian_13 "$folder"

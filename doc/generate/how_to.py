@@ -14,7 +14,19 @@ import ricochet
 from . import site, text
 
 # In which order they stand.
-ORDER = ("scenes", "law", "material", "scheme", "step", "cluster", "python", "figures", "speed")
+ORDER = (
+    "run",
+    "scenes",
+    "law",
+    "material",
+    "scheme",
+    "step",
+    "tests",
+    "cluster",
+    "python",
+    "figures",
+    "speed",
+)
 
 # The parts of a docstring, as the site calls them.
 SECTIONS = {"Args:": "Arguments", "Returns:": "Returns", "Raises:": "Raises"}
@@ -72,9 +84,11 @@ def python_reference() -> str:
 
 
 def hand_written(name: str) -> str:
-    """A page of doc/ without its licence."""
+    """A page of doc/ without its licence, its links being those of the site."""
     content = (site.DOC / f"{name}.md").read_text(encoding="utf-8")
-    return re.sub(r"\A<!-- SPDX.*?-->\s*", "", content, flags=re.DOTALL)
+    content = re.sub(r"\A<!-- SPDX.*?-->\s*", "", content, flags=re.DOTALL)
+    folder = pathlib.PurePosixPath("doc", name).parent.as_posix()
+    return text.with_links(content, name, folder)
 
 
 def notebooks() -> list[pathlib.Path]:
@@ -97,6 +111,8 @@ def make(made: site.Site) -> None:
     index = hand_written("how_to/index")
     made.page("how_to/index", "\n\n".join([index, text.toctree(names, hidden=False)]))
 
+    for page in ("benchmarks", "combinations"):
+        made.page(page, text.with_headers(hand_written(page), page))
     library = text.with_includes(hand_written("library"), "library")
     made.page("library", text.with_headers(library, "library"))
     listed = [f"notebooks/{path.stem}" for path in notebooks()]
@@ -104,11 +120,17 @@ def make(made: site.Site) -> None:
         "index",
         "\n\n".join(
             [
-                text.with_pictures(text.with_includes(hand_written("index"), "index"), "index"),
+                text.with_includes(hand_written("index"), "index"),
                 text.toctree(("steps/index", *listed), "Learn"),
-                text.toctree(("gallery/index", "examples/index"), "Look"),
+                text.toctree(("gallery/index", "examples/index", "benchmarks"), "Look"),
                 text.toctree(
-                    ("methods/index", "parameters/index", "files/index", "results/index"),
+                    (
+                        "methods/index",
+                        "combinations",
+                        "parameters/index",
+                        "files/index",
+                        "results/index",
+                    ),
                     "Look up",
                 ),
                 text.toctree(("how_to/index", "library"), "Do"),

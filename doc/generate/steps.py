@@ -12,17 +12,6 @@ from . import figures, site, text
 
 FOLDER = "steps"
 
-# Where the README tells results of a program.
-README_HEADINGS = {
-    "elastic_ball": "The elastic ball",
-    "hyperelastic_ring": "The hyperelastic ring",
-    "sphere": "The sphere",
-    "obstacle_course": "The obstacle course",
-    "colliding_disks": "Bodies against bodies",
-    "ricochet": "Your own bodies, obstacles and contacts",
-}
-
-
 @dataclass
 class Block:
     """Lines of a program that belong together."""
@@ -139,10 +128,6 @@ def _own_text(step: Step) -> tuple[str, str]:
 def page_text(step: Step, gallery: figures.Gallery) -> str:
     """The whole page of a step."""
     results, exercises = _own_text(step)
-    heading = README_HEADINGS.get(step.name, "")
-    readme = (site.ROOT / "README.md").read_text(encoding="utf-8")
-    if not results and heading and text.has_section(readme, heading):
-        results = text.headings_from(text.with_links(text.section(readme, heading), step.page), 3)
     shown = [results]
     for figure in gallery.of_program(step.name):
         shown.append(gallery.section(figure, step.page, level=3, folded=True))

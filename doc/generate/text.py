@@ -232,7 +232,12 @@ def with_links(text: str, page: str, folder: str = "") -> str:
         label, target = match[1], match[2]
         if re.match(r"[a-z]+:", target):
             return match[0]
+        target, sharp, part = target.partition("#")
+        if not target:
+            return anchor(f"#{part}", label)
         path = posixpath.normpath(posixpath.join(folder, target))
+        if path.startswith("doc/") and path.endswith(".md"):
+            return anchor(site.page_link(page, path[4:-3]) + sharp + part, label)
         if path in PAGES_OF_FILES:
             return anchor(site.page_link(page, PAGES_OF_FILES[path]), label)
         if path.endswith(".prm") and (site.ROOT / path).is_file():

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -287,8 +288,9 @@ namespace Ricochet
     // Beyond the limit on the size of files, writing fails as on a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
 
-    // One thread per rank: the parallelism of Ricochet is MPI.
-    int                                      mpi_argc = argc;
+    // One thread per rank: the parallelism of Ricochet is MPI. Our options are not shown
+    // to the libraries of deal.II: PETSc would warn that it does not know them.
+    int                                      mpi_argc = std::min(argc, 1);
     char                                   **mpi_argv = argv;
     dealii::Utilities::MPI::MPI_InitFinalize mpi(mpi_argc, mpi_argv, 1);
     const bool                               is_root =

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The commands in the introductions of the programs and in the README work."""
+"""The commands in the introductions of the programs and in the documentation work."""
 
 import re
 import shlex
@@ -54,19 +54,19 @@ class DocumentedCommands(ProgramTest):
                    for command in commands_in(file, "//     "))
 
     def test_readme(self):
-        self.check([words for words in commands_in(ROOT / "README.md", "")
-                    if "mine.prm" not in words])
+        self.check([words for file in ("README.md", "doc/how_to/run.md")
+                    for words in commands_in(ROOT / file, "")])
 
-    def test_scene_of_the_readme(self):
-        """The scene in the README, by the commands below it."""
-        text = (ROOT / "README.md").read_text()
+    def test_scene_of_the_documentation(self):
+        """The scene in "how to", by the commands below it."""
+        page = ROOT / "doc" / "how_to" / "scenes.md"
+        text = page.read_text()
         scene = next(block for block in re.findall(r"```\n(.*?)```", text, re.DOTALL)
                      if block.startswith("set Program   = ricochet"))
         file = self.folder / "mine.prm"
         file.write_text(scene)
         self.check([[str(file) if word == "mine.prm" else word for word in words]
-                    for words in commands_in(ROOT / "README.md", "")
-                    if words[0] == "ricochet"])
+                    for words in commands_in(page, "")])
         ledger = Ledger(self.folder / "run")
         self.assertGreater(max(ledger["contact_force_on_the_floor"]), 1e3)
         self.assertGreater(max(ledger["contact_force_ball_and_brick"]), 1e3)
