@@ -103,7 +103,7 @@ def read(path: pathlib.Path, names: dict[str, list[str]]) -> Method:
         data.get("kind", kind),
         _list(data.get("names", name)),
         _list(data.get("source", "")),
-        data.get("conserves", ""),
+        data.get("conserves", "").strip("\""),
     )
 
 
