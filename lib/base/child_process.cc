@@ -2,6 +2,7 @@
 #include <base/child_process.h>
 #include <base/exceptions.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -25,18 +26,26 @@ namespace Ricochet
       good_end = 77
     };
 
+    /// @param parent must still be there.
     void
-    prepare_child()
+    prepare_child(const pid_t parent)
     {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
+      if (getppid() != parent)
+        _exit(failed);
+      // Where an exception would end in std::terminate().
+      std::set_new_handler([]() { _exit(out_of_memory); });
       // MPI's handlers would print pages about a crash.
       for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL})
         std::signal(signal, SIG_DFL);
       const rlimit no_core = {0, 0};
       setrlimit(RLIMIT_CORE, &no_core);
+      // What the user allows may be less.
       const rlim_t memory = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) *
         sysconf(_SC_PAGE_SIZE) / 5 * 4;
-      const rlimit most = {memory, memory};
+      rlimit most = {memory, memory};
+      getrlimit(RLIMIT_AS, &most);
+      most.rlim_cur = std::min(most.rlim_cur, memory);
       setrlimit(RLIMIT_AS, &most);
       const int nowhere = open("/dev/null", O_WRONLY);
       dup2(nowhere, STDOUT_FILENO);
@@ -88,7 +97,8 @@ namespace Ricochet
     if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
       throw ComputationError("No pipe can be made for " + who + ": " +
                              std::strerror(errno) + ".");
-    const pid_t child = fork();
+    const pid_t parent = getpid();
+    const pid_t child  = fork();
     if (child < 0)
       {
         close(pipe_ends[0]);
@@ -99,7 +109,7 @@ namespace Ricochet
     if (child == 0)
       {
         close(pipe_ends[0]);
-        prepare_child();
+        prepare_child(parent);
         std::string    message;
         const ExitCode code = run_task(task, message);
         const ssize_t  written =

@@ -19,6 +19,7 @@ namespace Ricochet
                                                     "energy.csv",
                                                     "energy.h5",
                                                     "solution.pvd",
+                                                    "obstacles.pvd",
                                                     "log.txt",
                                                     "parameters.prm",
                                                     "parameters.resumed.prm"};
@@ -162,7 +163,8 @@ namespace Ricochet
     for (const auto &field : fs::directory_iterator(file("solution"), error))
       {
         const std::string name = field.path().filename().string();
-        if (name.compare(0, 5, "step-") == 0)
+        if (name.compare(0, 5, "step-") == 0 ||
+            name.compare(0, 10, "obstacles-") == 0)
           fs::remove(field.path(), error);
       }
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/obstacles/level_set.h>
 #include <output/obstacle_surfaces.h>
 
 #include <deal.II/base/function_lib.h>
@@ -70,12 +71,28 @@ namespace Ricochet
       return box;
     }
 
+    /// Whether no point of the surface is in @p box for sure. Of level sets nothing is
+    /// sure; the gaps of all other shapes are distances.
+    template <int dim>
+    bool
+    is_out_of_sight(const BoundingBox<dim> &box,
+                    const RigidObstacle    &obstacle,
+                    const double            time)
+    {
+      const auto [lower, upper] = box.get_boundary_points();
+      return dynamic_cast<const LevelSet *>(&obstacle.shape()) == nullptr &&
+        std::abs(obstacle.gap(in_space<dim>(box.center()), time)) >
+        .5 * lower.distance(upper) * (1. + 1e-8);
+    }
+
     template <int dim>
     std::vector<Piece<dim>>
     pieces(const BoundingBox<dim> &box,
            const RigidObstacle    &obstacle,
            const double            time)
     {
+      if (is_out_of_sight(box, obstacle, time))
+        return {};
       const auto [lower, upper] = box.get_boundary_points();
       double longest            = 0.;
       for (unsigned int c = 0; c < dim; ++c)

@@ -409,8 +409,10 @@ namespace Ricochet
       write_atomically(folder.file(file_of(step)),
                        surfaces.vtu(BoundingBox<dim>({lower, upper}), flags));
       std::vector<std::pair<double, std::string>> times_and_names;
+      // Of a run that is resumed they may have got lost, as the fields may.
       for (const auto &[s, time_and_name] : written)
-        times_and_names.emplace_back(time_and_name.first, file_of(s));
+        if (is_whole(folder.file(file_of(s))))
+          times_and_names.emplace_back(time_and_name.first, file_of(s));
       std::ostringstream pvd;
       DataOutBase::write_pvd_record(pvd, times_and_names);
       write_atomically(folder.file("obstacles.pvd"), pvd.str());

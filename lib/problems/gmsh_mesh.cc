@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/child_process.h>
 #include <base/exceptions.h>
+#include <base/parameter_file.h>
 #include <problems/gmsh_element_types.h>
 #include <problems/gmsh_file_check.h>
 #include <problems/gmsh_mesh.h>
@@ -10,11 +11,19 @@
 
 #include <gmsh.h>
 
+#include <sys/mman.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -210,6 +219,12 @@ namespace Ricochet
         {
           throw;
         }
+      catch (const std::logic_error &)
+        {
+          // "vector larger than max_size()" helps nobody.
+          throw InputError("Gmsh cannot " + do_what +
+                           ": its numbers make no sense.");
+        }
       catch (const std::exception &exception)
         {
           throw InputError("Gmsh cannot " + do_what + ": " + exception.what());
@@ -218,6 +233,130 @@ namespace Ricochet
         {
           throw InputError("Gmsh cannot " + do_what + ": " + message);
         }
+    }
+
+
+
+    /// See that elements of a given length are not far too many for any machine:
+    /// Gmsh would crash only after a long time.
+    void
+    check_number_of_elements(const unsigned int dim, const double mesh_size)
+    {
+      std::array<double, 3> lower, upper;
+      gmsh::model::getBoundingBox(-1,
+                                  -1,
+                                  lower[0],
+                                  lower[1],
+                                  lower[2],
+                                  upper[0],
+                                  upper[1],
+                                  upper[2]);
+      double n = 1.;
+      for (unsigned int c = 0; c < dim; ++c)
+        n *= std::max(1., (upper[c] - lower[c]) / mesh_size);
+      if (n > 1e9)
+        throw std::runtime_error("with elements of the length " +
+                                 to_text(mesh_size) +
+                                 " the mesh would be too fine.");
+    }
+
+
+
+    /// A folder for a file on its way, which goes with this.
+    class TemporaryFolder
+    {
+    public:
+      TemporaryFolder()
+      {
+        std::error_code             error;
+        const std::filesystem::path parent =
+          std::filesystem::temp_directory_path(error);
+        name = (parent / "ricochet-XXXXXX").string();
+        if (error || mkdtemp(name.data()) == nullptr)
+          throw std::runtime_error(
+            "no folder for temporary files can be made: " +
+            (error ? error.message() : std::strerror(errno)) +
+            ". The environment variable TMPDIR says where.");
+      }
+
+      ~TemporaryFolder()
+      {
+        std::error_code ignored;
+        std::filesystem::remove_all(name, ignored);
+      }
+
+      TemporaryFolder(const TemporaryFolder &) = delete;
+      TemporaryFolder &
+      operator=(const TemporaryFolder &) = delete;
+
+      std::string
+      file(const std::string &file_name) const
+      {
+        return name + "/" + file_name;
+      }
+
+    private:
+      std::string name;
+    };
+
+
+
+    /// A file in memory, which a child process can fill.
+    class MemoryFile
+    {
+    public:
+      MemoryFile()
+        : descriptor(memfd_create("ricochet-mesh", MFD_CLOEXEC))
+      {
+        if (descriptor < 0)
+          throw ComputationError(
+            std::string("No file in memory can be made: ") +
+            std::strerror(errno) + ".");
+      }
+
+      ~MemoryFile()
+      {
+        close(descriptor);
+      }
+
+      MemoryFile(const MemoryFile &) = delete;
+      MemoryFile &
+      operator=(const MemoryFile &) = delete;
+
+      std::string
+      name() const
+      {
+        return "/proc/self/fd/" + std::to_string(descriptor);
+      }
+
+    private:
+      const int descriptor;
+    };
+
+
+
+    /// Write Gmsh's mesh into @p msh_file, which may have any name, while Gmsh wants one
+    /// that ends with .msh. It takes a moment only, in which nothing interrupts this
+    /// process: a run that is killed leaves no files behind.
+    void
+    write_msh(const std::string &msh_file)
+    {
+      prctl(PR_SET_PDEATHSIG, 0);
+      for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        std::signal(signal, SIG_IGN);
+      // mpirun kills whole groups.
+      setpgid(0, 0);
+      const TemporaryFolder folder;
+      const std::string     file = folder.file("mesh.msh");
+      gmsh::write(file);
+      // Gmsh says nothing of a full disk.
+      std::ifstream     in(file, std::ios::binary);
+      const std::string text((std::istreambuf_iterator<char>(in)), {});
+      std::ofstream     out(msh_file, std::ios::binary);
+      if (text.rfind("$EndElements") == std::string::npos ||
+          !out.write(text.data(), text.size()).flush())
+        throw std::runtime_error("the mesh cannot be written to '" + file +
+                                 "': there may be no space left.");
     }
   } // namespace
 
@@ -323,7 +462,11 @@ namespace Ricochet
         throw std::runtime_error("there is nothing of dimension " +
                                  std::to_string(dim) + " in it.");
       if (get_elements(dim).empty())
-        gmsh::model::mesh::generate(dim);
+        {
+          if (mesh_size > 0.)
+            check_number_of_elements(dim, mesh_size);
+          gmsh::model::mesh::generate(dim);
+        }
       gmsh::vectorpair groups;
       gmsh::model::getPhysicalGroups(groups, dim);
       if (groups.empty())
@@ -346,7 +489,7 @@ namespace Ricochet
                                         entity.second);
       gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
       gmsh::option::setNumber("Mesh.Binary", 0);
-      gmsh::write(msh_file);
+      write_msh(msh_file);
       return true;
     };
     // Gmsh crashes on some geometries, and a script may end the process it is in.
@@ -387,25 +530,21 @@ namespace Ricochet
                        ".stp.");
     if (!fs::exists(file_name))
       throw InputError("The mesh file '" + file_name + "' does not exist.");
-    // Each process its own.
-    const std::string converted =
-      (fs::temp_directory_path() /
-       ("ricochet-" + std::to_string(getpid()) + ".msh"))
-        .string();
+    const MemoryFile file;
     try
       {
-        convert_to_gmsh_mesh(file_name, converted, dim, mesh_size);
-        CellNodes<dim>  nodes = read_msh(converted);
-        std::error_code error;
-        fs::remove(converted, error);
-        return nodes;
+        convert_to_gmsh_mesh(file_name, file.name(), dim, mesh_size);
+        return read_msh(file.name());
       }
     catch (const InputError &error)
       {
-        std::error_code ignored;
-        fs::remove(converted, ignored);
+        std::string       message = error.what();
+        const std::string name    = "The mesh file '" + file.name() + "'";
+        const std::size_t place   = message.find(name);
+        if (place != std::string::npos)
+          message.replace(place, name.size(), "The mesh that Gmsh makes of it");
         throw InputError("The mesh file '" + file_name +
-                         "' cannot be taken: " + error.what());
+                         "' cannot be taken: " + message);
       }
   }
 

@@ -2,8 +2,9 @@
 """Run one case with several methods on all cores, and lay their numbers beside each other.
 
 The case is a parameter file that names its program (`set Program = NAME`). Methods are all
-combinations of the treatments and schemes that are given; without them that of the file. What
-the program refuses is in the table with the reason. The table is printed, and FOLDER, without -o
+combinations of the treatments and schemes that are given; without them that of the file. A name
+that the program does not know ends the command before any run; a combination that it refuses is
+in the table with the reason. The table is printed, and FOLDER, without -o
 output/compare/CASE, has it as index.html with figures, and as table.csv.
 
 What the columns are:
@@ -26,6 +27,7 @@ impact is nearest to the middle of a step, and the range of all of them.
 from __future__ import annotations
 
 import argparse
+import difflib
 import itertools
 import os
 import pathlib
@@ -36,7 +38,15 @@ from dataclasses import dataclass
 from . import measures, prm
 from .comparison import Comparison, Method, print_table, write_csv
 from .errors import BadParameterFile, ProgramError, Refused, RicochetError
-from .programs import Outcome, Task, check_many, find_program, parameters_of, run_tasks
+from .programs import (
+    Outcome,
+    Task,
+    check_many,
+    choices_of,
+    find_program,
+    parameters_of,
+    run_tasks,
+)
 from .results import Run
 
 GAP = "Start/Initial gap"
@@ -157,11 +167,30 @@ def positions(number: int) -> list[float]:
     return [round((k + 0.5) / number, 6) for k in range(number)]
 
 
+def check_names(
+    program: pathlib.Path, case: pathlib.Path, parameter: str, names: Sequence[str]
+) -> None:
+    """See that a program knows all names of treatments, or of schemes.
+
+    Raises:
+        RicochetError: one is misspelt; the message has the nearest one that is known.
+    """
+    choices = choices_of(program, case, parameter) if names else []
+    for name in names:
+        if choices and name not in choices:
+            known = {choice.casefold(): choice for choice in choices}
+            nearest = difflib.get_close_matches(name.casefold(), known, 1, cutoff=0.0)[0]
+            raise RicochetError(
+                f"There is no {parameter.rpartition('/')[2].lower()} '{name}'. The nearest valid "
+                f"name is '{known[nearest]}'; {program.name} knows: {', '.join(choices)}."
+            )
+
+
 def compare(options: argparse.Namespace) -> Comparison:
     """Make all runs of a comparison.
 
     Raises:
-        RicochetError: the case cannot be read or run at all.
+        RicochetError: the case cannot be read or run at all, or a method is misspelt.
     """
     text = prm.read(options.case)
     if "Program" not in text.values:
@@ -170,6 +199,9 @@ def compare(options: argparse.Namespace) -> Comparison:
             "'set Program = NAME'."
         )
     program = find_program(text.values["Program"], options.programs)
+    section = prm.contact_sections(text)[0]
+    check_names(program, options.case, f"{section}/Treatment", options.treatments)
+    check_names(program, options.case, "Time/Scheme", options.schemes)
     folder = options.output or pathlib.Path("output") / "compare" / options.case.stem
     folder.mkdir(parents=True, exist_ok=True)
     settings, finest = _settings(options.settings), _settings(options.finest)

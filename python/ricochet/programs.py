@@ -7,6 +7,7 @@ import concurrent.futures
 import itertools
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -180,6 +181,22 @@ def parameters_of(
         file = pathlib.Path(folder) / "parameters.prm"
         file.write_text(text, encoding="utf-8")
         return prm.read(file).values
+
+
+def choices_of(program: pathlib.Path, parameter_file: PathLike | None, name: str) -> list[str]:
+    """The values that a parameter may have, as the program's refusal of another one lists them.
+
+    Empty if it is no choice, or if the file is refused for another reason.
+
+    Raises:
+        RicochetError: the program cannot be started.
+    """
+    command = [str(program), *([str(parameter_file)] if parameter_file else [])]
+    _, text = execute([*command, "--set", f"{name}=no such value", "--validate"])
+    match = re.search(
+        rf"'no such value' of '{re.escape(name)}' is not allowed\.\s+Allowed: Any one of (.+)", text
+    )
+    return [choice.strip() for choice in match.group(1).split(",")] if match else []
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ import time
 from dataclasses import dataclass
 
 import contract
+import programs
 
 HANG = 60.
 ANY = frozenset((0, 1, 2))
@@ -176,7 +177,10 @@ class Case:
 
     def command(self, program, settings=(), prm=None, folder=None, options=(),
                 n_ranks=1):
-        """The words of a run; an output folder is always given."""
+        """The words of a run; an output folder is always given, and a file to what
+        needs one."""
+        if prm is None:
+            prm = programs.FILES.get(program)
         words = []
         if n_ranks > 1:
             words = [self.context.mpiexec, "-n", str(n_ranks)]

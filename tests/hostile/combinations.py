@@ -8,7 +8,11 @@ from programs import BODIES, MESH, RUNS, TIME_STEP, parameters_of, small
 # These would only make a run long, or its balance open on purpose.
 LEFT_ALONE = re.compile(
     r"Output/|Program|Mesh/(?!Degree|Cells)|Time/(Final time|Time step)|"
-    r"tolerance|Tolerance|Maximum|/File$|/Folder$")
+    r"tolerance|Tolerance|Maximum|/File$|/Folder$|"
+    # Of a scene, whose parts depend on each other; scenes.py changes them.
+    r"Dimension|Units|^(Obstacle|Condition|Probe) |"
+    r"^Body .*/(?!Law|Viscosity|Density|Young|Poisson)|"
+    r"^Contact .*/(Surface|Against|Coupling)")
 
 
 def is_used(parameter, chosen):
@@ -71,9 +75,9 @@ def pair_for(rng, settings, program):
     if program not in BODIES or rng.random() < .2:
         return
     settings["Time/Scheme"] = "midpoint"
-    treatment = settings.get("Contact/Treatment", "")
-    if "Nitsche" in treatment or "multipliers" in treatment or "Lagr" in treatment:
-        del settings["Contact/Treatment"]
+    for name, value in list(settings.items()):
+        if name.endswith("/Treatment") and re.search("Nitsche|multipliers|Lagr", value):
+            del settings[name]
     for name in list(settings):
         if name.startswith("Linear solver/") or name.endswith(("/Law", "/Viscosity")):
             del settings[name]

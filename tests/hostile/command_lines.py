@@ -3,7 +3,7 @@
 
 import contract
 from case import ANY, NOT_ACCEPTED, REFUSED
-from programs import ALL, RUNS, small
+from programs import ALL, FILES, RUNS, small, start_of_command
 
 OPTIONS = ["--set", "--output-dir", "--resume", "--overwrite", "--validate",
            "--print-parameters", "--quiet", "--help", "--version"]
@@ -60,7 +60,7 @@ def many_options(case, program):
 
 def two_files(case, program):
     folder = case.context.root / "parameter_files" / program
-    file = str(folder / "default.prm")
+    file = str(FILES.get(program, folder / "default.prm"))
     return [file, file, "--validate"], NOT_ACCEPTED
 
 
@@ -79,7 +79,10 @@ def words_alone(case, program):
     words, expected = case.rng.choice(FORMS)(case, program)
     if not {"--validate", "--help", "--version"} & set(words):
         words = words + ["--validate"]
-    result = case.execute([str(case.context.programs / program)] + words)
+    start = [str(case.context.programs / program)]
+    if case.rng.random() < .7:
+        start = start_of_command(case, program)
+    result = case.execute(start + words)
     case.judge(result, program, expected)
 
 

@@ -5,9 +5,12 @@ Each check returns a list of complaints, (sort, detail): the sort is the same fo
 the same kind of defect, so that findings can be grouped.
 """
 
+import base64
 import csv
 import math
 import re
+import struct
+import zlib
 
 # Names of libraries and of the language's own machinery: none of them helps who
 # runs a finished program.
@@ -118,11 +121,14 @@ def check_ledger(csv_file, settings):
         residuals.append(float(row[names.index("balance_residual")]))
     # Relative to the initial energy; where a displacement is imposed, to the largest
     # energy so far, which is next to nothing at the beginning. What is only moved, by
-    # millimetres, has no energy but round-off of some 1e-13.
+    # millimetres, has no energy but round-off of some 1e-13. Loads may bring more
+    # energy than there was by any factor, and its round-off with it.
     largest = max(energies)
     for number, residual in enumerate(residuals, 1):
         if "imposed_work" in names:
             residual *= max(energies[:number]) / max(largest, 1e-6)
+        elif energies[0] > 0.:
+            residual *= energies[0] / max(energies[:number])
         if abs(residual) >= LARGEST_RESIDUAL:
             return [("success although the balance does not close",
                      f"row {number}: {residual}")]
@@ -136,22 +142,50 @@ def check_ledger(csv_file, settings):
 
 
 def check_fields(folder):
-    """All files that solution.pvd lists are there and whole."""
-    pvd = folder / "solution.pvd"
-    if not pvd.is_file():
+    """All files that solution.pvd and obstacles.pvd list are there and whole."""
+    if not (folder / "solution.pvd").is_file():
         return [("no solution.pvd after success", "")]
+    complaints = check_list_of_fields(folder, "solution.pvd")
+    if (folder / "obstacles.pvd").exists():
+        complaints += check_list_of_fields(folder, "obstacles.pvd")
+        complaints += check_surfaces(folder)
+    return complaints
+
+
+def check_surfaces(folder):
+    """The surfaces of obstacles are finite."""
+    for file in sorted((folder / "solution").glob("obstacles-*.vtu")):
+        if not all(map(math.isfinite, floats_of(file.read_text(errors="replace")))):
+            return [("the surface of an obstacle is not finite", file.name)]
+    return []
+
+
+def floats_of(vtu):
+    """All numbers of single precision in a file: text, or one compressed block each."""
+    for form, text in re.findall(r'<DataArray type="Float32"[^>]*format="(\w+)">'
+                                 r'([^<]*)<', vtu):
+        if form == "ascii":
+            yield from map(float, text.split())
+        else:
+            # Four integers come first, in a text of their own.
+            data = zlib.decompress(base64.b64decode(text.strip()[24:]))
+            yield from struct.unpack(f"<{len(data) // 4}f", data)
+
+
+def check_list_of_fields(folder, list_name):
+    pvd = folder / list_name
     text = pvd.read_text(errors="replace")
     names = re.findall(r'file="([^"]*)"', text)
     if not names or not text.rstrip().endswith("</VTKFile>"):
-        return [("solution.pvd is not whole after success", f"{len(names)} files")]
+        return [(f"{list_name} is not whole after success", f"{len(names)} files")]
     for name in names:
         file = folder / name
         if not file.is_file() or file.stat().st_size == 0:
-            return [("a file of solution.pvd is missing or empty", name)]
+            return [(f"a file of {list_name} is missing or empty", name)]
         with open(file, "rb") as content:
             content.seek(max(0, file.stat().st_size - 40))
             if not content.read().rstrip().endswith(b"</VTKFile>"):
-                return [("a file of solution.pvd is cut short", name)]
+                return [(f"a file of {list_name} is cut short", name)]
     return []
 
 

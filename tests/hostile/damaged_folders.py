@@ -131,9 +131,14 @@ class Folder:
                                         self.rows()[-1] + "\n"]))
         return ACCEPTED
 
+    def lists(self):
+        """Some have obstacles."""
+        return [file for file in (self.path / "solution.pvd",
+                                  self.path / "obstacles.pvd") if file.exists()]
+
     def pvd(self):
         """The list of fields can be lost; the run cannot."""
-        file = self.path / "solution.pvd"
+        file = self.rng.choice(self.lists())
         text = file.read_text()
         damaged = self.rng.choice([
             "", "junk\n", text[:self.rng.randrange(len(text))],
@@ -165,7 +170,8 @@ class Folder:
 
     def folder_in_place_of_written_file(self):
         """Not read, but to be written."""
-        name = self.rng.choice(["parameters.prm", "energy.h5", "solution.pvd"])
+        name = self.rng.choice(["parameters.prm", "energy.h5"]
+                               + [file.name for file in self.lists()])
         (self.path / name).unlink()
         (self.path / name).mkdir()
         return ANY if name == "parameters.prm" else NOT_ACCEPTED
@@ -179,7 +185,7 @@ class Folder:
 
 
 DAMAGES = [name for name, method in vars(Folder).items()
-           if name not in ("rows", "write_rows") and name[0] != "_"]
+           if name not in ("rows", "write_rows", "lists") and name[0] != "_"]
 DAMAGES += ["checkpoint_cut", "checkpoint_changed", "cell", "cell", "digit", "pvd"]
 
 

@@ -6,7 +6,7 @@ import signal
 import time
 
 from case import ACCEPTED, ANY, REFUSED, kill_session
-from programs import BARS, RUNS, THROWN, small
+from programs import BARS, FILES, RUNS, THROWN, small
 
 LOCALES = ["de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8", "C", "POSIX", "nonsense",
            "tr_TR.UTF-8", "", "x" * 3000]
@@ -113,6 +113,8 @@ def another_file(case, program):
     """The folder holds the run of another parameter file."""
     lines = [f"subsection {name.split('/')[0]}\n  set {name.split('/')[1]} = {value}"
              "\nend\n" for name, value in small(program).items()]
+    if program in FILES:
+        lines.insert(0, FILES[program].read_text())
     one = case.write("one.prm", "".join(lines))
     two = case.write("two.prm", "".join(lines)
                      + "subsection Newton\n  set Maximum iterations = 35\nend\n")

@@ -6,7 +6,7 @@ from programs import ALL, BARS, THROWN, small
 
 LARGEST = 200000
 FILES = ("energy.csv", "energy.h5", "log.txt", "parameters.prm", "checkpoint.bin",
-         "solution", ".vtu", "spectral_radii.csv", "oscillator_order.csv")
+         "solution", "obstacles", ".vtu", "spectral_radii.csv", "oscillator_order.csv")
 
 
 def settings_for(case, program):

@@ -4,7 +4,7 @@
 import shutil
 
 from case import ANY, NOT_ACCEPTED
-from programs import ALL, RUNS, parameters_of, printed_parameters, small
+from programs import ALL, FILES, RUNS, parameters_of, printed_parameters, small
 
 NO_NUMBERS = ["nan", "-nan", "NaN", "inf", "-inf", "Infinity", "1e400", "-1e400",
               "1e", "abc", "--5", "1;2", "0.1.2", "½", "٣", "\"0.1", "'0.1'",
@@ -184,8 +184,12 @@ MUTATIONS = ("typo_in_name typo_in_name typo_in_section unbalanced unbalanced "
 def given_text(case, program):
     """A real file, flattened or with its includes beside it, or all parameters
     as the program prints them."""
-    folder = case.context.root / "parameter_files" / program
-    shutil.copytree(folder, case.folder / "given")
+    if program in FILES:
+        # The others are long runs.
+        case.write("given/" + FILES[program].name, FILES[program].read_text())
+    else:
+        folder = case.context.root / "parameter_files" / program
+        shutil.copytree(folder, case.folder / "given")
     file = case.rng.choice(sorted((case.folder / "given").glob("*.prm")))
     text = file.read_text() if case.rng.random() < .5 else flatten(file)
     if case.rng.random() < .3 or "set " not in text:

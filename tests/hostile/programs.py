@@ -2,14 +2,19 @@
 """What the harness knows of the programs: small runs, and their parameters as
 --print-parameters tells them."""
 
+import pathlib
 import re
 from dataclasses import dataclass, field
 
 BARS = ["bar_sd", "bar_ss"]
-BODIES = ["colliding_disks", "stent_artery", "sliding_block"]
+BODIES = ["colliding_disks", "colliding_spheres", "stent_artery", "sliding_block",
+          "ricochet"]
 THROWN = ["elastic_ball", "hyperelastic_ring", "obstacle_course"] + BODIES
 RUNS = BARS + THROWN + ["sphere"]
 ALL = RUNS + ["spectral_radius"]
+
+# What cannot run without a file has one here.
+FILES = {"ricochet": pathlib.Path(__file__).resolve().with_name("scene.prm")}
 
 # Coarse meshes, and a time in which something touches.
 MESH = {
@@ -21,6 +26,9 @@ MESH = {
     "obstacle_course": {"Body/Boundary nodes": "32"},
     "colliding_disks": {"Disks/Rings of the left disk": "4",
                         "Disks/Rings of the right disk": "3"},
+    "colliding_spheres": {"Spheres/Mesh size of the left sphere": "1",
+                          "Spheres/Mesh size of the right sphere": "1"},
+    "ricochet": {},
     "stent_artery": {"Geometry/Artery nodes along": "31",
                      "Geometry/Artery nodes across": "4",
                      "Geometry/Stent nodes along": "41",
@@ -34,15 +42,18 @@ START = {
     "sphere": {"Start/Initial velocity": "0, 0, -4"},
     "obstacle_course": {"Start/Initial velocity": "0, -2"},
     "colliding_disks": {"Disks/Distance": "2.001", "Disks/Offset": "1"},
+    "colliding_spheres": {"Spheres/Distance": "2", "Spheres/Speed": "4"},
     "stent_artery": {"Geometry/Gap": "0.0001", "Deployment/Duration": "0.5"},
 }
 FINAL_TIME = {"bar_sd": "1.5", "bar_ss": "1", "elastic_ball": "0.015",
               "hyperelastic_ring": "0.15", "sphere": "1",
               "obstacle_course": "0.03", "colliding_disks": "0.032",
+              "colliding_spheres": "0.032", "ricochet": "0.016",
               "stent_artery": "0.16", "sliding_block": "0.016"}
 TIME_STEP = {"bar_sd": .05, "bar_ss": .05, "elastic_ball": .001,
              "hyperelastic_ring": .01, "sphere": .25, "obstacle_course": .002,
-             "colliding_disks": .004, "stent_artery": .02, "sliding_block": .002}
+             "colliding_disks": .004, "colliding_spheres": .004, "ricochet": .002,
+             "stent_artery": .02, "sliding_block": .002}
 
 
 def small(program):
@@ -127,10 +138,16 @@ def choices_in(text):
     return [part.strip() for part in match[1].split("|")] if match else []
 
 
+def start_of_command(case, program):
+    """The program, with its file if it needs one."""
+    return [str(case.context.programs / program)] + [
+        str(FILES[name]) for name in FILES if name == program]
+
+
 def parameters_of(case, program):
     """All parameters of a program; asked once."""
     def ask():
-        words = [str(case.context.programs / program), "--print-parameters"]
+        words = start_of_command(case, program) + ["--print-parameters"]
         parameters = parse_parameters(case.execute(words).out)
         for parameter in parameters:
             if parameter.type == "text" or "Variant" in parameter.text:
@@ -141,8 +158,8 @@ def parameters_of(case, program):
 
 def ask_for_choices(case, program, parameter):
     """A refusal lists the allowed values."""
-    words = [str(case.context.programs / program), "--validate", "--set",
-             parameter.name + "=no such value"]
+    words = start_of_command(case, program) + [
+        "--validate", "--set", parameter.name + "=no such value"]
     answer = " ".join(case.execute(words).err.split())
     match = re.search(r"Allowed: Any one of (.*?)(?: Is |\. |$)", answer)
     return match[1].rstrip(".").split(", ") if match else []
@@ -151,6 +168,6 @@ def ask_for_choices(case, program, parameter):
 def printed_parameters(case, program):
     """--print-parameters as text, asked once."""
     def ask():
-        words = [str(case.context.programs / program), "--print-parameters"]
+        words = start_of_command(case, program) + ["--print-parameters"]
         return case.execute(words).out
     return case.context.keep(("printed", program), ask)

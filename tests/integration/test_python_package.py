@@ -312,6 +312,37 @@ class PythonPackage(ProgramTest):
         self.assertEqual(page.count("data:image/png;base64,"), 4)
         self.assertNotIn("src=\"http", page)
         self.assertIn("cannot be combined", page)
+
+    def test_compare_with_a_misspelt_method(self):
+        """Nothing is run, and the nearest name is told."""
+        scene = self.folder / "scene.prm"
+        scene.write_text("""set Program = ricochet
+set Dimension = 2
+subsection Body ball
+  set Shape = disk
+end
+subsection Obstacle floor
+  set Shape = half space
+end
+subsection Contact on floor
+  set Surface = ball
+  set Against = floor
+end
+""")
+        for case, words, wrong, nearest in (
+                (self.case, ["--treatments", "penalty,persistant contact"],
+                 "treatment 'persistant contact'", "persistent contact"),
+                (self.case, ["--treatments", "PENALTY"], "treatment 'PENALTY'", "penalty"),
+                (self.case, ["--schemes", "midpoint,TR-BFD2"], "scheme 'TR-BFD2'", "TR-BDF2"),
+                (scene, ["--treatments", "nitsche"], "treatment 'nitsche'", "Nitsche")):
+            code, out, error = self.script("ricochet-compare", case, *words, "-o",
+                                           self.folder / "misspelt")
+            self.assertEqual(code, 2, msg=out + error)
+            self.assertIn(f"There is no {wrong}. The nearest valid name is '{nearest}'", error)
+            self.assertEqual(out, "")
+            self.assertFalse((self.folder / "misspelt").exists())
+
+    def test_compare_without_a_file(self):
         code, _, error = self.script("ricochet-compare", self.folder / "none.prm")
         self.assertEqual(code, 2)
         self.assertIn("does not exist", error)

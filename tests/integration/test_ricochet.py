@@ -309,6 +309,28 @@ class Scenes(ProgramTest):
                 self.assertIn("cannot be taken", result.stderr)
                 self.assertIn(message, result.stderr)
 
+    def test_meshes_that_are_too_fine_or_find_no_place(self):
+        """Temporary files have a folder, and their absence a sentence."""
+        (self.folder / "shoe.geo").write_text(SHOE)
+        scene_file = self.folder / "shoe.prm"
+        scene_file.write_text(SHOE_SCENE)
+        for folder, size, code, message in (
+                (self.folder / "none", "0", 1, "TMPDIR"),
+                (self.folder, "1e-12", 1, "the mesh would be too fine"),
+                (self.folder, "0", 0, "")):
+            with self.subTest(message):
+                result = subprocess.run(
+                    [program_path("ricochet"), str(scene_file), "--validate",
+                     "--set", f"Body shoe/Mesh size={size}"],
+                    capture_output=True, text=True, cwd=self.folder,
+                    # Open MPI would make the folder.
+                    env={**os.environ, "TMPDIR": str(folder),
+                         "OMPI_MCA_orte_tmpdir_base": str(self.folder / "ompi")})
+                self.assertEqual(result.returncode, code,
+                                 msg=result.stdout + result.stderr)
+                self.assertIn(message, result.stderr)
+                self.assertEqual(list(self.folder.glob("ricochet-*")), [])
+
     def test_contact_of_several_boundaries(self):
         """The force of a contact is that of all its boundaries: it pushes the block."""
         text = BLOCK.replace("  set Law ", "  set Velocity = 0, -1\n  set Law ", 1) + """

@@ -2,6 +2,7 @@
 """Nothing is lost and nothing silently replaced: full disks, folders that are in
 use or hold another run, damaged tables, meshes that changed."""
 
+import re
 import resource
 import signal
 import threading
@@ -203,6 +204,23 @@ class Safety(ProgramTest):
         self.run_program("bar_sd", ["Time/Final time=1"] + NO_FIELDS)
         self.assertFalse((run / "checkpoint.bin").exists())
         self.assertFalse((run / "solution.pvd").exists())
+        self.assertEqual(list(run.glob("solution/*.vtu")), [])
+
+    def test_surfaces_of_obstacles_that_are_gone(self):
+        """Those of an earlier run are taken away; what is lost is not listed."""
+        run = self.folder / "run"
+        parameters = ["Mesh/Nodes=100", "Mesh/Boundary nodes=32", "Time/Time step=1e-3",
+                      "Time/Final time=4e-3", "Output/Checkpoint every=1"]
+        self.run_program("elastic_ball", parameters + ["Output/Fields every=1"])
+        (run / "solution" / "obstacles-000001.vtu").unlink()
+        self.run_program("elastic_ball", parameters + ["Output/Fields every=1",
+                                                       "Time/Final time=6e-3"],
+                         options=["--resume"])
+        listed = re.findall('file="([^"]*)"', (run / "obstacles.pvd").read_text())
+        self.assertEqual(len(listed), 6)
+        self.assertTrue(all((run / name).is_file() for name in listed))
+        self.run_program("elastic_ball", parameters + NO_FIELDS)
+        self.assertFalse((run / "obstacles.pvd").exists())
         self.assertEqual(list(run.glob("solution/*.vtu")), [])
 
     def test_files_where_folders_belong_and_folders_where_files_belong(self):

@@ -94,9 +94,10 @@ namespace Ricochet
     for (unsigned int c = 0; c < dim; ++c)
       place += (c == 0 ? "(" : ", ") + to_text(x[c]);
     place += ")";
-    if (!std::isfinite(gap(x)))
+    // Squares of large numbers overflow, and any gap would be zero.
+    if (!std::isfinite(gap(x)) || !std::isfinite(given.norm()))
       return "The gap to the level set is not finite at " + place +
-        ": its gradient must not vanish.";
+        ": its gradient must neither vanish nor be too large.";
     if (!((given - differences).norm() <= 1e-5 * differences.norm()))
       return "The gradient of the level set is not that of its function: at " +
         place + " m it has the length " + to_text(given.norm()) +
