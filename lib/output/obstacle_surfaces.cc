@@ -89,7 +89,8 @@ namespace Ricochet
     std::vector<Piece<dim>>
     pieces(const BoundingBox<dim> &box,
            const RigidObstacle    &obstacle,
-           const double            time)
+           const double            time,
+           const unsigned int      n_obstacles)
     {
       if (is_out_of_sight(box, obstacle, time))
         return {};
@@ -98,9 +99,12 @@ namespace Ricochet
       for (unsigned int c = 0; c < dim; ++c)
         longest = std::max(longest, box.side_length(c));
       // A plane is found exactly; in space its pieces are small enough to be cut.
-      const bool         is_plane = obstacle.shape().is_plane();
-      const unsigned int n_cells =
+      const bool   is_plane = obstacle.shape().is_plane();
+      const double most =
         dim == 2 ? (is_plane ? 4 : 160) : (is_plane ? 24 : 40);
+      // A picture of many obstacles should not take longer than one of a few.
+      const double n_cells =
+        std::ceil(most / std::pow(std::max(1., n_obstacles / 4.), 1. / dim));
       std::vector<unsigned int> divisions;
       for (unsigned int c = 0; c < dim; ++c)
         divisions.push_back(
@@ -157,7 +161,8 @@ namespace Ricochet
         for (const Piece<dim> &piece :
              pieces(surroundings(bodies, obstacle, flags.time),
                     obstacle,
-                    flags.time))
+                    flags.time,
+                    obstacles.size()))
           {
             const unsigned int n = piece.corners.size();
             Patch              patch;

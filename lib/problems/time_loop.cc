@@ -595,13 +595,14 @@ namespace Ricochet
     double             worst = 0., largest_so_far = 0.;
     for (const auto &row : ledger.rows())
       {
-        // What begins at rest is measured by the largest energy of the run.
-        largest_so_far = std::max(largest_so_far, row[energy_column]);
-        const double scale =
-          measured_by_largest_energy() && sums.largest_energy > 0.
-          ? largest_so_far / sums.largest_energy
-          : 1.;
-        worst = std::max(worst, scale * std::abs(row[column]));
+        // What begins at rest is measured by the largest energy of the run, and what
+        // loads drive far beyond its first energy by the largest so far.
+        largest_so_far     = std::max(largest_so_far, row[energy_column]);
+        const double scale = measured_by_largest_energy()
+          ? (sums.largest_energy > 0. ? largest_so_far / sums.largest_energy
+                                      : 1.)
+          : sums.initial_energy / largest_so_far;
+        worst              = std::max(worst, scale * std::abs(row[column]));
       }
     folder.log(
       "largest balance residual: " + to_text(worst) +

@@ -184,18 +184,16 @@ def parameters_of(
 
 
 def choices_of(program: pathlib.Path, parameter_file: PathLike | None, name: str) -> list[str]:
-    """The values that a parameter may have, as the program's refusal of another one lists them.
+    """The values that a parameter may have, as the program prints them.
 
-    Empty if it is no choice, or if the file is refused for another reason.
+    Empty if it is no choice, or if the file is refused.
 
     Raises:
         RicochetError: the program cannot be started.
     """
     command = [str(program), *([str(parameter_file)] if parameter_file else [])]
-    _, text = execute([*command, "--set", f"{name}=no such value", "--validate"])
-    match = re.search(
-        rf"'no such value' of '{re.escape(name)}' is not allowed\.\s+Allowed: Any one of (.+)", text
-    )
+    _, text = execute([*command, "--print-parameters"])
+    match = re.search(rf"^#   {re.escape(name)}: Any one of (.+)$", text, re.MULTILINE)
     return [choice.strip() for choice in match.group(1).split(",")] if match else []
 
 
