@@ -234,7 +234,8 @@ def make(made: site.Site, gallery: Gallery) -> None:
     overview = [
         "# Figures of the papers",
         f"There are {len(gallery.entries)} figures, of which {n_made} have been made here; "
-        f"{n_checks} numbers were checked, {failed} of them are off. `figures/make.py all` makes "
+        f"{n_checks} numbers were checked, {failed or 'none'} of them {'is' if failed == 1 else 'are'} "
+        "off. `figures/make.py all` makes "
         "all, `figures/make.py C-6` one of them, with the runs that it needs. Letters A, B and C "
         "are the papers; figures with other letters are our own.",
     ]

@@ -178,10 +178,7 @@ def _page(made: site.Site, method: Method, runs: dict[str, Run]) -> str:
 
     def curve(name: str) -> str:
         if name not in runs:
-            return (
-                "*Its energy curve on the elastic ball is not here, since its run has not been "
-                "made; `figures/make.py A-4 B-4` makes those of papers A and B.*"
-            )
+            return ""
         return _curve(made, method.page, name, runs[name])
 
     body = text.with_includes(method.body, method.page)

@@ -164,11 +164,11 @@ def page_text(step: Step, gallery: figures.Gallery) -> str:
             f"# {step.title}",
             links,
             text.headings_from(step.introduction, 2),
-            "## The program",
-            program_text(step),
             "## Results",
             *[part for part in shown if part],
             exercises,
+            "## The program",
+            program_text(step),
         ]
     )
     return text.with_headers(page, step.page)

@@ -35,12 +35,13 @@
 //
 // ## What happens
 //
-// The left end is free at first, so that a wave starts from it behind which the
-// bar has no strain and moves to the left with the velocity $-1/2$. At $t = 1$
-// the wave is at the wall and the end at the obstacle. The obstacle stops the
-// left end, the wall the right one, and a wave starts from each. Until that of
-// the wall arrives at the left end, at $t = 2$, there is contact with the
-// pressure $1/2$. Then the end flies off with $+1/2$, and at $t = 3$ everything
+// The left end is free at first, so that a wave of unloading runs from it to the
+// right. Behind the wave the bar has no strain and moves to the left with the
+// velocity $-1/2$. At $t = 1$ the wave is at the wall and the end at the
+// obstacle. The obstacle stops the left end, the wall the right one, and a wave
+// starts from each, behind which the bar is at rest and compressed. Until that
+// of the wall arrives at the left end, at $t = 2$, there is contact with the
+// pressure $1/2$ (figure C-5 shows the bar at several times). Then the end flies off with $+1/2$, and at $t = 3$ everything
 // is as it was. This repeats for ever, with the energy
 //
 // $$ E = \tfrac12 \int_0^1 \dot u^2 \, dx + \tfrac12 \int_0^1 u_x^2 \, dx
@@ -64,9 +65,10 @@
 // $$ M \ddot U + K U + F_c(U) = 0, $$
 //
 // with the mass matrix $M$, the stiffness matrix $K$ and the contact force
-// $F_c$, which is $-p$ in the row of the left end. How $p$ follows from $U$ is
-// the **contact treatment**; how time is divided into steps is the **time
-// scheme**. The program runs any of the one with any of the other.
+// $F_c$, whose main part is $-p$ in the row of the left end. How $p$ follows
+// from $U$ is the **contact treatment**; how time is divided into steps is the
+// **time scheme**. The program runs most of the one with most of the other, and
+// refuses the rest with a sentence.
 //
 // ## Nitsche's method, the default treatment
 //
@@ -74,19 +76,22 @@
 //
 // $$ p = [\, p - \gamma g \,]_+, \qquad [x]_+ = \max(x, 0). $$
 //
-// (If $p > 0$ it says $g = 0$, and if $p = 0$ it says $g \ge 0$.) A bar has a
-// pressure of its own, that of its stress, $p(u_h) = -\sigma_n(u_h)$. Nitsche's
-// method puts it in the place of $p$ and takes the right-hand side for the
-// force, with $\gamma = \gamma_0/h$ (C (6) to (9); in our signs, with
-// $q = p - \gamma g$)
+// (If $p > 0$ it says $g = 0$, and if $p = 0$ it says $g \ge 0$.) The bar has a
+// pressure of its own, that of the stress in its end element, $p(u) = -u_x(0)$.
+// Nitsche's method puts it in the place of $p$ on the right, with
+// $\gamma = \gamma_0/h$, and takes the result $[q]_+$, $q = p(u) - \gamma g$,
+// for the force: $F_c(u)\,[v] = -[q]_+\, v(0)$. That is its variant
+// $\theta = 0$. To have a force that comes from a potential, a term is added
+// with the pressure $p(v) = -v_x(0)$ of the test function (C (6) to (9), in our
+// signs):
 //
-// $$ F_c(u)\,[v] = -\frac{\theta}{\gamma}\, p(u)\, p(v)
-//    + \frac{1}{\gamma}\, [q(u)]_+ \big( \theta p(v) - \gamma v(0) \big). $$
+// $$ F_c(u)\,[v] = -[q]_+\, v(0)
+//    + \frac{\theta}{\gamma}\, \big( [q]_+ - p(u) \big)\, p(v) . $$
 //
-// The exact solution satisfies this without any error (the method is
-// *consistent*), and no multiplier is needed. $\theta = 1$ is the symmetric
-// variant, which is the derivative of a potential: so there is a **modified
-// energy** (C (13)),
+// For the exact solution $[q]_+ = p$ and the new term is zero: it makes no
+// error (the method is *consistent*), and no unknown is needed for the force.
+// $\theta = 1$ is the symmetric variant, which is the derivative of a
+// potential: so there is a **modified energy** (C (13)),
 //
 // $$ E_N = E + \frac{1}{2\gamma} \big( [q]_+^2 - p(u)^2 \big), $$
 //
@@ -97,7 +102,17 @@
 //
 // The **penalty** method (C (14) to (17), `lib/contact/laws/penalty.h`) takes a
 // spring instead, $p = [-g]_+ / \epsilon$ with $\epsilon = \epsilon_0 h$. It is
-// simpler, but there is no pressure without penetration.
+// simpler, but there is no pressure without penetration. Its modified energy is
+// that of bar and spring, $E + [-g]_+^2 / (2 \epsilon)$.
+//
+// ## A mass matrix without mass at the end
+//
+// The mass matrix of finite elements, $\int \rho N_i N_j$ ("consistent"), gives
+// the end node a mass, which an obstacle has to stop at once. With
+// `Time/Mass = redistributed` the node has none: the mass goes to the others,
+// so that total mass, centre and moment of inertia stay what they are (C 2.4).
+// A node without mass is in equilibrium at any time, and nothing in it can
+// oscillate.
 //
 // ## One step of this program
 //
@@ -124,25 +139,41 @@
 // While contact lasts, or while there is none, $F_c$ is linear and
 // Crank-Nicolson keeps $E_N$ exactly. Only a step in which contact begins or
 // ends changes it. With a force $\gamma [x]_+$ ($x = q/\gamma$) the trapezoidal
-// rule then counts a work that differs from the change of the potential by
+// rule then counts a work that is not the change of the potential: where contact
+// begins, $\tfrac12 (0 + \gamma x_1)(x_1 - x_0)$ is
+// $\tfrac12 \gamma x_1^2 - \tfrac12 \gamma x_0 x_1$. So
 //
 // $$ \Delta E_N = \tfrac{\gamma}{2}\, x_0 x_1 \;\text{ where contact begins},
 //    \quad
 //    \Delta E_N = -\tfrac{\gamma}{2}\, x_0 x_1 \;\text{ where it ends}. $$
 //
 // $x_0$ and $x_1$ have different signs: beginning loses and ending gains. You
-// can see it in the lowest panel of figure C-6, whose steps are at the eight
-// times at which contact changes and nowhere else.
+// can see it in the lowest panel of figure C-6 (on the left), whose steps are at
+// the eight times at which contact changes.
+//
+// Other schemes: HHT takes part of the forces at the old instead of the new end
+// of the step (by a weight $\alpha$); TR-BDF2 makes a trapezoidal step over the
+// first 59 % and a backward one over the rest. Both damp what vibrates faster
+// than the step resolves, and so the energy falls a little all the time, not
+// only where contact changes.
 //
 // ## Run it
 //
-//     bar_sd parameter_files/bar_sd/default.prm
-//     bar_sd parameter_files/bar_sd/default.prm --set "Time/Scheme=TR-BDF2"
-//     bar_sd --help
+// From the top folder of the source:
+//
+//     build/release/bar_sd parameter_files/bar_sd/default.prm --output-dir output/first
+//     build/release/bar_sd parameter_files/bar_sd/default.prm --set "Time/Scheme=TR-BDF2" --output-dir output/second
+//     build/release/bar_sd --help
+//     python/bin/ricochet-plot output/first output/second -o output/plots
+//
+// A run takes about a second, and has a folder of its own (without
+// `--output-dir` the second one would take the place of the first). In it is
+// `energy.csv`, one row for each step. `--set` changes one parameter. The last
+// line draws both runs into the same axes: energies, contact force, gap.
 //
 // Nitsche's method with Crank-Nicolson (the defaults) has a mean displacement
-// of the left end over the first contact ($t$ = 1.00 ... 2.10) of 5.0e-4; the
-// penalty method has -3.8e-3: it lets the bar penetrate.
+// of the left end over the first contact ($t$ = 1.00 ... 2.10) of 5.0e-4 m; the
+// penalty method has -3.8e-3 m: it lets the bar penetrate.
 
 #include <contact/obstacles/half_space.h>
 #include <base/program.h>
@@ -194,11 +225,9 @@ BarSD::run(RunFolder &folder)
   // Mesh and data make $M \ddot U + K U + F_c(U) = 0$: the mass $M$, the
   // stiffness $K$ (`lib/discretization/linear_bulk.cc`), the contact force
   // $F_c$ (`lib/contact/treatments/pointwise_contact.cc`, which asks the law
-  // that the parameter file names), and the scheme. With
-  // `Time/Mass = redistributed` $M$ is changed so that the end node has no
-  // mass: total mass, centre and moment of inertia stay what they are (C 2.4,
-  // `lib/time_integration/mass_redistribution.h`). A node without mass is in
-  // equilibrium at any time, and there is nothing in it that could oscillate.
+  // that the parameter file names), and the scheme; with
+  // `Time/Mass = redistributed` an $M$ without mass at the end
+  // (`lib/time_integration/mass_redistribution.h`).
   Impact<1> bar(impact, triangulation, setup, folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
              " elements, " + std::to_string(bar.body.owned_indices().size()) +
