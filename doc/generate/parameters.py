@@ -250,7 +250,16 @@ def _page(program: str, parameters: list[Parameter], says: str) -> str:
         ),
     ]
     here = None
-    for parameter in sorted(parameters, key=lambda each: each.section != ""):
+    # What the others depend on comes first.
+    order = list(dict.fromkeys(each.section for each in parameters))
+    for parameter in sorted(
+        parameters,
+        key=lambda each: (
+            each.section != "",
+            order.index(each.section),
+            each.last not in ("Treatment", "Scheme", "Law", "Shape", "Quantity", "Kind"),
+        ),
+    ):
         if parameter.section != here:
             here = parameter.section
             pieces.append(f"## {text.plain(here) if here else 'Outside of all sections'}")

@@ -41,8 +41,9 @@
 // obstacle. The obstacle stops the left end, the wall the right one, and a wave
 // starts from each, behind which the bar is at rest and compressed. Until that
 // of the wall arrives at the left end, at $t = 2$, there is contact with the
-// pressure $1/2$ (figure C-5 shows the bar at several times). Then the end flies off with $+1/2$, and at $t = 3$ everything
-// is as it was. This repeats for ever, with the energy
+// pressure $1/2$. Then the end flies off with $+1/2$, and at $t = 3$ everything
+// is as it was (figure C-5 shows the bar at several times). This repeats for
+// ever, with the energy
 //
 // $$ E = \tfrac12 \int_0^1 \dot u^2 \, dx + \tfrac12 \int_0^1 u_x^2 \, dx
 //      = \tfrac18 . $$

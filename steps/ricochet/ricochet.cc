@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// # Ricochet
+// # Ricochet: bodies, obstacles and contacts of your own
 //
 // Your own bodies, obstacles and contacts, from a parameter file. The other
 // programs are benchmarks, each of one situation; here the file says what there
