@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import os
 import pathlib
@@ -10,10 +11,10 @@ import shutil
 import sys
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from . import curves, fields, measures, render
+from . import curves, fields, render
 from .errors import RicochetError
 from .results import FieldFile, Run
 from .screen import run_with_screen
@@ -24,6 +25,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
+from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from PIL import Image
@@ -76,6 +78,23 @@ class _Scene:
         return "max" if self.exceeds else "neither"
 
 
+@dataclass(frozen=True)
+class Shown:
+    """What `show` has drawn: its time, and what a colour bar needs."""
+
+    time: float
+    mappable: ScalarMappable
+    label: str
+    extend: str
+
+    def colour_bar(self, axes: Any, **keywords: Any) -> Colorbar:
+        """A colour bar beside axes, with the keywords of matplotlib."""
+        panel = np.ravel(np.asarray(axes, dtype=object))[0]
+        return panel.figure.colorbar(
+            self.mappable, ax=axes, label=self.label, extend=self.extend, **keywords
+        )
+
+
 def _axes(view: Array) -> tuple[Array, Array]:
     """Right and up of a picture for an eye in the direction `view`, with z up."""
     view = view / np.linalg.norm(view)
@@ -84,71 +103,69 @@ def _axes(view: Array) -> tuple[Array, Array]:
     return right, np.cross(view, right)
 
 
-def _scene(run: Run, colour: str, files: Sequence[FieldFile], pixels: int) -> _Scene:
+def _scene(
+    run: Run, colour: str, files: Sequence[FieldFile], pixels: int, obstacles: bool = True
+) -> _Scene:
     """View and limits of the colours that suit all of these files."""
+    first = run.fields(files[0].step)
+    dim, cells = fields.dimension(first), first.GetNumberOfCells()
+    on_foundation = _stands_on_zero(run, dim, first.GetLength())
+    cut, box = None, None
+    if dim == 2:
+        right, up = np.array((1.0, 0.0, 0.0)), np.array((0.0, 1.0, 0.0))
+    else:
+        from_below = colour == "contact_pressure" and on_foundation
+        if colour in ("von_mises", "stress") or (
+            colour == "contact_pressure" and not on_foundation
+        ):
+            cut = 0.5 * sum(first.GetBounds()[2:4])
+        # A cut through what lies on a foundation is seen from where that is level.
+        from_above = (0.0, -1.0, 0.3) if cut is not None and on_foundation else (0.35, -1.0, 0.4)
+        right, up = _axes(np.array((0.6, -0.9, -0.75) if from_below else from_above))
+
     lowest, highest, largest = math.inf, -math.inf, -math.inf
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    dim, cells, middle = 0, 0, 0.0
+    seen_low, seen_high = np.full(2, np.inf), np.full(2, -np.inf)
     for file in files:
         grid = run.fields(file.step)
-        dim, cells = fields.dimension(grid), grid.GetNumberOfCells()
         values = fields.values(grid, colour)
         lowest = min(lowest, float(values.min()))
         largest = max(largest, float(values.max()))
         # A few points at an edge of contact would take all colours for themselves.
         part = 100.0 if colour == "contact_pressure" else 99.0
         highest = max(highest, float(np.percentile(values, part)))
-        places = fields.array_of_points(grid) + fields.displacements(grid)
+        start = fields.array_of_points(grid)
+        places = start + fields.displacements(grid)
         low, high = np.minimum(low, places.min(axis=0)), np.maximum(high, places.max(axis=0))
-        bounds = grid.GetBounds()
-        middle = 0.5 * (bounds[2] + bounds[3])
+        seen = places if cut is None else places[start[:, 1] >= cut - 1e-9 * grid.GetLength()]
+        plane = np.stack((seen @ right, seen @ up), axis=1)
+        seen_low = np.minimum(seen_low, plane.min(axis=0))
+        seen_high = np.maximum(seen_high, plane.max(axis=0))
     if colour in ("von_mises", "contact_pressure", "stress") and dim > 1:
         lowest = max(lowest, 0.0)
     if not highest > lowest:
         highest = lowest + 1.0
     size = float(np.linalg.norm(high - low))
-    on_foundation = _stands_on_zero(run, dim, size)
-
-    cut, box = None, None
-    if dim == 2:
-        right, up = np.array((1.0, 0.0, 0.0)), np.array((0.0, 1.0, 0.0))
-        if on_foundation:
-            low[1] = min(low[1], 0.0)
-        corners = np.array([low, high])
-    else:
-        from_below = colour == "contact_pressure" and on_foundation
-        if colour in ("von_mises", "stress") or (
-            colour == "contact_pressure" and not on_foundation
-        ):
-            cut = middle
-        right, up = _axes(np.array((0.6, -0.9, -0.75) if from_below else (0.35, -1.0, 0.4)))
-        if colour != "contact_pressure" and files[0].obstacles:
-            # Seen from below, contact would be behind them.
-            low, high = low - 0.1 * size, high + 0.1 * size
-            box = tuple(zip(map(float, low), map(float, high)))
-        corners = np.array(
-            [
-                [(low, high)[i][0], (low, high)[j][1], (low, high)[k][2]]
-                for i in (0, 1)
-                for j in (0, 1)
-                for k in (0, 1)
-            ]
-        )
-    across, along = corners @ right, corners @ up
-    margin = 0.04 * max(np.ptp(across), np.ptp(along))
-    width, height = np.ptp(across) + 2 * margin, np.ptp(along) + 2 * margin
+    if dim == 2 and on_foundation:
+        low[1] = seen_low[1] = min(low[1], 0.0)
+    if dim == 3 and obstacles and colour != "contact_pressure" and files[0].obstacles:
+        # Seen from below, contact would be behind them.
+        low, high = low - 0.1 * size, high + 0.1 * size
+        box = tuple(zip(map(float, low), map(float, high)))
+        corners = np.array(list(itertools.product(*zip(low, high))))
+        plane = np.stack((corners @ right, corners @ up), axis=1)
+        seen_low = np.minimum(seen_low, plane.min(axis=0))
+        seen_high = np.maximum(seen_high, plane.max(axis=0))
+    middle = 0.5 * (seen_low + seen_high)
+    width, height = seen_high - seen_low + 0.08 * (seen_high - seen_low).max()
     # A thin body is shown with something around it.
     height, width = max(height, 0.15 * width), max(width, 0.15 * height)
-    depth = 0.5 * (low + high) @ np.cross(right, up)
-    centre = (
-        0.5 * (across.min() + across.max()) * right
-        + 0.5 * (along.min() + along.max()) * up
-        + depth * np.cross(right, up)
-    )
+    towards = np.cross(right, up)
+    centre = middle[0] * right + middle[1] * up + 0.5 * ((low + high) @ towards) * towards
     scale = pixels / max(width, height)
     # How large a cell is in the picture: a thin ring has small cells in a large view.
-    seen = cells if dim == 2 else 2 * cells ** (2 / 3)
-    area = (fields.area(run.fields(files[0].step)) if dim == 2 else width * height) * scale**2
+    many = cells if dim == 2 else 2 * cells ** (2 / 3)
+    area = (fields.area(first) if dim == 2 else width * height) * scale**2
     view = render.View(
         tuple(map(float, centre)),  # type: ignore[arg-type]
         tuple(map(float, right)),  # type: ignore[arg-type]
@@ -165,7 +182,7 @@ def _scene(run: Run, colour: str, files: Sequence[FieldFile], pixels: int) -> _S
         (lowest, highest),
         largest > highest * (1 + 1e-9),
         view,
-        bool(area > SMALLEST_CELL * seen),
+        bool(area > SMALLEST_CELL * many),
         cut,
         box,
     )
@@ -214,17 +231,18 @@ def _scale_bar(panel: Axes, scene: _Scene) -> None:
     raw = 0.25 * scene.view.width
     power = 10.0 ** math.floor(math.log10(raw))
     length = max(f * power for f in (1, 2, 5) if f * power <= raw)
-    x, y = -0.47 * scene.view.width, -0.47 * scene.view.height
+    # Below the picture, and beside the bar its length: both are clear of the body.
+    x, y = -0.47 * scene.view.width, -0.54 * scene.view.height
     panel.plot([x, x + length], [y, y], color="black", linewidth=2, solid_capstyle="butt")
     unit = fields.unit(scene.run.units, "length")
     panel.text(
-        x + 0.5 * length,
-        y + 0.012 * scene.view.height,
+        x + length + 0.02 * scene.view.width,
+        y,
         f"{length:g} {unit}".strip(),
-        ha="center",
-        va="bottom",
+        va="center",
         fontsize=9,
     )
+    panel.set_ylim(-0.58 * scene.view.height, 0.5 * scene.view.height)
 
 
 def _show(panel: Axes, scene: _Scene, image: Array) -> None:
@@ -280,6 +298,39 @@ def check_colour(run: Run, colour: str | None) -> str:
     except RicochetError as error:
         raise RicochetError(f"{run.folder}: {error}") from None
     return colour
+
+
+def show(
+    panel: Axes,
+    run: Run,
+    time: float,
+    colour: str,
+    limits: tuple[float, float] | None = None,
+    pixels: int = 900,
+    obstacles: bool = True,
+) -> Shown:
+    """A picture of the deformed body, at the written time nearest to `time`, in given axes.
+
+        shown = pictures.show(axes, run, 0.02, "von_mises")
+        shown.colour_bar(axes)
+
+    `limits` of the colours make panels comparable; without them they are those of the picture.
+    A body in space is cut in halves for stress; contact pressure on a foundation is shown from
+    below. Without `obstacles` those in space are left away.
+
+    Raises:
+        RicochetError: there are no such fields, or VTK cannot draw.
+    """
+    check_colour(run, colour)
+    file = min(run.field_files, key=lambda f: abs(f.time - time))
+    scene = _scene(run, colour, [file], pixels, obstacles)
+    if limits is not None:
+        values = fields.values(run.fields(file.step), colour)
+        scene = replace(scene, limits=limits, exceeds=bool(values.max() > limits[1]))
+    with tempfile.TemporaryDirectory(prefix="ricochet-") as folder:
+        (image,) = _render(scene, [file], pathlib.Path(folder))
+    _show(panel, scene, image)
+    return Shown(file.time, scene.mappable, scene.label, scene.extend)
 
 
 def _is_bar(run: Run) -> bool:

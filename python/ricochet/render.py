@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from . import fields
+from . import curved, fields
 from .results import read_vtu
 
 
@@ -125,10 +125,83 @@ def _show_obstacles(actor: Any, grid: Any, dim: int, job: Job) -> None:
     actor.SetVisibility(True)
 
 
+def _clipped(data: Any, clip: Any, cut: float | None) -> Any:
+    """What is behind the plane y = cut, by a filter that clips."""
+    import vtk
+
+    if cut is None:
+        return data
+    plane = vtk.vtkPlane()
+    plane.SetOrigin(0, cut, 0)
+    plane.SetNormal(0, 1, 0)
+    clip.SetInputData(data)
+    clip.SetClipFunction(plane)
+    clip.Update()
+    return clip.GetOutput()
+
+
+def _warped(data: Any) -> Any:
+    """A grid whose points are where the field `moved` brings them."""
+    import vtk
+
+    warp = vtk.vtkWarpVector()
+    warp.SetInputData(data)
+    warp.SetInputArrayToProcess(0, 0, 0, 0, "moved")
+    warp.Update()
+    return warp.GetOutput()
+
+
+def _surface(grid: Any, job: Job, lines: Any) -> Any:
+    """The surface to be seen, with the field `shown`; `lines` becomes the edges of curved cells.
+
+    In space the field is the mean of the cells around a point, and the light that of a smooth
+    surface.
+    """
+    import vtk
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+
+    shown, moved = fields.values(grid, job.colour), fields.displacements(grid)
+    in_space = fields.dimension(grid) == 3
+    if in_space:
+        groups = curved.joined(fields.array_of_points(grid), moved)
+        shown = curved.averaged(shown, groups)
+    lines.SetVisibility(False)
+    if in_space and curved.is_quadratic(grid):
+        body = curved.pieces(grid, {"shown": shown, "moved": moved})
+        if job.edges:
+            edges = curved.outer_edges(grid, moved, groups)
+            mapper = vtk.vtkPolyDataMapper()
+            mapper.SetInputData(_warped(_clipped(edges, vtk.vtkClipPolyData(), job.cut)))
+            mapper.ScalarVisibilityOff()
+            mapper.SetResolveCoincidentTopologyToPolygonOffset()
+            mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0, -4)
+            lines.SetMapper(mapper)
+            lines.SetVisibility(True)
+    else:
+        body = grid
+        for name, values in (("shown", shown), ("moved", moved)):
+            data = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+            data.SetName(name)
+            body.GetPointData().AddArray(data)
+    surface = vtk.vtkDataSetSurfaceFilter()
+    if not in_space:
+        surface.SetInputData(_warped(body))
+        surface.SetNonlinearSubdivisionLevel(2)
+        surface.Update()
+        return surface.GetOutput()
+    # Faces between cells cancel where their points are the same.
+    body = curved.with_joined_points(body)
+    surface.SetInputData(_warped(_clipped(body, vtk.vtkClipDataSet(), job.cut)))
+    normals = vtk.vtkPolyDataNormals()
+    normals.SetInputConnection(surface.GetOutputPort())
+    normals.SetFeatureAngle(40)
+    normals.Update()
+    return normals.GetOutput()
+
+
 def render(job: Job) -> None:
     """Draw all frames of a job."""
     import vtk
-    from vtkmodules.util.numpy_support import numpy_to_vtk
 
     table = vtk.vtkLookupTable()
     table.SetNumberOfTableValues(len(job.palette))
@@ -149,10 +222,13 @@ def render(job: Job) -> None:
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     renderer.AddActor(actor)
-    if job.edges:
-        look.EdgeVisibilityOn()
-        look.SetEdgeColor(0.35, 0.35, 0.35)
-        look.SetLineWidth(0.6)
+    lines = vtk.vtkActor()
+    renderer.AddActor(lines)
+    for edges, thick in ((look, 0.6), (lines.GetProperty(), 1.0)):
+        edges.SetEdgeColor(0.35, 0.35, 0.35)
+        edges.SetColor(0.35, 0.35, 0.35)
+        edges.SetLineWidth(thick)
+    lines.GetProperty().LightingOff()
 
     view = job.view
     towards = np.cross(view.right, view.up)  # from the body to the eye
@@ -172,35 +248,13 @@ def render(job: Job) -> None:
     renderer.AddActor(obstacle)
     for source, obstacles, image in job.frames:
         grid = read_vtu(source)
+        look.SetEdgeVisibility(job.edges and not curved.is_quadratic(grid))
         if fields.dimension(grid) == 2:
             look.LightingOff()
         else:
             look.SetAmbient(0.5)
             look.SetDiffuse(0.55)
-        for name, values in (
-            ("shown", fields.values(grid, job.colour)),
-            ("moved", fields.displacements(grid)),
-        ):
-            data = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-            data.SetName(name)
-            grid.GetPointData().AddArray(data)
-        last: Any = grid
-        if job.cut is not None:
-            plane = vtk.vtkPlane()
-            plane.SetOrigin(0, job.cut, 0)
-            plane.SetNormal(0, 1, 0)
-            clip = vtk.vtkClipDataSet()
-            clip.SetInputData(last)
-            clip.SetClipFunction(plane)
-            clip.Update()
-            last = clip.GetOutput()
-        warp = vtk.vtkWarpVector()
-        warp.SetInputData(last)
-        warp.SetInputArrayToProcess(0, 0, 0, 0, "moved")
-        surface = vtk.vtkDataSetSurfaceFilter()
-        surface.SetInputConnection(warp.GetOutputPort())
-        surface.Update()
-        mapper.SetInputData(surface.GetOutput())
+        mapper.SetInputData(_surface(grid, job, lines))
 
         obstacle.SetVisibility(False)
         if obstacles:

@@ -166,6 +166,44 @@ class PythonPackage(ProgramTest):
         with self.assertRaisesRegex(ricochet.NotARun, "damaged"):
             ricochet.results.read_vtu(damaged)
 
+    def test_curved_cells(self):
+        """Small linear tetrahedra fill a quadratic one; numbers do not exceed those at nodes."""
+        try:
+            import vtk
+            from vtkmodules.util.numpy_support import vtk_to_numpy
+        except ImportError:
+            self.skipTest("VTK (Debian's python3-vtk9) is missing")
+        from ricochet import curved
+        local = numpy.concatenate([curved._small_ones(halvings)[0] for halvings in (1, 2)])
+        shapes, weights = curved.shape_functions(local), curved._linear_weights(local)
+        for values in (shapes, weights):
+            self.assertLess(abs(values.sum(axis=1) - 1).max(), 1e-14)
+        self.assertGreaterEqual(weights.min(), -1e-14)
+        corners = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
+        nodes = [*corners, *(.5 * (corners[i] + corners[j]) for i, j in curved.EDGES)]
+        # The middle of an edge is moved along a parabola: what is quadratic is exact.
+        moved = numpy.array([[0, 0, x * (1 - x)] for x, _, _ in nodes])
+        grid, points = vtk.vtkUnstructuredGrid(), vtk.vtkPoints()
+        for node in nodes:
+            points.InsertNextPoint(node)
+        grid.SetPoints(points)
+        grid.InsertNextCell(curved.QUADRATIC_TETRAHEDRON, 10, list(range(10)))
+        self.assertTrue(curved.is_quadratic(grid))
+        shown = numpy.arange(10.)
+        fine = curved.pieces(grid, {"shown": shown, "moved": moved})
+        self.assertEqual(fine.GetNumberOfCells(), 64)
+        places = vtk_to_numpy(fine.GetPoints().GetData())
+        values = [vtk_to_numpy(fine.GetPointData().GetArray(n)) for n in ("shown", "moved")]
+        self.assertEqual((values[0].min(), values[0].max()), (0, 9))
+        parabola = places[:, 0] * (1 - places[:, 0])
+        self.assertLess(abs(values[1][:, 2] - parabola).max(), 1e-6)
+        cells = vtk_to_numpy(fine.GetCells().GetConnectivityArray()).reshape(-1, 4)
+        sides = places[cells[:, 1:]] - places[cells[:, :1]]
+        volumes = abs(numpy.linalg.det(sides)) / 6
+        self.assertLess(abs(volumes - 1 / 384).max(), 1e-7)
+        edges = curved.outer_edges(grid, moved, numpy.arange(10))
+        self.assertEqual(edges.GetNumberOfLines(), 6)
+
     def test_parameters(self):
         self.assertEqual(self.ball.program, "elastic_ball")
         self.assertEqual(self.ball.parameters["Mesh/Boundary nodes"], "40")
