@@ -2,7 +2,7 @@
 """1D-SD, penetration of the penalty method and of Nitsche's.
 
 Displacement of the left end near the obstacle, Crank-Nicolson with consistent mass; the obstacle
-is at 0. Right: the first contact, with the mean over its nodes (dotted).
+is at 0. Below: the first contact, with the mean over its nodes (dotted).
 """
 
 import matplotlib.pyplot as plt
@@ -27,13 +27,14 @@ def mean_displacement(key):
 
 
 def draw():
-    figure, (whole, zoom) = plt.subplots(1, 2, figsize=(12, 4.2))
+    figure, (whole, zoom) = plt.subplots(2, 1, figsize=(6.8, 7))
     end = SD.ends[0]
     time = np.arange(FINAL_TIME + 1)
     for panel in (whole, zoom):
         panel.axhline(0, color="0.6", linewidth=0.6)
         draw_exact(panel, time, end.displacement_at(time))
         panel.set_xlabel("time (s)")
+        panel.set_ylabel("displacement of the left end (m)")
     for curve in TREATMENTS:
         table = RUNS[curve.key].read()
         for panel in (whole, zoom):
@@ -53,12 +54,12 @@ def draw():
             linewidth=1.6,
             label=f"{curve.label}, mean: {1e3 * mean_displacement(curve.key):.2f} mm",
         )
-    whole.set(xlim=(0, FINAL_TIME), ylim=(-0.015, 0.05), ylabel="displacement of the left end (m)")
+    whole.set(xlim=(0, FINAL_TIME), ylim=(-0.015, 0.05))
     whole.set_title("four periods, near the obstacle")
     zoom.set(xlim=(0.9, 2.25), ylim=(-0.0125, 0.0175), title="first contact")
     figure.tight_layout()
     figure.legend(
-        *zoom.get_legend_handles_labels(), loc="lower center", bbox_to_anchor=(0.5, 0.98), ncol=5
+        *zoom.get_legend_handles_labels(), loc="lower center", bbox_to_anchor=(0.5, 0.98), ncol=2
     )
     return figure
 

@@ -61,7 +61,7 @@ def errors(bar, scheme):
 
 
 def draw():
-    figure, axes = plt.subplots(1, 2, figsize=(12, 4.8), sharey=True)
+    figure, axes = plt.subplots(1, 2, figsize=(6.8, 4.0), sharey=True)
     sizes = np.array(MESH_SIZES)
     for panel, bar in zip(axes, (SD, SS)):
         for scheme, (label, colour, marker) in SCHEMES.items():
@@ -82,11 +82,16 @@ def draw():
         panel.grid(True, which="minor", color="0.95", linewidth=0.4)
         ticks = (0.1, 0.05, 0.025, 0.0125, 0.00625, 0.003125, 0.0015625)
         panel.set_xticks(ticks)
-        panel.set_xticklabels([r"$\frac{1}{%d}$" % round(1 / t) for t in ticks], fontsize=13)
+        panel.set_xticklabels([r"$\frac{1}{%d}$" % round(1 / t) for t in ticks], fontsize=11)
         panel.set_xticks([], minor=True)
     axes[0].set_ylabel(r"error in $L^2(0,T;H^1(\Omega))$")
-    axes[0].legend(loc="upper left", ncol=1, fontsize=9)
     figure.tight_layout()
+    figure.legend(
+        *axes[0].get_legend_handles_labels(),
+        loc="lower center",
+        bbox_to_anchor=(0.5, 0.98),
+        ncol=3,
+    )
     return figure
 
 

@@ -9,7 +9,7 @@ from .exact import FINAL_TIME
 
 
 def draw_exact(axes, time, values):
-    axes.plot(time, values, color="black", linewidth=2.2, alpha=0.9, label="exact", zorder=2)
+    axes.plot(time, values, color="black", linewidth=2.0, alpha=0.9, label="exact", zorder=2)
 
 
 def draw_panels(bar, curves, runs):
@@ -18,7 +18,7 @@ def draw_panels(bar, curves, runs):
         (quantity, end) for quantity in ("displacement", "velocity", "pressure") for end in bar.ends
     ] + [("energy", None)]
     figure, axes = plt.subplots(
-        len(rows), 2, figsize=(12, 2.3 * len(rows)), sharex=True, sharey="row", squeeze=False
+        len(rows), 2, figsize=(6.8, 1.5 * len(rows) + 0.6), sharex=True, sharey="row", squeeze=False
     )
     units = {"displacement": "m", "velocity": "m/s", "pressure": "Pa", "energy": "J"}
     for column, mass in enumerate(MASSES):
@@ -48,14 +48,16 @@ def draw_panels(bar, curves, runs):
                     table[name],
                     color=curve.colour,
                     linestyle="-" if curve is curves[0] else (0, (4, 1.2)),
-                    linewidth=1.1,
+                    linewidth=0.9,
                     label=curve.label,
                     zorder=3,
                 )
             if column == 0:
                 title = {"pressure": "contact pressure", "energy": "modified energy"}
                 where = f"{end.name} end " if end and len(bar.ends) > 1 else ""
-                panel.set_ylabel(f"{title.get(quantity, quantity)}\n{where}({units[quantity]})")
+                panel.set_ylabel(
+                    f"{title.get(quantity, quantity)}\n{where}({units[quantity]})", fontsize=9
+                )
     axes[0, 0].set_xlim(0, FINAL_TIME)
     figure.align_ylabels()
     figure.legend(
@@ -63,7 +65,6 @@ def draw_panels(bar, curves, runs):
         loc="lower center",
         bbox_to_anchor=(0.5, 0.99),
         ncol=3,
-        fontsize=11,
     )
     figure.tight_layout()
     return figure

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the figures of the elastic ball share: runs of the methods, with bands, and curves."""
+"""What the figures of the elastic ball share: runs of the methods, with bands."""
 
-from shared.curves import curve, fill
-from shared.measures import energy
 from shared.methods import EMM, HAURET, INC, PERSISTENT, SIGNORINI, SNC, TWO_STEP, band
 from shared.runs import QUIET, Run
 
@@ -43,23 +41,3 @@ COARSE_BAND = {key: positions(one, "10ms") for key, one in COARSE.items()}
 
 def with_bands(methods, runs, bands):
     return [r for m in methods for r in (runs[m.key], *bands[m.key])]
-
-
-def lines(axes, methods, runs, bands, step, values=energy, width=1.3):
-    """A curve and a band for each method."""
-    start = STEP[step][1]
-    for method in methods:
-        if method.key in bands:
-            fill(axes, bands[method.key], values, start, method.colour)
-        # Persistent contact lies on the two-step scheme.
-        style = (0, (4, 3)) if method is PERSISTENT else "-"
-        curve(
-            axes,
-            runs[method.key],
-            values,
-            start,
-            method.colour,
-            method.label,
-            linewidth=width,
-            linestyle=style,
-        )

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from shared.curves import energy_axes
+from shared.curves import panels_with_bands
 from shared.figure import check, info
 from shared.measures import dip, energy, lost, mean, percent
 from shared.methods import HAURET, INC, SIGNORINI, SNC
@@ -17,7 +17,7 @@ from shared.rows import (
     statement,
 )
 
-from .common import AGAINST, FINE, FINE_BAND, lines, positions, run, with_bands
+from .common import AGAINST, FINE, FINE_BAND, STEP, positions, run, with_bands
 
 PAPER = numbers("A.figure_9")
 
@@ -26,12 +26,8 @@ EMM_CN = positions(run("A-4", "emm_cn", "emm", ("Time/Scheme=Crank-Nicolson",)),
 
 
 def draw_energy(methods):
-    figure, axes = energy_axes()
-    lines(axes, methods, FINE, FINE_BAND, "1ms")
-    axes.set_xlabel(AGAINST)
-    axes.set_xlim(-2, 40)
-    axes.legend(fontsize=8, loc="lower right")
-    return figure
+    curves = [(FINE[m.key], FINE_BAND[m.key], m.colour, m.label) for m in methods]
+    return panels_with_bands(curves, energy, STEP["1ms"][1], AGAINST, (-2, 40))
 
 
 def lost_on_landing(one):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The exponent of improved normal compliance: figures A-8 and A-9."""
 
-from shared.curves import curve, energy_axes, fill
+from shared.curves import panels_with_bands
 from shared.measures import energy
 from shared.methods import INC, SCALE, SNC
 from shared.rows import constant_row, recovered_row
@@ -13,15 +13,8 @@ EXPONENT_COLOURS = dict(zip((m.key for m in BY_EXPONENT), ("#000000", *SCALE)))
 
 
 def draw_exponents(runs, bands, step, limits):
-    figure, axes = energy_axes()
-    for method in BY_EXPONENT:
-        colour = EXPONENT_COLOURS[method.key]
-        fill(axes, bands[method.key], energy, STEP[step][1], colour)
-        curve(axes, runs[method.key], energy, STEP[step][1], colour, method.label)
-    axes.set_xlabel(AGAINST)
-    axes.set_xlim(*limits)
-    axes.legend(fontsize=8, loc="lower right")
-    return figure
+    curves = [(runs[m.key], bands[m.key], EXPONENT_COLOURS[m.key], m.label) for m in BY_EXPONENT]
+    return panels_with_bands(curves, energy, STEP[step][1], AGAINST, limits)
 
 
 def checks_exponents(runs, bands, snc):

@@ -6,7 +6,7 @@ within a step. The energy comes back whatever the coefficient. 2.6e12 Pa/m^2 sta
 paper's 1000.
 """
 
-from shared.curves import curve, energy_axes, fill
+from shared.curves import panels_with_bands
 from shared.figure import Figure
 from shared.measures import dip, energy, mean, penetration
 from shared.methods import SCALE
@@ -39,15 +39,16 @@ RUNS = [r for c in COEFFICIENTS for r in (BY_COEFFICIENT[c], *BY_COEFFICIENT_BAN
 
 
 def draw():
-    figure, axes = energy_axes()
-    for c, colour in zip(COEFFICIENTS, SCALE):
-        label = rf"$c_\nu = {c / 1e12:g}\cdot 10^{{12}}$ Pa/m$^2$"
-        fill(axes, BY_COEFFICIENT_BAND[c], energy, STEP["10ms"][1], colour)
-        curve(axes, BY_COEFFICIENT[c], energy, STEP["10ms"][1], colour, label)
-    axes.set_xlabel(AGAINST)
-    axes.set_xlim(-20, 90)
-    axes.legend(fontsize=8, loc="lower right")
-    return figure
+    curves = [
+        (
+            BY_COEFFICIENT[c],
+            BY_COEFFICIENT_BAND[c],
+            colour,
+            rf"$c_\nu = {c / 1e12:g}\cdot 10^{{12}}$ Pa/m$^2$",
+        )
+        for c, colour in zip(COEFFICIENTS, SCALE)
+    ]
+    return panels_with_bands(curves, energy, STEP["10ms"][1], AGAINST, (-20, 70))
 
 
 def checks():

@@ -6,7 +6,7 @@ shown for 0.1 ms. The dip of the small steps is the contact potential of the tru
 not vanish.
 """
 
-from shared.curves import curve, energy_axes, fill
+from shared.curves import curve, energy_axes, fill, legend_above
 from shared.figure import Figure, check, info
 from shared.measures import dip, energy, mean, percent
 from shared.rows import checks_of_runs, constant_row, recovered_row
@@ -28,7 +28,7 @@ def draw():
         curve(axes, one, energy, start, colour, rf"$\Delta t = {1e3 * STEP[step][0]:g}$ ms")
     axes.set_xlabel(AGAINST)
     axes.set_xlim(-15, 70)
-    axes.legend(loc="lower right")
+    legend_above(axes, 3)
     return figure
 
 

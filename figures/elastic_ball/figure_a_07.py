@@ -6,7 +6,7 @@ positions of the impact within a step. Left: standard normal compliance. Right: 
 alpha = 3.
 """
 
-from shared.curves import curve, energy_axes, fill
+from shared.curves import panels_with_bands
 from shared.figure import Figure
 from shared.measures import dip, energy, lost, mean, percent
 from shared.methods import INC, SCALE, SNC
@@ -37,18 +37,17 @@ RUNS = [r for key in BY_MESH for r in (BY_MESH[key], *BY_MESH_BAND[key])]
 
 
 def draw():
-    figure, axes = energy_axes(2, sharey=True)
-    for panel, method in zip(axes, (SNC, INC[3])):
-        for n, colour in zip(NODES, SCALE):
-            fill(panel, BY_MESH_BAND[method.key, n], energy, STEP["10ms"][1], colour)
-            one = BY_MESH[method.key, n]
-            curve(panel, one, energy, STEP["10ms"][1], colour, f"{n} nodes on the circle")
-        panel.set_title(method.label)
-        panel.set_xlabel(AGAINST)
-        panel.set_xlim(-20, 90)
-    axes[1].legend(fontsize=8, loc="lower right")
-    figure.tight_layout()
-    return figure
+    curves = [
+        (
+            BY_MESH[method.key, n],
+            BY_MESH_BAND[method.key, n],
+            colour,
+            f"{method.name}, {n} nodes on the circle",
+        )
+        for n, colour in zip(NODES, SCALE)
+        for method in (SNC, INC[3])
+    ]
+    return panels_with_bands(curves, energy, STEP["10ms"][1], AGAINST, (-20, 70))
 
 
 def checks():

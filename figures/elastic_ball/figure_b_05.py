@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Elastic ball: contact force and pressure of the methods of paper B.
 
-Force that acts during each step and largest pressure over the time of the impact, steps of 1 ms,
-with the impact in the middle of a step.
+Force that acts during each step (left) and largest pressure at its end (right) over the time of the
+impact, steps of 1 ms, with the impact in the middle of a step; grey: Signorini's condition. The
+force of all but persistent contact is the same to the width of a line; the pressure of Hauret and
+Le Tallec's penalisation swings from step to step.
 """
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from shared.curves import curve
+from shared.curves import curve, name_panel
 from shared.figure import Figure, check, info
-from shared.methods import HAURET
+from shared.methods import HAURET, SIGNORINI
 from shared.rows import checks_of_runs, statement
 
 from .common import AGAINST, FINE, FINE_BAND, METHODS_B, STEP, with_bands
@@ -23,21 +25,26 @@ def force(one):
     return np.concatenate(([0.0], steps))
 
 
+def pressure(one):
+    """The largest contact pressure at the end of each step (Pa)."""
+    return one.read()["contact_pressure_foundation"]
+
+
 def draw():
-    figure, axes = plt.subplots(2, 1, figsize=(7.5, 7), sharex=True)
-    panels = (
-        (force, "contact force of the step (N)"),
-        (lambda r: r.read()["contact_pressure_foundation"], "largest contact pressure (Pa)"),
+    figure, axes = plt.subplots(
+        len(METHODS_B), 2, figsize=(6.8, 9), sharex=True, sharey="col", layout="constrained"
     )
-    for panel, (values, label) in zip(axes, panels):
-        for method in METHODS_B:
-            colour = method.colour
-            one = FINE[method.key]
-            curve(panel, one, values, STEP["1ms"][1], colour, method.label, linewidth=1.0)
-        panel.set_ylabel(label)
-    axes[0].legend(fontsize=8)
-    axes[1].set_xlabel(AGAINST)
-    axes[1].set_xlim(-1, 35)
+    start = STEP["1ms"][1]
+    for row, method in zip(axes, METHODS_B):
+        for panel, values in zip(row, (lambda r: force(r) / 1e6, lambda r: pressure(r) / 1e6)):
+            if method is not SIGNORINI:
+                curve(panel, FINE["signorini"], values, start, "0.7", None)
+            curve(panel, FINE[method.key], values, start, method.colour, None, marker=".")
+            name_panel(panel, method.label)
+    axes[0, 0].set_xlim(-1, 32)
+    figure.supxlabel(AGAINST, fontsize=10)
+    axes[0, 0].set_title("contact force of the step (MN)\n", fontsize=11)
+    axes[0, 1].set_title("largest contact pressure (MPa)\n", fontsize=11)
     return figure
 
 

@@ -5,7 +5,7 @@ Energy relative to the start for linear viscosities. Without viscosity it is con
 the viscosity, the more is dissipated, and the energy never rises.
 """
 
-from shared.curves import curve, energy_axes
+from shared.curves import curve, energy_axes, legend_above
 from shared.figure import Figure, check
 from shared.measures import energy, lost
 from shared.methods import SCALE
@@ -24,7 +24,7 @@ def draw():
         curve(axes, one, energy, STEP["1ms"][1], colour, label)
     axes.set_xlabel(AGAINST)
     axes.set_xlim(-2, 54)
-    axes.legend(loc="lower left")
+    legend_above(axes)
     return figure
 
 

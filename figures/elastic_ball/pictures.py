@@ -4,7 +4,7 @@
 import matplotlib.pyplot as plt
 
 from shared.figure import check
-from shared.pictures import body
+from shared.pictures import bare, body, draw_arrow, draw_ground, scale_bar
 from shared.rows import checks_of_runs
 from shared.runs import Run
 
@@ -14,26 +14,32 @@ PICTURE = Run(
 SNAPSHOTS = ((0, "before"), (20, "during"), (60, "after"))  # step, label
 
 
+ARROW = 4 / 2e8  # m per N
+LIMIT = 2.5e7  # Pa
+
+
 def draw_picture(stress):
-    figure, axes = plt.subplots(1, 3, figsize=(12, 4.4), sharey=True)
+    figure, axes = plt.subplots(1, 3, figsize=(6.8, 3.2 if stress else 2.9), sharey=True)
+    figure.subplots_adjust(left=0.01, right=0.99, bottom=0.2 if stress else 0.01, wspace=0.03)
     time = PICTURE.read()["time"]
     for panel, (step, label) in zip(axes, SNAPSHOTS):
-        _, drawn = body(
-            panel,
-            PICTURE.field_file(step),
-            arrow=4 / 2e8,
-            stress=stress,
-            limit=2.5e7 if stress else None,
-        )
-        panel.set_title(f"{label}, {1e3 * time[step]:.0f} ms")
-        panel.set_xlim(-11.5, 11.5)
-        panel.set_ylim(-1, 21)
-        panel.set_xlabel("$x_1$ (m)")
-    axes[0].set_ylabel("$x_2$ (m)")
+        limit = LIMIT if stress else None
+        drawn = body(panel, PICTURE.field_file(step), ARROW, limit)[1]
+        draw_ground(panel, -11, 11)
+        bare(panel, f"{label}, {1e3 * time[step]:.0f} ms", (-11, 11), (-4.6, 20.8))
+        panel.axis("off")
+    scale_bar(axes[0], -2.5, -4, 5)
+    draw_arrow(axes[1], (-5, -3), (-5 + 2e8 * ARROW, -3))
+    axes[1].text(0, -3, "200 MN", fontsize=9, va="center")
     if stress:
-        figure.colorbar(drawn, ax=axes, label="von Mises stress (Pa)", shrink=0.9)
-    else:
-        figure.tight_layout()
+        bar = figure.colorbar(
+            drawn,
+            cax=figure.add_axes([0.25, 0.13, 0.5, 0.035]),
+            orientation="horizontal",
+            extend="max",
+            format=lambda value, _: f"{value / 1e6:g}",
+        )
+        bar.set_label("von Mises stress (MPa)")
     return figure
 
 
@@ -41,7 +47,7 @@ def checks_picture():
     table = PICTURE.read()
     rows = []
     for step, label in SNAPSHOTS:
-        force, _ = body(plt.figure().add_subplot(), PICTURE.field_file(step))
+        force = body(plt.figure().add_subplot(), PICTURE.field_file(step))[0]
         plt.close()
         ledger = table["contact_force_foundation"][step]
         # The arrows are stored in single precision.

@@ -5,9 +5,8 @@ Largest penetration with steps of 1 ms, for ten positions of the impact within a
 table 1 of the paper.
 """
 
-from shared.curves import table_image
-from shared.figure import Figure, check
-from shared.measures import penetration, span
+from shared.figure import Figure, Table, check
+from shared.measures import penetration, scientific, scientific_span
 from shared.methods import INC, PERSISTENT, SIGNORINI, SNC, TWO_STEP
 from shared.paper_numbers import numbers
 from shared.rows import checks_of_runs, factor_row
@@ -19,18 +18,15 @@ METHODS = (SIGNORINI, TWO_STEP, PERSISTENT, SNC, INC[2], INC[3])
 RUNS = with_bands(METHODS, FINE, FINE_BAND)
 
 
-def draw():
+def table():
     rows = []
     for method in METHODS:
         paper = PAPER[method.key]
         values = [penetration(r) for r in FINE_BAND[method.key]]
         middle = penetration(FINE[method.key])
-        rows.append([method.name, f"{paper:.2e}", span(values), f"{middle:.2e}"])
-    return table_image(
-        ["method", "paper (m)", "ours, ten positions (m)", "ours, middle of a step (m)"],
-        rows,
-        [0.2, 0.2, 0.33, 0.33],
-    )
+        rows.append([method.name, scientific(paper), scientific_span(values), scientific(middle)])
+    header = ["method", "paper (m)", "ours, ten positions (m)", "ours, middle of a step (m)"]
+    return Table(header, rows)
 
 
 def checks():
@@ -54,4 +50,4 @@ def checks():
     return rows + checks_of_runs(RUNS)
 
 
-FIGURE = Figure("A-T1", __doc__, RUNS, draw, checks)
+FIGURE = Figure("A-T1", __doc__, RUNS, None, checks, table=table)

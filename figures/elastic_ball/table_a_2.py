@@ -6,8 +6,7 @@ the paper's table 2. One factorisation serves all steps without contact. The num
 machine, the exponents hardly.
 """
 
-from shared.curves import table_image
-from shared.figure import Figure
+from shared.figure import Figure, Table
 from shared.methods import INC, PERSISTENT, SIGNORINI, SNC
 from shared.paper_numbers import numbers
 from shared.rows import checks_of_runs
@@ -41,14 +40,14 @@ RUNS = {
 }
 
 
-def draw():
+def table():
     header = ["nodes on the circle", *map(str, FAMILY)]
     rows = [["degrees of freedom", *(str(2 * nodes) for nodes in FAMILY.values())]]
     for method in METHODS:
         ours = [timing_of_steps(RUNS[method.key, n])[0] for n in FAMILY]
         rows.append([f"{method.name}, ours (s)", *(f"{t:.3g}" for t in ours)])
         rows.append([f"{method.name}, paper (s)", *(f"{t:g}" for t in PAPER[method.key])])
-    return table_image(header, rows, [0.34] + 5 * [0.16])
+    return Table(header, rows)
 
 
 def checks():
@@ -57,4 +56,4 @@ def checks():
     )
 
 
-FIGURE = Figure("A-T2", __doc__, list(RUNS.values()), draw, checks, timed=True)
+FIGURE = Figure("A-T2", __doc__, list(RUNS.values()), None, checks, timed=True, table=table)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the figures of the ring share: runs of the methods, curves, what is lost and where to."""
 
-from shared.curves import curve
+from shared.curves import curve, legend_above
 from shared.figure import check
 from shared.measures import energy, lost
 from shared.methods import INC, PERSISTENT, SIGNORINI, SNC, TWO_STEP, band
@@ -40,7 +40,7 @@ def draw_lines(axes, runs, start=GAP):
     for one, colour, label in runs:
         curve(axes, one, energy, start, colour, label, 1.0)
     axes.set_xlabel(AGAINST)
-    axes.legend(fontsize=8)
+    legend_above(axes)
 
 
 def share_row(name, one, *columns):

@@ -2,7 +2,7 @@
 """Hyperelastic ring: deformed body and contact forces.
 
 The ring before, during and after the impact, with improved normal compliance (alpha = 2) on
-128 x 7 nodes. Arrows are nodal contact forces. The sides of the ring pass through each other
+128 x 7 nodes; all pictures have the same scale. Arrows are nodal contact forces. The sides of the ring pass through each other
 between 1.5 and 2.5 s, since there is no contact between them.
 """
 
@@ -25,6 +25,6 @@ FIGURE = Figure(
     "A-10",
     __doc__,
     [RUN],
-    lambda: draw_picture(RUN, STEPS, 8 / 2e5),
+    lambda: draw_picture(RUN, STEPS),
     lambda: checks_picture(RUN, STEPS),
 )

@@ -7,7 +7,7 @@ persistent contact conserve; improved normal compliance recovers; Signorini and 
 compliance lose.
 """
 
-from shared.curves import curve, energy_axes, fill
+from shared.curves import ENERGY, curve, fill, name_panel, small_panels
 from shared.figure import Figure, check, info
 from shared.measures import dip, energy, lost, percent
 from shared.methods import PERSISTENT, SIGNORINI, SNC, TWO_STEP
@@ -21,20 +21,18 @@ RUNS = [r for m in METHODS for r in (FULL[m.key], COARSE[m.key], *BANDS[m.key])]
 
 
 def draw():
-    figure, axes = energy_axes(2, sharey=True)
-    for method in METHODS:
-        style = (0, (4, 3)) if method is PERSISTENT else "-"
-        for panel, one in zip(axes, (FULL[method.key], COARSE[method.key])):
-            curve(panel, one, energy, GAP, method.colour, method.label, 1.0, linestyle=style)
-        fill(axes[1], BANDS[method.key], energy, GAP, method.colour, 1.0)
-    axes[0].set_title("128 x 13 nodes")
-    axes[1].set_title("64 x 5 nodes, ten positions of the impact")
-    axes[0].set_xlim(-0.1, 5.95)
-    axes[1].set_xlim(-0.1, 5.95)
-    for panel in axes:
-        panel.set_xlabel(AGAINST)
-    axes[0].legend(fontsize=8, loc="lower left")
-    figure.tight_layout()
+    figure, axes = small_panels(2 * len(METHODS), height=1.6)
+    for row, method in zip(axes, METHODS):
+        fill(row[1], BANDS[method.key], energy, GAP, method.colour, 1.0)
+        for panel, one in zip(row, (FULL[method.key], COARSE[method.key])):
+            panel.axhline(1, color="0.6", linewidth=0.7, zorder=1)
+            curve(panel, one, energy, GAP, method.colour, None, 1.0)
+        name_panel(row[0], method.label)
+    axes[0, 0].set_title("128 x 13 nodes\n", fontsize=11)
+    axes[0, 1].set_title("64 x 5 nodes, ten positions\n", fontsize=11)
+    axes[0, 0].set_xlim(-0.1, 5.95)
+    figure.supxlabel(AGAINST, fontsize=10)
+    figure.supylabel(ENERGY, fontsize=10)
     return figure
 
 

@@ -8,6 +8,7 @@ seconds of the paper's table 4 over its 1000 steps.
 import matplotlib.pyplot as plt
 import numpy as np
 
+from shared.curves import FULL_WIDTH, legend_above
 from shared.figure import Figure
 from shared.timing import timing_of_steps
 
@@ -15,7 +16,7 @@ from .cost import COST_METHODS, FAMILY, NODES, PAPER, RUNS
 
 
 def draw():
-    figure, axes = plt.subplots(figsize=(7.5, 4.6))
+    figure, axes = plt.subplots(figsize=FULL_WIDTH)
     dofs = [2 * nodes for nodes in NODES.values()]
     for method in COST_METHODS:
         timings = [timing_of_steps(RUNS[method.key, n]) for n in FAMILY]
@@ -31,7 +32,7 @@ def draw():
         )
     axes.set_xlabel("degrees of freedom")
     axes.set_ylabel(f"seconds per step; dashed: the paper, {PAPER['steps']} steps")
-    axes.legend(fontsize=8)
+    legend_above(axes)
     return figure
 
 

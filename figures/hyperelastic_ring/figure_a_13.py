@@ -5,23 +5,28 @@ Energy relative to the start for alpha = 2 to 5, steps of 10 ms. The mesh has 64
 dips while some node penetrates, and comes back.
 """
 
-from shared.curves import energy_axes
+from shared.curves import ENERGY, curve, name_panel, small_panels
 from shared.figure import Figure, info
-from shared.measures import dip, penetration
+from shared.measures import dip, energy, penetration
 from shared.methods import INC, SCALE
 from shared.paper_numbers import numbers
 from shared.rows import checks_of_runs, constant_row, momentum_row, order_row, recovered_row
 
-from .common import COARSE, EXPONENTS, draw_lines
+from .common import AGAINST, COARSE, EXPONENTS, GAP
 
 PAPER = numbers("A.table_3")
 RUNS = [COARSE[INC[a].key] for a in EXPONENTS]
 
 
 def draw():
-    figure, axes = energy_axes()
-    lines = zip(RUNS, SCALE, (INC[a].label for a in EXPONENTS))
-    draw_lines(axes, lines)
+    figure, axes = small_panels(len(EXPONENTS), columns=1, height=1.5)
+    for panel, a, one, colour in zip(axes.flat, EXPONENTS, RUNS, SCALE):
+        panel.axhline(1, color="0.6", linewidth=0.7, zorder=1)
+        curve(panel, one, energy, GAP, colour, None, 1.0)
+        name_panel(panel, INC[a].label)
+    axes[0, 0].set_xlim(-0.1, 5.95)
+    axes[-1, 0].set_xlabel(AGAINST)
+    figure.supylabel(ENERGY, fontsize=10)
     return figure
 
 

@@ -4,7 +4,7 @@
 Energy relative to the start, alpha = 3. The mesh has 64 x 5 nodes. The dips fall with the step.
 """
 
-from shared.curves import curve, energy_axes
+from shared.curves import curve, energy_axes, legend_above
 from shared.figure import Figure
 from shared.measures import dip, energy, lost
 from shared.rows import (
@@ -39,7 +39,7 @@ def draw():
     for one, colour, start, label in CURVES:
         curve(axes, one, energy, start, colour, rf"$\Delta t$ = {label}", 1.0)
     axes.set_xlabel(AGAINST)
-    axes.legend()
+    legend_above(axes, 3)
     return figure
 
 

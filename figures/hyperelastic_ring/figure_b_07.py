@@ -25,6 +25,6 @@ FIGURE = Figure(
     "B-7",
     __doc__,
     [RUN],
-    lambda: draw_picture(RUN, STEPS, 8 / 2e5, 3e5),
+    lambda: draw_picture(RUN, STEPS, 3e5),
     lambda: checks_picture(RUN, STEPS),
 )

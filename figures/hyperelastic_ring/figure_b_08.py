@@ -6,7 +6,7 @@ scheme and Hauret and Le Tallec's penalisation conserve or recover, Signorini's 
 equivalent mass matrix do not.
 """
 
-from shared.curves import curve, energy_axes
+from shared.curves import ENERGY, curve, name_panel, small_panels
 from shared.figure import Figure, check, info
 from shared.measures import dip, energy, lost
 from shared.methods import EMM, HAURET, PERSISTENT, SIGNORINI, TWO_STEP
@@ -19,14 +19,13 @@ RUNS = {m.key: run("B-8", m.key, cost=5) for m in METHODS}
 
 
 def draw():
-    figure, axes = energy_axes()
-    for method in METHODS:
-        style = (0, (4, 3)) if method is PERSISTENT else "-"
-        curve(
-            axes, RUNS[method.key], energy, GAP, method.colour, method.label, 1.0, linestyle=style
-        )
-    axes.set_xlabel(AGAINST)
-    axes.legend(fontsize=8)
+    figure, axes = small_panels(len(METHODS))
+    for panel, method in zip(axes.flat, METHODS):
+        panel.axhline(1, color="0.6", linewidth=0.7, zorder=1)
+        curve(panel, RUNS[method.key], energy, GAP, method.colour, None, 1.0)
+        name_panel(panel, method.label)
+    figure.supxlabel(AGAINST, fontsize=10)
+    figure.supylabel(ENERGY, fontsize=10)
     return figure
 
 

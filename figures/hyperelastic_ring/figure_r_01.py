@@ -59,9 +59,9 @@ def draw():
         one = RUNS[felt]
         time, found = one.read()["time"], overlaps(felt)[1]
         for panel, step in zip(column, STEPS):
-            _, drawn = body(panel, one.field_file(step), arrow=1.5 / 2e5)
-            extent = drawn.get_datalim(panel.transData)
-            middle = extent.x0 + extent.width / 2
+            place = body(panel, one.field_file(step), arrow=1.5 / 2e5)[2]
+            panel.axhline(0, color="black", linewidth=1.5)
+            middle = 0.5 * (place[:, 0].min() + place[:, 0].max())
             for line in overlap.regions(found[step // 10].pieces):
                 panel.fill(*line.T, color=RED, linewidth=0.8, zorder=3)
             panel.set_xlim(middle - 15, middle + 15)

@@ -1,21 +1,85 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Drawing of curves against time, of bands around them, and of tables."""
+"""Drawing of curves against time, and of bands around them."""
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from .methods import touch
 
 
-def energy_axes(columns=1, **keywords):
+ENERGY = "energy / initial energy"
+FULL_WIDTH = (6.8, 4.2)  # inches: letters can be read on a telephone
+
+
+def energy_axes():
     """Axes for the energy relative to the start."""
-    figure, axes = plt.subplots(
-        1, columns, figsize=(7.5 if columns == 1 else 6 * columns, 4.6), squeeze=False, **keywords
+    figure, axes = plt.subplots(figsize=FULL_WIDTH)
+    axes.axhline(1, color="0.6", linewidth=0.7, zorder=1)
+    axes.set_ylabel(ENERGY)
+    return figure, axes
+
+
+def legend_above(axes, columns=2, **keywords):
+    """A legend that no curve can run through."""
+    axes.legend(
+        loc="lower center",
+        bbox_to_anchor=(0.5, 1.0),
+        ncol=columns,
+        borderaxespad=0.3,
+        columnspacing=1.2,
+        **keywords,
     )
-    for panel in axes[0]:
+
+
+def small_panels(count, columns=2, height=1.75):
+    """Panels with the same scales, one for each curve; those left over are invisible."""
+    rows = -(-count // columns)
+    figure, axes = plt.subplots(
+        rows,
+        columns,
+        figsize=(FULL_WIDTH[0], height * rows + 0.5),
+        sharex=True,
+        sharey=True,
+        squeeze=False,
+        layout="constrained",
+    )
+    for panel in axes.flat[count:]:
+        panel.axis("off")
+        # The panel above has nothing below it.
+        axes[-2, columns - 1].tick_params(labelbottom=True)
+    return figure, axes
+
+
+def name_panel(panel, text):
+    panel.set_title(text, loc="left", fontsize=10, pad=4)
+
+
+def key_of_bands(figure, axes, colour="0.35"):
+    """What line and band are: in a panel that is left over, or above all."""
+    line = Line2D([], [], color=colour, marker=".", label="impact in the middle of a step")
+    band = Patch(color=colour, alpha=0.25, linewidth=0, label="other positions in the step")
+    free = [panel for panel in axes.flat if not panel.axison]
+    if free:
+        free[0].legend(handles=[line, band], loc="lower left")
+    else:
+        figure.legend(handles=[line, band], loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
+
+
+def panels_with_bands(curves, values, start, against, limits, scale=1e3, marker="."):
+    """A panel with a curve and its band for each (run, runs of the band, colour, name)."""
+    figure, axes = small_panels(len(curves))
+    for panel, (one, others, colour, name) in zip(axes.flat, curves):
         panel.axhline(1, color="0.6", linewidth=0.7, zorder=1)
-    axes[0, 0].set_ylabel(r"energy / initial energy")
-    return figure, axes[0] if columns > 1 else axes[0, 0]
+        fill(panel, others, values, start, colour, scale)
+        curve(panel, one, values, start, colour, None, scale, marker=marker, markersize=4)
+        name_panel(panel, name)
+    axes[0, 0].set_xlim(*limits)
+    figure.supxlabel(against, fontsize=10)
+    figure.supylabel(ENERGY, fontsize=10)
+    key_of_bands(figure, axes)
+    return figure
 
 
 def curve(axes, run, values, start, colour, label, scale=1e3, **keywords):
@@ -32,23 +96,5 @@ def fill(axes, runs, values, start, colour, scale=1e3):
     common = np.linspace(first, last, 500)
     lines = [np.interp(common, *table) for table in tables]
     axes.fill_between(
-        common, np.min(lines, axis=0), np.max(lines, axis=0), color=colour, alpha=0.18, linewidth=0
+        common, np.min(lines, axis=0), np.max(lines, axis=0), color=colour, alpha=0.25, linewidth=0
     )
-
-
-def table_image(header, rows, widths=None):
-    """A table as a matplotlib figure."""
-    figure, axes = plt.subplots(figsize=(2.0 * len(header), 0.42 * (len(rows) + 1)))
-    axes.axis("off")
-    table = axes.table(
-        cellText=rows, colLabels=header, loc="center", cellLoc="center", colWidths=widths
-    )
-    table.auto_set_font_size(False)
-    table.set_fontsize(9)
-    table.scale(1, 1.5)
-    for (row, _), cell in table.get_celld().items():
-        cell.set_edgecolor("0.8")
-        if row == 0:
-            cell.set_facecolor("0.93")
-            cell.set_text_props(weight="bold")
-    return figure

@@ -39,22 +39,32 @@ def info(quantity, ours, paper="-", exact="-", remark=""):
     return Check(quantity, ours, INFO, paper, exact, remark)
 
 
+@dataclass(frozen=True)
+class Table:
+    """Cells of text, for the page of the figures."""
+
+    header: list
+    rows: list
+
+
 @dataclass
 class Figure:
     """A figure of a paper, or one of our own.
 
     `text` is the docstring of its file: the title, an empty line, the caption. `draw()`
-    returns a matplotlib figure, `checks()` a list of rows. Both read the results of `runs`,
-    which are there when they are called.
+    returns a matplotlib figure, `table()` a `Table`, `checks()` a list of rows. They read the
+    results of `runs`, which are there when they are called. A figure has a picture, a table
+    or both.
     """
 
     name: str  # paper and number, such as C-6; D, O, R, S for those of no paper
     text: str
     runs: list
-    draw: Callable
+    draw: Callable | None
     checks: Callable = list
     timed: bool = False  # shows seconds: made by its name or "timed" only, one run at a time
     animate: Callable | None = None  # `animate(path)` writes a GIF
+    table: Callable | None = None
 
     @property
     def title(self):
@@ -71,7 +81,7 @@ class Figure:
 
     @property
     def image(self):
-        return f"{self.name}.png"
+        return f"{self.name}.png" if self.draw else None
 
     @property
     def animation(self):

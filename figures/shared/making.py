@@ -11,7 +11,7 @@ from .figure import NO, NOTE, YES
 
 LOOK = {
     "figure.dpi": 100,
-    "savefig.dpi": 160,
+    "savefig.dpi": 200,
     "font.size": 10,
     "axes.titlesize": 11,
     "axes.grid": True,
@@ -25,10 +25,11 @@ LOOK = {
 
 def _draw(figure, folder):
     """Write the image of a figure, and its animation."""
-    image = figure.draw()
-    image.savefig(folder / figure.image, bbox_inches="tight")
-    plt.close(image)
-    print(f"  output/figures/{figure.image}", flush=True)
+    if figure.image:
+        image = figure.draw()
+        image.savefig(folder / figure.image, bbox_inches="tight")
+        plt.close(image)
+        print(f"  output/figures/{figure.image}", flush=True)
     if figure.animation:
         figure.animate(folder / figure.animation)
         print(f"  output/figures/{figure.animation}", flush=True)

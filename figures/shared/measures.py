@@ -3,6 +3,8 @@
 
 import re
 
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
 
 def energy(run, column="energy"):
     """Energy of each step, relative to the start."""
@@ -31,6 +33,20 @@ def mean(values):
 def span(values, form="{:.2e}"):
     """The range of some numbers, as text."""
     return f"{form.format(min(values))} to {form.format(max(values))}"
+
+
+def scientific(value, digits=3):
+    """A number as a table has it, 1.54·10⁻²; 0 for what is round-off of metres."""
+    if abs(value) < 1e-12:
+        return "0"
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    return f"{mantissa}·10{str(int(exponent)).translate(SUPERSCRIPTS)}"
+
+
+def scientific_span(values, digits=3):
+    """The range of some numbers, as a table has it."""
+    ends = [scientific(value, digits) for value in (min(values), max(values))]
+    return ends[0] if ends[0] == ends[1] else " to ".join(ends)
 
 
 def percent(values):

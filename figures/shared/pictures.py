@@ -5,46 +5,108 @@ import matplotlib.animation as animation
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.patches import Rectangle
 
 from . import meshes
+from .figure import check, info
 
 GROUND = {"facecolor": "0.86", "edgecolor": "0.25", "linewidth": 1.2}
 
 
-def body(axes, path, stretch=1.0, arrow=1.0, stress=False, limit=None):
+FLESH = "#dbe7f3"
+
+
+def body(axes, path, arrow=1.0, limit=None, offset=(0.0, 0.0), lines=True):
     """A deformed body with its contact forces, from a VTU file.
 
-    `stretch` multiplies the displacement apart from its mean, `arrow` is the length of
-    an arrow in m per N. Returns the total force and what maps colours, if any.
+    `arrow` is the length of an arrow in m per N, `limit` the largest stress (Pa) if that is
+    shown, `offset` where to move the picture, `lines` whether to draw the cells. Returns the
+    total force, what maps colours, if any, and where the nodes are.
     """
     points, cells, fields = meshes.read(path)
-    displacement = fields["displacement"][:, :2]
-    mean = displacement.mean(axis=0)
-    place = points + mean + stretch * (displacement - mean)
-    drawn = PolyCollection(place[cells], linewidth=0.15, edgecolor="0.45", facecolor="#dbe7f3")
-    if stress:
-        s = fields["stress of cells"].reshape(-1, 3, 3)
-        trace = np.einsum("nii->n", s)
-        deviator = np.einsum("nij,nij->n", s, s) - trace**2 / 3
-        drawn.set_array(np.sqrt(1.5 * np.maximum(deviator, 0)))
+    place = points + fields["displacement"][:, :2] + offset
+    edges = {"linewidth": 0.15, "edgecolor": "0.45"} if lines else {"edgecolor": "face"}
+    drawn = PolyCollection(place[cells], facecolor=FLESH, **edges)
+    if limit:
+        drawn.set_array(fields["von_mises of cells"])
         drawn.set_cmap("viridis")
         drawn.set_clim(0, limit)
     axes.add_collection(drawn)
+    axes.add_collection(LineCollection(place[outline(cells)], colors="0.2", linewidths=0.6))
     force = fields["contact_force"][:, :2].astype(float)
     pushed = np.abs(force).sum(axis=1) > 0
-    if pushed.any():
-        tips = place[pushed] + arrow * force[pushed]
-        for foot, tip in zip(place[pushed], tips):
-            axes.annotate(
-                "",
-                xy=tip,
-                xytext=foot,
-                arrowprops={"arrowstyle": "-|>", "color": "#D55E00", "linewidth": 1.3},
-                zorder=4,
-            )
-    axes.axhline(0, color="black", linewidth=1.5)
+    for foot, tip in zip(place[pushed], place[pushed] + arrow * force[pushed]):
+        draw_arrow(axes, foot, tip)
     axes.set_aspect("equal")
-    return force.sum(axis=0), drawn
+    return force.sum(axis=0), drawn, place
+
+
+def draw_mesh(whole, part, path, width):
+    """A mesh at rest above the foundation, and its lowest part, `width` m wide, enlarged.
+
+    Dots are the nodes that can touch. The body is set down on the foundation. Returns the
+    points at rest about the middle of the body, and the cells.
+    """
+    points, cells, _ = meshes.read(path)
+    points = points - 0.5 * (points.max(axis=0) + points.min(axis=0))
+    lowest = points[:, 1].min()
+    place = points - (0, lowest)
+    outer = np.hypot(*points.T) > -lowest * (1 - 1e-6)
+    for panel, line in ((whole, 0.2), (part, 0.6)):
+        panel.add_collection(
+            PolyCollection(place[cells], facecolor=FLESH, edgecolor="0.35", linewidth=line)
+        )
+        draw_ground(panel, -20, 20, depth=0.04 * width if panel is part else 0.6)
+        panel.set_aspect("equal")
+        panel.axis("off")
+    part.plot(*place[outer].T, ".", color="#D55E00", markersize=7)
+    radius = -lowest
+    whole.set(xlim=(-1.05 * radius, 1.05 * radius), ylim=(-2.5, 2.05 * radius))
+    part.set(xlim=(-width / 2, width / 2), ylim=(-0.14 * width, 0.75 * width))
+    scale_bar(whole, -radius, -2.3, 2)
+    scale_bar(part, -0.48 * width, -0.13 * width, 0.5)
+    whole.add_patch(
+        Rectangle((-width / 2, 0), width, 0.75 * width, fill=False, edgecolor="#D55E00", zorder=5)
+    )
+    return points, cells
+
+
+def mesh_checks(name, points, cells, nodes, on_circle, paper):
+    """The numbers of nodes and triangles."""
+    radius = np.hypot(*points.T)
+    ours = len(points), int((radius > radius.max() * (1 - 1e-6)).sum())
+    return [
+        check(
+            f"{name}: nodes, and nodes on the circle that can touch",
+            f"{ours[0]}, {ours[1]}",
+            ours == (nodes, on_circle),
+            "equal",
+            paper,
+        ),
+        info(f"{name}: triangles", f"{len(cells)}"),
+    ]
+
+
+def draw_arrow(axes, foot, tip):
+    axes.annotate(
+        "",
+        xy=tip,
+        xytext=foot,
+        arrowprops={
+            "arrowstyle": "-|>",
+            "color": "#D55E00",
+            "linewidth": 1.3,
+            "shrinkA": 0,
+            "shrinkB": 0,
+        },
+        zorder=4,
+    )
+
+
+def draw_ground(axes, left, right, height=0.0, depth=0.6):
+    """A piece of the foundation below its surface."""
+    axes.fill_between([left, right], height - depth, height, color="0.85", linewidth=0, zorder=0)
+    axes.plot([left, right], [height, height], color="black", linewidth=1.2, zorder=2)
 
 
 def snapshot(one, step):

@@ -42,8 +42,25 @@ img { max-width: 100%; height: auto }
 div.table { overflow-x: auto }
 table { border-collapse: collapse; font-size: 85% }
 td, th { padding: .2em .7em; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top }
+table.numbers { font-size: 100% } table.numbers td, table.numbers th { padding: .3em .8em }
+table.numbers td { white-space: nowrap }
 td.yes { color: #060 } td.NO { background: #c00; color: #fff } td.note { background: #fe9 }
 """
+
+
+def _html_table(table):
+    """The lines of a table of a figure."""
+    text = html.escape
+    return [
+        '<div class="table"><table class="numbers"><tr>',
+        *(f"<th>{text(cell)}</th>" for cell in table.header),
+        "</tr>",
+        *(
+            "<tr>" + "".join(f"<td>{text(cell)}</td>" for cell in row) + "</tr>"
+            for row in table.rows
+        ),
+        "</table></div>",
+    ]
 
 
 def write_html(figures, checks, path):
@@ -67,7 +84,8 @@ def write_html(figures, checks, path):
     for figure in figures:
         lines += [
             f'<h2 id="{figure.name}">{text(figure.name)}: {text(figure.title)}</h2>',
-            f'<img src="{figure.image}" alt="{text(figure.title)}">',
+            *([f'<img src="{figure.image}" alt="{text(figure.title)}">'] if figure.image else []),
+            *(_html_table(figure.table()) if figure.table else []),
             *(
                 [f'<img src="{figure.animation}" alt="{text(figure.title)}, moving">']
                 if figure.animation

@@ -23,7 +23,7 @@ def hht(alpha):
 
 
 def radius_axes():
-    figure, axes = plt.subplots(figsize=(7.5, 4.4))
+    figure, axes = plt.subplots(figsize=(6.8, 4.2))
     axes.set_xscale("log")
     axes.set_xlabel(r"$\tilde\omega = \omega^2 \Delta t^2$")
     axes.set_ylabel(r"spectral radius $\rho(\mathbf{A})$")

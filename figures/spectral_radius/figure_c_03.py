@@ -8,6 +8,7 @@ Spectral radius of the amplification matrix against the squared frequency. A neg
 
 import numpy as np
 
+from shared.curves import legend_above
 from shared.figure import Figure, check, note
 
 from .common import (
@@ -40,10 +41,10 @@ def draw():
             linewidth=0.8,
             linestyle=":",
             zorder=1,
-            label="exact limit\n" r"$(1-|\tilde\alpha|)/(1+|\tilde\alpha|)$" if i == 0 else None,
+            label=r"limit $(1-|\tilde\alpha|)/(1+|\tilde\alpha|)$" if i == 0 else None,
         )
     axes.set_ylim(0.78, 1.01)
-    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
+    legend_above(axes, 3)
     return figure
 
 

@@ -6,6 +6,7 @@ As figure C-3, with TR-BDF2, whose spectral radius tends to zero.
 
 import numpy as np
 
+from shared.curves import legend_above
 from shared.figure import Figure, check
 
 from .common import ALPHAS, SPECTRUM, order_check, plot_hht, radius_axes
@@ -24,7 +25,7 @@ def draw():
         label=r"TR-BDF2, $\tilde\gamma = 2 - \sqrt{2}$",
     )
     axes.set_ylim(0, 1.03)
-    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
+    legend_above(axes, 3)
     return figure
 
 

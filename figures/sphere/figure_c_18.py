@@ -1,46 +1,53 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Sphere: stress and contact pressure.
 
-Deformed, with Nitsche's method and HHT (alpha = 0.05): the soft sphere at t = 16 s, the hard one
-at 6.8 s. A quarter is cut out above; below, the sphere is seen from below.
+The deformed spheres, with Nitsche's method and HHT (alpha = 0.05): the soft one at t = 16 s, the
+hard one at 6.8 s. Left: von Mises stress on a cut through the middle. Right: contact pressure, seen
+from below. Both pictures of a sphere have the same scale of colours. The soft sphere lies on a
+third of its width, the hard one touches with a few elements, which are shown enlarged.
 """
-
-import pathlib
-import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from ricochet.screen import run_with_screen
+from ricochet import pictures
 from shared.figure import Figure, check, info
-from shared.runs import OUTPUT
 
-from .common import SPHERES
+from .common import HARD, SPHERES
+
+COLUMNS = (("von_mises", "von Mises stress"), ("contact_pressure", "contact pressure"))
+LIMITS = {"soft": (0, 25), "hard": (0, 6000)}  # Pa
+# In the pictures of the hard sphere, whose middle is that of its panel.
+TOUCHED = {"von_mises": (0.0, -16.0), "contact_pressure": (0.0, -16.4)}  # m
 
 
-def picture(sphere, field):
-    """An image of the deformed sphere, coloured by a field, drawn by VTK."""
-    step = round(sphere.picture / sphere.time_step)
-    file = sphere.runs["nitsche_hht"].field_file(step)
-    target = OUTPUT / "figures" / f"C-18_{sphere.name}_{field}.png"
-    script = pathlib.Path(__file__).with_name("render_sphere.py")
-    run_with_screen([sys.executable, str(script), str(file), field, str(target)])
-    return plt.imread(target)
+def enlarge(panel, place, centre, half):
+    """A part of the picture in `panel`, about `centre`, in axes at `place` of it."""
+    picture = panel.images[0]
+    part = panel.inset_axes(place)
+    part.imshow(picture.get_array(), extent=picture.get_extent(), interpolation="antialiased")
+    part.set(
+        xlim=(centre[0] - half, centre[0] + half),
+        ylim=(centre[1] - half, centre[1] + half),
+        xticks=[],
+        yticks=[],
+    )
+    part.grid(False)
+    panel.indicate_inset_zoom(part, edgecolor="0.3", alpha=1)
 
 
 def draw():
-    figure, axes = plt.subplots(2, 2, figsize=(12, 9.6))
-    for column, sphere in enumerate(SPHERES):
-        for row, (field, label) in enumerate(
-            (
-                ("von_mises", "von Mises stress"),
-                ("contact_pressure", "contact pressure, from below"),
+    figure, axes = plt.subplots(2, 2, figsize=(7, 7), layout="constrained")
+    for row, sphere in zip(axes, SPHERES):
+        run = sphere.runs["nitsche_hht"].results
+        for panel, (field, label) in zip(row, COLUMNS):
+            shown = pictures.show(
+                panel, run, sphere.picture, field, LIMITS[sphere.name], pixels=1800, obstacles=False
             )
-        ):
-            axes[row, column].imshow(picture(sphere, field))
-            axes[row, column].axis("off")
-            axes[row, column].set_title(f"{sphere.name}, t = {sphere.picture:g} s: {label} (Pa)")
-    figure.tight_layout()
+            if sphere is HARD:
+                enlarge(panel, (0.27, 0.42, 0.46, 0.46), TOUCHED[field], 4.5)
+            panel.set_title(f"{sphere.name}, t = {sphere.picture:g} s\n{label}")
+        shown.colour_bar(row, shrink=0.8).set_label("Pa")
     return figure
 
 

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Sphere: Newton iterations in each step.
 
-Soft sphere; on the right the first contact. In free flight a stage takes one iteration, since the
-equations are linear and the predicted state is not taken for the solution.
+Soft sphere; grey: it touches. In free flight a stage takes one iteration, since the equations are
+linear and the predicted state is not taken for the solution; TR-BDF2 has two stages.
 """
 
-import matplotlib.pyplot as plt
-
+from shared.curves import name_panel, small_panels
 from shared.figure import Figure, check
 from shared.paper_numbers import numbers
 
@@ -17,23 +16,17 @@ MOST = numbers("C.section_4_3_1")["most"]
 
 
 def draw():
-    figure, axes = plt.subplots(1, 2, figsize=(13, 4.6), sharey=True)
-    for panel, (first, last) in zip(axes, ((0, 60), (6, 29))):
-        for scheme in NITSCHE:
-            table = SOFT.runs[scheme.key].read()
-            panel.step(
-                table["time"],
-                table["newton_iterations"],
-                where="pre",
-                color=scheme.colour,
-                label=scheme.label,
-                linewidth=0.9,
-            )
-        panel.set_xlim(first, last)
-        panel.set_xlabel("time (s)")
-    axes[0].set_ylabel("Newton iterations in a step")
-    axes[0].legend(fontsize=9)
-    figure.tight_layout()
+    figure, axes = small_panels(len(NITSCHE), columns=1, height=1.4)
+    for panel, scheme in zip(axes.flat, NITSCHE):
+        table = SOFT.runs[scheme.key].read()
+        time, counts = table["time"], table["newton_iterations"]
+        touching = table["contact_force_foundation"] > 0
+        panel.fill_between(time, 0, 7, where=touching, step="pre", color="0.9", linewidth=0)
+        panel.fill_between(time, 0, counts, step="pre", color=scheme.colour, linewidth=0)
+        name_panel(panel, scheme.label)
+    axes[0, 0].set(xlim=(0, 60), ylim=(0, 6.5), yticks=(0, 2, 4, 6))
+    axes[-1, 0].set_xlabel("time (s)")
+    figure.supylabel("Newton iterations in a step", fontsize=10)
     return figure
 
 

@@ -5,8 +5,7 @@ Totals of a run and their ratio to Crank-Nicolson with Nitsche's method. Seconds
 benchmarks/README.md.
 """
 
-from shared.curves import table_image
-from shared.figure import Figure, check
+from shared.figure import Figure, Table, check
 from shared.paper_numbers import numbers
 
 from .common import NITSCHE, SCHEMES, SPHERES
@@ -24,16 +23,20 @@ def totals(sphere):
     return counts, {key: count / counts["nitsche_cn"] for key, count in counts.items()}
 
 
-def draw():
+def table():
     rows = []
     of_spheres = [totals(sphere) for sphere in SPHERES]
     for scheme in SCHEMES:
-        row = [scheme.label, f"{PAPER[scheme.key]}", f"{paper_ratio(scheme):.2f}"]
+        row = [
+            scheme.label.replace(r"$\alpha = 0.05$", "α = 0.05"),
+            f"{PAPER[scheme.key]}",
+            f"{paper_ratio(scheme):.2f}",
+        ]
         for counts, ratios in of_spheres:
             row += [f"{counts[scheme.key]:.0f}", f"{ratios[scheme.key]:.2f}"]
         rows.append(row)
-    header = ["", "paper", "ratio", "soft", "ratio", "hard", "ratio"]
-    return table_image(header, rows, [0.28, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1])
+    header = ["iterations", "paper", "ratio", "soft", "ratio", "hard", "ratio"]
+    return Table(header, rows)
 
 
 def checks():
@@ -55,5 +58,10 @@ def checks():
 
 
 FIGURE = Figure(
-    "C-T1", __doc__, [run for sphere in SPHERES for run in sphere.runs.values()], draw, checks
+    "C-T1",
+    __doc__,
+    [run for sphere in SPHERES for run in sphere.runs.values()],
+    None,
+    checks,
+    table=table,
 )

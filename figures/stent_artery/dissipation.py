@@ -16,7 +16,7 @@ def draw_steps(left, right, runs, name):
         right.plot(table["time"], dissipation(one), color=colour, label=name(*key))
     left.set_ylabel(r"$\Delta E - \Delta W$ in a step ($\mu$J)")
     right.set_ylabel("dissipated until then (mJ)")
-    right.legend(fontsize=8.5)
+    right.legend(fontsize=9, loc="upper left")
     for panel in (left, right):
         panel.set_xlim(0, 1)
         panel.set_xlabel("time (s)")

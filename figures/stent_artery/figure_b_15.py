@@ -15,7 +15,7 @@ from .dissipation import conserving_row, draw_steps, stent_rows
 
 
 def draw():
-    figure, axes = plt.subplots(1, 2, figsize=(12, 4.4), layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(6.8, 3.6), layout="constrained")
     draw_steps(*axes, family(etas=ETAS), lambda mu, eta: rf"$\eta$ = {eta} MPa s")
     return figure
 

@@ -17,11 +17,10 @@ from .dissipation import conserving_row, draw_steps, stent_rows
 
 
 def draw():
-    figure, axes = plt.subplots(2, 2, figsize=(12, 8), layout="constrained")
+    figure, axes = plt.subplots(2, 2, figsize=(6.8, 6.4), layout="constrained")
     for row, eta in zip(axes, ("0", ETA_WITH_FRICTION)):
         draw_steps(*row, family(MUS, (eta,)), lambda mu, _: rf"$\mu$ = {mu}")
-        for panel in row:
-            panel.set_title(rf"$\eta$ = {eta} MPa s")
+        row[0].set_title(rf"$\eta$ = {eta} MPa s", loc="left")
     return figure
 
 

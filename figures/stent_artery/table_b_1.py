@@ -6,8 +6,7 @@ The default run on one core, beside the time that the paper states.
 
 import re
 
-from shared.curves import table_image
-from shared.figure import Figure, check
+from shared.figure import Figure, Table, check
 from shared.measures import wall_clock
 from shared.paper_numbers import numbers
 from shared.runs import Run
@@ -16,13 +15,13 @@ SECONDS = numbers("B.section_7")["seconds"]
 RUN = Run("B-T1", "default", "stent_artery", "stent_artery/default.prm", cost=4)
 
 
-def draw():
+def table():
     rows = [["whole run", f"{wall_clock(RUN):.2f}", f"{SECONDS}"]]
     text = RUN.results.log
     for section in ("steps", "fields and checkpoints", "energy ledger"):
         seconds = re.search(rf"^\| {section} +\| +\d+ \| +([0-9.e+-]+)s", text, re.M).group(1)
         rows.append([section, f"{float(seconds):.2f}", "-"])
-    return table_image(["", "ours (s)", "paper (s)"], rows, [0.5, 0.25, 0.25])
+    return Table(["", "ours (s)", "paper (s)"], rows)
 
 
 def checks():
@@ -38,4 +37,4 @@ def checks():
     ]
 
 
-FIGURE = Figure("B-T1", __doc__, [RUN], draw, checks, timed=True)
+FIGURE = Figure("B-T1", __doc__, [RUN], None, checks, timed=True, table=table)
