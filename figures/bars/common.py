@@ -61,3 +61,17 @@ HHT_SD = bar_runs(SD, 8, ALPHAS)
 HHT_SS = bar_runs(SS, 14, ALPHAS)
 TR_SD = bar_runs(SD, 9, TREATMENTS)
 TR_SS = bar_runs(SS, 15, TREATMENTS)
+
+
+def _fields(bar, figure, number):
+    """A calm run whose fields are written every half second."""
+    return Run(
+        figure,
+        "fields",
+        bar.program,
+        f"{bar.program}/figure_{number:02}_nitsche_redistributed.prm",
+        ("Output/Fields every=10", "Output/Log every=0"),
+    )
+
+
+SD_FIELDS, SS_FIELDS = _fields(SD, "C-5", 9), _fields(SS, "C-11", 15)

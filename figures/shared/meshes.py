@@ -9,6 +9,7 @@ once.
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
+from ricochet.fields import array, array_of_points
 from ricochet.results import read_vtu
 
 
@@ -34,3 +35,18 @@ def read(path):
     # An element-wise constant field has a value per cell here; keep those too.
     fields.update({f"{name} of cells": values[cells[:, 0]] for name, values in arrays.items()})
     return points[first], inverse.reshape(-1)[cells], fields
+
+
+def read_bar(path):
+    """A bar: its nodes, their displacements and velocities, and the stress of each cell."""
+    grid = read_vtu(path)
+    x = array_of_points(grid)[:, 0]
+    order = np.argsort(x[::2], kind="stable")
+
+    def at_nodes(values):
+        # Each cell has its two ends.
+        return np.append(values[::2][order], values[1::2][order][-1])
+
+    displacement, velocity = (array(grid, name)[:, 0] for name in ("displacement", "velocity"))
+    stress = array(grid, "stress")[::2, 0][order]
+    return at_nodes(x), at_nodes(displacement), at_nodes(velocity), stress

@@ -10,7 +10,7 @@ sys.path.insert(0, str(FIGURES))
 try:
     import matplotlib
     matplotlib.use("Agg")
-    from shared import finding, paper_numbers
+    from shared import finding, measures, paper_numbers
     from ricochet import RicochetError
 except ImportError:
     matplotlib = None
@@ -27,14 +27,15 @@ class Figures(unittest.TestCase):
         files = [*FIGURES.glob("*/figure_*.py"), *FIGURES.glob("*/table_*.py")]
         self.assertEqual(len(self.figures), len(files))
         names = list(self.figures)
-        self.assertEqual(names[:4], ["A-3", "A-4", "A-5", "A-6"])
+        self.assertEqual(names[:4], ["A-2", "A-3", "A-4", "A-5"])
         self.assertLess(names.index("A-9"), names.index("A-10"))
         self.assertLess(names.index("A-15"), names.index("A-T1"))
-        self.assertLess(names.index("A-T4"), names.index("B-3"))
+        self.assertLess(names.index("A-T4"), names.index("B-2"))
 
     def test_texts(self):
         for name, figure in self.figures.items():
             self.assertTrue(figure.title and figure.caption.endswith("."), name)
+            self.assertTrue(figure.draw or figure.table, name)
 
     def test_runs(self):
         """Parameter files are there; a folder is that of one run."""
@@ -43,6 +44,14 @@ class Figures(unittest.TestCase):
             for run in figure.runs:
                 self.assertEqual(runs.setdefault(run.folder, run), run)
                 self.assertTrue((ROOT / "parameter_files" / run.parameter_file).exists(), run)
+
+    def test_numbers_of_tables(self):
+        """Round-off is shown as zero, powers of ten as such."""
+        for value, text in ((2.78e-17, "0"), (0., "0"), (1.54e-2, "1.54·10⁻²"),
+                            (-3.8e-3, "-3.80·10⁻³"), (12345., "1.23·10⁴")):
+            self.assertEqual(measures.scientific(value), text)
+        self.assertEqual(measures.scientific_span([0., 4.5e-3]), "0 to 4.50·10⁻³")
+        self.assertEqual(measures.scientific_span([1.361e-4, 1.359e-4]), "1.36·10⁻⁴")
 
     def test_list(self):
         result = subprocess.run([sys.executable, FIGURES / "make.py", "--list"],
