@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import importlib
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -95,14 +96,25 @@ class Gallery:
         for name in (entry.figure.image, entry.figure.animation):
             if name and (self.pictures / name).is_file():
                 self.site.copy(self.pictures / name, f"{FOLDER}/pictures/{name}")
-        if self.is_made(entry):
+        if self.has_picture(entry):
             thumbnail(
                 self.pictures / entry.figure.image,
                 self.site.extra(f"{FOLDER}/thumbnails/{entry.name}.png"),
             )
 
+    def has_picture(self, entry: Entry) -> bool:
+        image = entry.figure.image
+        return bool(image and (self.pictures / image).is_file())
+
     def is_made(self, entry: Entry) -> bool:
-        return bool((self.pictures / entry.figure.image).is_file())
+        name = entry.figure.image or entry.figure.table_file
+        return bool((self.pictures / name).is_file())
+
+    def thumbnail_of(self, entry: Entry) -> str | None:
+        """For a card."""
+        if self.has_picture(entry):
+            return f"thumbnails/{entry.name}.png"
+        return None if self.is_made(entry) else ""
 
     def page(self, entry: Entry) -> str:
         return f"{FOLDER}/{entry.group}"
@@ -129,6 +141,11 @@ class Gallery:
             if name and (self.pictures / name).is_file():
                 address = site.link(page, f"{FOLDER}/pictures/{name}")
                 lines.append(text.picture(self.pictures / name, address, figure.title + what))
+        if figure.table and (self.pictures / figure.table_file).is_file():
+            with (self.pictures / figure.table_file).open(newline="", encoding="utf-8") as file:
+                header, *rows = csv.reader(file)
+            cells = [[text.escape(cell) for cell in row] for row in rows]
+            lines.append(text.table(header, cells))
         return "\n".join(lines)
 
     def _curves(self, entry: Entry, page: str) -> str:
@@ -212,14 +229,17 @@ def thumbnail(source: Any, target: Any, width: int = 360) -> None:
         small.save(target, optimize=True)
 
 
-def cards(items: list[tuple[str, str, str]]) -> str:
-    """Small pictures in a row, each a link: (address, picture or "", title), as HTML."""
+def cards(items: Sequence[tuple[str, str | None, str]]) -> str:
+    """Small pictures in a row, each a link: (address, picture, title), as HTML.
+
+    The picture is "" if it is not made, None if there is a table instead.
+    """
     lines = ['<div class="cards">']
     for href, picture, title in items:
         image = (
             f'<img src="{picture}" alt="" loading="lazy">'
             if picture
-            else '<span class="no-picture">not made</span>'
+            else f'<span class="no-picture">{"table" if picture is None else "not made"}</span>'
         )
         lines.append(f'<a class="card" href="{href}">{image} <span>{text.escape(title)}</span></a>')
     lines.append("</div>")
@@ -268,7 +288,7 @@ def make(made: site.Site, gallery: Gallery) -> None:
                 [
                     (
                         f"{group}.html#{entry.anchor}",
-                        f"thumbnails/{entry.name}.png" if gallery.is_made(entry) else "",
+                        gallery.thumbnail_of(entry),
                         f"{entry.name}: {_short(entry.figure.title)}",
                     )
                     for entry in entries

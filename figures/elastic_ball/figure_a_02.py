@@ -2,7 +2,7 @@
 """Elastic ball: mesh.
 
 The mesh of the paper: 7820 nodes, 128 of them on the circle, which is finer inside than at its
-boundary. The framed part on the right; dots are the nodes that can touch the foundation. The ball
+boundary. Right: the framed part; dots are the nodes that can touch the foundation. The ball
 is set down on it here; it starts 15 m above, at 10 m/s.
 """
 

@@ -84,5 +84,9 @@ class Figure:
         return f"{self.name}.png" if self.draw else None
 
     @property
+    def table_file(self):
+        return f"{self.name}.csv" if self.table else None
+
+    @property
     def animation(self):
         return f"{self.name}.gif" if self.animate else None

@@ -24,12 +24,15 @@ LOOK = {
 
 
 def _draw(figure, folder):
-    """Write the image of a figure, and its animation."""
+    """Write the image of a figure, its table and its animation."""
     if figure.image:
         image = figure.draw()
         image.savefig(folder / figure.image, bbox_inches="tight")
         plt.close(image)
         print(f"  output/figures/{figure.image}", flush=True)
+    if figure.table:
+        report.write_table(figure.table(), folder / figure.table_file)
+        print(f"  output/figures/{figure.table_file}", flush=True)
     if figure.animation:
         figure.animate(folder / figure.animation)
         print(f"  output/figures/{figure.animation}", flush=True)

@@ -35,6 +35,11 @@ def write_csv(checks, path):
         writer.writerows(_row(check) for check in checks)
 
 
+def write_table(table, path):
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        csv.writer(file).writerows([table.header, *table.rows])
+
+
 STYLE = """
 body { max-width: 68em; margin: 2em auto; padding: 0 1em; font: 16px/1.5 sans-serif; color: #222 }
 h2 { margin-top: 2.5em; border-top: 1px solid #ccc; padding-top: 1em }
