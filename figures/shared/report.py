@@ -29,9 +29,18 @@ def print_table(checks):
 
 
 def write_csv(checks, path):
+    """Write the checks; those of figures that were not made this time remain."""
+    made = {check.figure for check in checks}
+    rows = []
+    if path.exists():
+        with open(path, newline="", encoding="utf-8") as file:
+            old = list(csv.reader(file))
+        if old and tuple(old[0]) == COLUMNS:
+            rows = [row for row in old[1:] if row and row[0] not in made]
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(COLUMNS)
+        writer.writerows(rows)
         writer.writerows(_row(check) for check in checks)
 
 

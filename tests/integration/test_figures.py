@@ -2,6 +2,10 @@
 """The figures as they are written down: one file each, found by their names, with what
 they need. What they show is checked by figures/make.py itself."""
 
+import collections
+import pathlib
+import tempfile
+
 from common import *
 
 FIGURES = ROOT / "figures"
@@ -10,7 +14,7 @@ sys.path.insert(0, str(FIGURES))
 try:
     import matplotlib
     matplotlib.use("Agg")
-    from shared import finding, measures, paper_numbers
+    from shared import finding, measures, paper_numbers, report
     from ricochet import RicochetError
 except ImportError:
     matplotlib = None
@@ -52,6 +56,16 @@ class Figures(unittest.TestCase):
             self.assertEqual(measures.scientific(value), text)
         self.assertEqual(measures.scientific_span([0., 4.5e-3]), "0 to 4.50·10⁻³")
         self.assertEqual(measures.scientific_span([1.361e-4, 1.359e-4]), "1.36·10⁻⁴")
+
+    def test_checks_of_other_figures_remain(self):
+        check = collections.namedtuple(
+            "check", "figure quantity paper exact ours status criterion")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "checks.csv"
+            for figure, ours in (("A-1", 1), ("A-2", 2), ("A-1", 3)):
+                report.write_csv([check(figure, "q", "-", "-", ours, "yes", "c")], path)
+            rows = path.read_text().splitlines()
+        self.assertEqual(rows[1:], ["A-2,q,-,-,2,yes,c", "A-1,q,-,-,3,yes,c"])
 
     def test_list(self):
         result = subprocess.run([sys.executable, FIGURES / "make.py", "--list"],
