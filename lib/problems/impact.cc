@@ -385,7 +385,8 @@ namespace Ricochet
         {
           check_pair_combination(contact.parameters,
                                  scheme,
-                                 contact.pairs.front().is_self);
+                                 contact.pairs.front().is_self,
+                                 dim);
           return make_pair_contact(contact.parameters, body, contact.pairs);
         }
       const Material<dim> material = materials_of(setup)[contact.part];

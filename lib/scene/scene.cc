@@ -200,7 +200,8 @@ namespace Ricochet
             if (touching.obstacles.empty())
               check_pair_combination(contact.parameters,
                                      scheme_traits(impact.scheme.name),
-                                     touching.is_self);
+                                     touching.is_self,
+                                     dim);
           }
         catch (const InputError &error)
           {

@@ -28,7 +28,9 @@
 //
 // The point of the plane before which it is,
 // $a + \xi_1 (b - a) + \xi_2 (c - a)$, follows from products of the three
-// differences $w_i$ alone.
+// differences $w_i$ alone. With `Contact/Coupling = mortar` the mean of such gaps
+// around the node takes their place, over the pieces that triangles of both
+// surfaces cut out of each other (`lib/contact/kinematics/mortar_triangles.h`).
 //
 // ## Weak form
 //
@@ -199,6 +201,7 @@ void
 CollidingSpheres::add_parameters(ParameterHandler &prm)
 {
   impact.add_parameters(prm);
+  impact.contact.add_pair_parameters(prm);
   material.add_parameters(prm);
   prm.enter_subsection("Spheres");
   prm.add_parameter("Radius",
@@ -255,7 +258,10 @@ CollidingSpheres::add_parameters(ParameterHandler &prm)
 void
 CollidingSpheres::validate() const
 {
-  check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
+  check_pair_combination(impact.contact,
+                         scheme_traits(impact.scheme.name),
+                         /* is_self = */ false,
+                         /* dim = */ 3);
   material.validate(3, impact.scheme.name);
   impact.validate(material.law == "linear elastic",
                   material.viscosity != "none" && material.viscosity_eta > 0.);

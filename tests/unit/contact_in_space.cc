@@ -458,6 +458,21 @@ namespace
                                                "standard normal compliance",
                                                "penalty"};
 
+  const std::vector<std::string> with_mortar = {
+    "persistent contact, dual mortar",
+    "Ayyad-Barboteu two-step, mortar",
+    "Signorini active set, dual mortar",
+    "standard normal compliance, mortar"};
+
+  /// Of points and mortar.
+  std::vector<std::string>
+  all_treatments()
+  {
+    std::vector<std::string> all = treatments;
+    all.insert(all.end(), with_mortar.begin(), with_mortar.end());
+    return all;
+  }
+
   Material<3>
   rubber(const double stiffness)
   {
@@ -513,7 +528,10 @@ namespace
           join_parts<3>({&parts[0], &parts[1]}, whole);
         },
         MPI_COMM_WORLD);
-      parameters.contact.treatment              = treatment;
+      const auto comma             = treatment.find(", ");
+      parameters.contact.treatment = treatment.substr(0, comma);
+      if (comma != std::string::npos)
+        parameters.contact.coupling = treatment.substr(comma + 2);
       parameters.scheme.name                    = "midpoint";
       parameters.contact.compliance_coefficient = 2e4;
       parameters.contact.compliance_exponent    = 2.;
@@ -622,7 +640,7 @@ BOOST_AUTO_TEST_CASE(surfaces_hang_together)
 BOOST_AUTO_TEST_CASE(balances_close_and_momenta_are_kept)
 {
   for (const bool tetrahedra : {true, false})
-    for (const std::string &treatment : fewer_in_debug(treatments))
+    for (const std::string &treatment : fewer_in_debug(all_treatments()))
       for (const double friction : {0., .3})
         {
           if (friction > 0. && (treatment == "penalty" || !tetrahedra))
@@ -657,11 +675,11 @@ BOOST_AUTO_TEST_CASE(balances_close_and_momenta_are_kept)
                 BOOST_CHECK_GE(report.friction_work, -1e-12 * first);
                 friction_work += report.friction_work;
                 most = std::max(most, now + friction_work);
-                if (treatment == "persistent contact" ||
-                    treatment == "Ayyad-Barboteu two-step")
+                if (treatment.find("persistent contact") == 0 ||
+                    treatment.find("Ayyad-Barboteu two-step") == 0)
                   BOOST_CHECK_SMALL((now + friction_work - first) / first,
                                     1e-9);
-                if (treatment == "Signorini active set")
+                if (treatment.find("Signorini active set") == 0)
                   BOOST_CHECK_LE(now + report.friction_work,
                                  old + 1e-11 * first);
                 old = now;
@@ -693,7 +711,7 @@ BOOST_AUTO_TEST_CASE(balances_close_and_momenta_are_kept)
 BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
 {
   for (const bool tetrahedra : {true, false})
-    for (const std::string &treatment : fewer_in_debug(treatments))
+    for (const std::string &treatment : fewer_in_debug(all_treatments()))
       for (const double friction : {0., .3})
         {
           if (friction > 0. && treatment == "penalty")
@@ -744,7 +762,7 @@ BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
             difference = at(h);
             difference -= at(-h);
             difference *= .5 / h;
-            BOOST_CHECK_GT(product.l2_norm(), 1.);
+            BOOST_CHECK_GT(product.l2_norm(), .05);
             difference -= product;
             BOOST_CHECK_SMALL(difference.l2_norm() / product.l2_norm(), 1e-6);
           }
@@ -779,8 +797,10 @@ BOOST_AUTO_TEST_CASE(degenerate_configurations)
     {"edge across edge", 2, 2, quarter, 0., 0., quarter, 0.},
     {"corner on corner", 2, 2, corner, quarter, corner, quarter, 0.},
     {"large and small facets", 1, 6, 0., 0., .1, .1, .1}};
-  for (const std::string treatment :
-       {"persistent contact", "Signorini active set"})
+  for (const std::string treatment : {"persistent contact",
+                                      "Signorini active set",
+                                      "persistent contact, mortar",
+                                      "Signorini active set, dual mortar"})
     for (const Configuration &one : fewer_in_debug(configurations))
       BOOST_TEST_CONTEXT(treatment << ", " << one.name)
       {
@@ -818,7 +838,10 @@ BOOST_AUTO_TEST_CASE(degenerate_configurations)
           },
           MPI_COMM_WORLD);
         ImpactParameters parameters;
-        parameters.contact.treatment    = treatment;
+        const auto       comma       = treatment.find(", ");
+        parameters.contact.treatment = treatment.substr(0, comma);
+        if (comma != std::string::npos)
+          parameters.contact.coupling = treatment.substr(comma + 2);
         parameters.scheme.name          = "midpoint";
         parameters.contact.augmentation = 500.;
         const Material<3> soft          = rubber(200.);
@@ -848,7 +871,7 @@ BOOST_AUTO_TEST_CASE(degenerate_configurations)
             touched          = touched || state.contact_force.l2_norm() > 0.;
             const double now = energy();
             BOOST_CHECK_LE(now, old + 1e-10 * first);
-            if (treatment == "persistent contact")
+            if (treatment.find("persistent contact") == 0)
               BOOST_CHECK_SMALL(now / first - 1., 1e-10);
             old = now;
             deepest =

@@ -3,6 +3,7 @@
 // Bodies at rest on a plane, against solutions in closed form: a block under
 // uniform pressure (patch test), and Hertz's sphere.
 
+#include "equilibrium.h"
 #include "meshes.h"
 
 #include <contact/obstacles/half_space.h>
@@ -36,27 +37,6 @@ namespace
     body.interpolate(dealii::FunctionFromFunctionObjects<dim>(components),
                      vector);
     return vector;
-  }
-
-  /// Equilibrium of bulk and contact forces. @return displacement and contact
-  /// force.
-  template <int dim>
-  std::pair<Vector, Vector>
-  equilibrium(Impact<dim> &impact, const double end_time = 0.)
-  {
-    const Vector zero = impact.body.make_vector();
-    State        rest;
-    rest.solution = rest.velocity = rest.acceleration = rest.contact_force =
-      rest.mean_velocity = rest.scheme_force = zero;
-    rest.contact_shares.assign(impact.contact->shares().size(), zero);
-    Stage stage;
-    stage.inertia_origin = zero;
-    stage.load           = zero;
-    stage.time_step      = 1.;
-    stage.end_time       = end_time;
-    State result         = rest;
-    impact.system.solve_stage(stage, rest, result);
-    return {result.solution, result.contact_force};
   }
 
   /// A unit cube without lateral contraction, held at its top, on a plane that

@@ -76,8 +76,8 @@ namespace
       return std::make_unique<MortarPair>(*body,
                                           surfaces,
                                           coupling == "mortar"
-                                            ? MortarPair::Shape::standard
-                                            : MortarPair::Shape::dual);
+                                            ? MortarShape::standard
+                                            : MortarShape::dual);
     }
 
     /// Displacements that make waves of @p amplitude, and move the upper strip

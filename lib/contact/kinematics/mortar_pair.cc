@@ -27,7 +27,7 @@ namespace Ricochet
 
   MortarPair::MortarPair(const Body<2>     &body,
                          const ContactPair &pair,
-                         const Shape        shape)
+                         const MortarShape  shape)
     : PairBeforeChains<2>(body, pair)
     , shape(shape)
   {
@@ -76,7 +76,7 @@ namespace Ricochet
                   const unsigned int end,
                   const double       s) const
   {
-    if (shape == Shape::dual && facet.is_covered)
+    if (shape == MortarShape::dual && facet.is_covered)
       return end == 0 ? 2. - 3. * s : 3. * s - 1.;
     return end == 0 ? 1. - s : s;
   }

@@ -2,6 +2,7 @@
 #ifndef ricochet_contact_kinematics_mortar_pair_h
 #define ricochet_contact_kinematics_mortar_pair_h
 
+#include <contact/kinematics/mortar_shape.h>
 #include <contact/kinematics/pair_before_chains.h>
 #include <contact/surfaces/facet_chain.h>
 
@@ -39,17 +40,10 @@ namespace Ricochet
   class MortarPair : public PairBeforeChains<2>
   {
   public:
-    enum class Shape
-    {
-      /// psi_j is the hat function of the node.
-      standard,
-      /// psi_j is orthogonal to the hat functions of other nodes (on facets that
-      /// are before the master as a whole).
-      dual
-    };
-
     /// @throws InputError see SurfacePair.
-    MortarPair(const Body<2> &body, const ContactPair &pair, const Shape shape);
+    MortarPair(const Body<2>     &body,
+               const ContactPair &pair,
+               const MortarShape  shape);
 
     void
     begin_step(const ContactStart &start) override;
@@ -183,7 +177,7 @@ namespace Ricochet
     static unsigned int
     place_of(const Index unknown, Rows &rows);
 
-    const Shape                       shape;
+    const MortarShape                 shape;
     mutable std::vector<SlaveFacet>   facets;
     std::vector<std::vector<Support>> supports;
     Positions                         old_positions, new_positions;

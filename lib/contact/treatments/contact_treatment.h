@@ -110,11 +110,13 @@ namespace Ricochet
   /// before what changes, it is formulated over the steps of the midpoint scheme, for
   /// treatments that need neither stress nor the multipliers of rigid obstacles.
   /// @param is_self a surface touches itself.
+  /// @param dim of space, in which there is less than in the plane.
   /// @throws InputError that names what is allowed.
   void
   check_pair_combination(const ContactParameters &parameters,
                          const SchemeTraits      &scheme,
-                         const bool               is_self = false);
+                         const bool               is_self = false,
+                         const unsigned int       dim     = 2);
 
   /// Whether the treatment is a constraint in nodes: an active set or multipliers, of
   /// which a node can follow one only.

@@ -343,10 +343,15 @@ namespace Ricochet
   void
   check_pair_combination(const ContactParameters &parameters,
                          const SchemeTraits      &scheme,
-                         const bool               is_self)
+                         const bool               is_self,
+                         const unsigned int       dim)
   {
     if (parameters.coupling == "cut faces")
       {
+        if (dim == 3)
+          throw InputError(
+            "Contact/Coupling = cut faces is there in the plane only.\nAllowed in "
+            "space: points, mortar, dual mortar.");
         const auto integrates = [](const ContactLawTraits &traits) {
           return !traits.nodal;
         };
@@ -385,6 +390,19 @@ namespace Ricochet
         parameters.coupling +
         ", which is for treatments in nodes.\nAllowed with it: " +
         names_of(is_nodal) + ".");
+    // See MortarTriangles.
+    const auto is_good_in_space = [&](const ContactLawTraits &traits) {
+      return is_nodal(traits) && !(traits.is_two_point && traits.has_potential);
+    };
+    if (dim == 3 && parameters.coupling != "points" &&
+        !is_good_in_space(find(parameters).traits))
+      throw InputError(
+        "In space the contact treatment '" + parameters.treatment +
+        "' cannot be combined with Contact/Coupling = " + parameters.coupling +
+        ": gaps are means over pieces that are cut anew in each step, and what was "
+        "stored at the end of one would not be what the next one gives back.\nAllowed "
+        "with it: " +
+        names_of(is_good_in_space) + ". For others take points.");
     if (!scheme.contact_over_step)
       throw InputError(
         "Contact between bodies cannot be combined with the time "

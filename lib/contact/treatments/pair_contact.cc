@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <contact/kinematics/mortar_pair.h>
+#include <contact/kinematics/mortar_triangles.h>
 #include <contact/kinematics/points_before_facets.h>
 #include <contact/kinematics/points_before_triangles.h>
 #include <contact/treatments/active_set_signature.h>
@@ -18,6 +19,14 @@ namespace Ricochet
   namespace
   {
     constexpr auto no_index = numbers::invalid_dof_index;
+
+    MortarShape
+    mortar_shape(const PairMethod &method)
+    {
+      return method.coupling == PairCoupling::dual_mortar
+        ? MortarShape::dual
+        : MortarShape::standard;
+    }
 
     /// In the plane, and on the line.
     template <int dim>
@@ -39,12 +48,7 @@ namespace Ricochet
             : Points::PointsIn::nodes);
       AssertThrow(nodal, ExcMessage("Mortar couples nodes."));
       if constexpr (dim == 2)
-        return std::make_unique<MortarPair>(body,
-                                            pair,
-                                            method.coupling ==
-                                                PairCoupling::mortar
-                                              ? MortarPair::Shape::standard
-                                              : MortarPair::Shape::dual);
+        return std::make_unique<MortarPair>(body, pair, mortar_shape(method));
       else
         throw InputError(
           "On the line surfaces are points, which match: "
@@ -62,7 +66,12 @@ namespace Ricochet
         {
           using Points = PointsBeforeTriangles;
           if (method.coupling != PairCoupling::points)
-            throw InputError("In space Contact/Coupling can only be 'points'.");
+            {
+              AssertThrow(nodal, ExcMessage("Mortar couples nodes."));
+              return std::make_unique<MortarTriangles>(body,
+                                                       pair,
+                                                       mortar_shape(method));
+            }
           return std::make_unique<Points>(
             body,
             pair,

@@ -18,7 +18,7 @@ namespace Ricochet
   {
     /// See PointsBeforeFacets.
     points,
-    /// See MortarPair.
+    /// See MortarPair and, in space, MortarTriangles.
     mortar,
     dual_mortar
   };
