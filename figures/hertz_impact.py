@@ -9,8 +9,12 @@ the largest force K d^(3/2), and they touch for 2.9432 d/v (Johnson, Contact Mec
 1985, section 11.4). The theory takes the balls for half-spaces, right to a/R, the
 radius of contact by that of the ball: 4 % here.
 
-Force, duration, spin and tangential velocity must be within 3 %, for straight cells,
-whose ball lacks 4 % of its mass, within 5 %.
+When the force is largest, the balls are pressed as if at rest: the pressure in the nodes is
+fitted by Hertz's half ellipsoid, p^2 = p_0^2 (1 - r^2/a^2), within 0.9 of the radius of
+contact, and a and p_0 are compared with a = (3 F R / (4 E*))^(1/3), p_0 = 3 F / (2 pi a^2).
+
+Force, duration, radius, pressure, spin and tangential velocity must be within 3 %, for straight
+cells, whose ball lacks 4 % of its mass, within 5 %.
 """
 
 import argparse
@@ -25,13 +29,18 @@ from shared import CHECKOUT, interpreter
 
 interpreter.need("numpy")
 
+import numpy as np  # noqa: E402
+
 from ricochet import read_table  # noqa: E402
+from ricochet.fields import array, array_of_points  # noqa: E402
+from ricochet.results import read_vtu  # noqa: E402
 
 FILES = CHECKOUT / "parameter_files"
 
 
-def run(program, file, parameters=()):
-    """The table of the ledger, and the log."""
+def run(program, file, parameters=(), look_at=None):
+    """The table of the ledger, and the log; and what @p look_at makes of the fields that are
+    written every 23 steps, where it is given."""
     with tempfile.TemporaryDirectory() as folder:
         command = [
             str(program),
@@ -39,14 +48,30 @@ def run(program, file, parameters=()):
             "--output-dir",
             folder,
             "--set",
-            "Output/Fields every=0",
+            f"Output/Fields every={23 if look_at else 0}",
             "--set",
             "Output/Log every=0",
         ]
         for parameter in parameters:
             command += ["--set", parameter]
         log = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-        return read_table(pathlib.Path(folder) / "energy.csv"), log
+        ledger = read_table(pathlib.Path(folder) / "energy.csv")
+        return (ledger, log, look_at(pathlib.Path(folder))) if look_at else (ledger, log)
+
+
+def radius_and_pressure(folder, radius):
+    """Of the half ellipsoid that fits the pressure of step 23, in nodes within @p radius (m)."""
+    grid = read_vtu(folder / "solution/step-000023.vtu")
+    pressure = array(grid, "contact_pressure")[:, 0]
+    points = array_of_points(grid)
+    distance = np.hypot(points[:, 1], points[:, 2])
+    # Each node once: cells have their own copies.
+    nodes = np.unique(
+        np.column_stack([distance, pressure])[(pressure > 0) & (distance < radius)].round(9), axis=0
+    )
+    square = np.column_stack([np.ones(len(nodes)), -(nodes[:, 0] ** 2)])
+    (of_peak, falls), *_ = np.linalg.lstsq(square, nodes[:, 1] ** 2, rcond=None)
+    return math.sqrt(of_peak / falls), math.sqrt(of_peak)
 
 
 def hertz(modulus, radius, mass, speed):
@@ -54,6 +79,21 @@ def hertz(modulus, radius, mass, speed):
     stiffness = 4 / 3 * modulus * math.sqrt(radius)
     approach = (5 * mass * speed**2 / (4 * stiffness)) ** 0.4
     return stiffness * approach**1.5, 2.9432 * approach / speed
+
+
+def radius_of_contact(force):
+    """Of the two balls of colliding_spheres, pressed by @p force (N)."""
+    return (3 * force * 0.5 / (4 * 1e6 / (2 * (1 - 0.09)))) ** (1 / 3)
+
+
+# Of two balls: name, coupling, degree, curved cells, smallest cells (m).
+TWO_BALLS = (
+    ("points", "points", 1, "false", 0.016),
+    ("points", "points", 1, "false", 0.008),
+    ("dual mortar", "dual mortar", 1, "false", 0.008),
+    ("points, curved cells of degree 2", "points", 2, "true", 0.032),
+    ("points, curved cells of degree 2", "points", 2, "true", 0.016),
+)
 
 
 def duration(ledger, force):
@@ -119,21 +159,35 @@ def main():
 
     force, time = hertz(1e6 / (2 * (1 - 0.09)), 0.5, 1000 * 2 / 3 * math.pi, 2 * 5.366e-3)
     print(f"two balls: largest force {force:.4g} N, duration {time:.4g} s")
-    for size in (0.016, 0.008):
-        ledger, log = run(
+    for name, coupling, degree, curved, size in TWO_BALLS:
+        ledger, log, (a, peak) = run(
             programs / "colliding_spheres",
             FILES / "colliding_spheres/hertz.prm",
-            [f"Spheres/Mesh size where they touch={size}"],
+            [
+                f"Contact/Coupling={coupling}",
+                f"Spheres/Degree={degree}",
+                f"Spheres/Curved cells={curved}",
+                f"Spheres/Mesh size where they touch={size}",
+            ],
+            lambda folder: radius_and_pressure(folder, 0.9 * radius_of_contact(force)),
         )
+        forces = ledger["contact_force_spheres"]
         row(
-            f"two balls, {size} m",
+            f"two balls, {name}, {size} m",
             log,
-            (
-                (max(ledger["contact_force_spheres"]), force),
-                (duration(ledger, ledger["contact_force_spheres"]), time),
-            ),
+            ((max(forces), force), (duration(ledger, forces), time)),
             0.03,
         )
+        # What Hertz says of the force of that step.
+        exact = radius_of_contact(forces[23])
+        values = ((a, exact), (peak, 1.5 * forces[23] / (math.pi * exact**2)))
+        bound = 0.03 if (coupling, size) == ("dual mortar", 0.008) else 0.1
+        print(
+            "  radius and peak of the pressure: "
+            + ", ".join(f"{x:.5g} ({100 * (x / y - 1):+.1f} %)" for x, y in values)
+        )
+        if any(abs(x / y - 1) > bound for x, y in values):
+            failed.append(f"pressure of {name}, {size} m")
 
     # What friction gives, by what the pressure gives: rigid spheres that slide get mu
     # of it, and a spin of 5/2 of that by the radius.

@@ -131,13 +131,19 @@ namespace Ricochet
     , curved_geometry(curved != nullptr)
   {
     const unsigned int n_multipliers =
-      multipliers == MultiplierSpace::linear_vector ? dim : 1;
+      multipliers == MultiplierSpace::nodal_vector ? dim : 1;
+    const unsigned int degree_of_multipliers =
+      multipliers == MultiplierSpace::nodal ||
+        multipliers == MultiplierSpace::nodal_vector
+      ? degree
+      : 1;
     if (triangulation.all_reference_cells_are_hyper_cube())
       {
         displacement_element =
           std::make_unique<FESystem<dim>>(FE_Q<dim>(degree), dim);
         multiplier_element =
-          std::make_unique<FESystem<dim>>(FE_Q<dim>(1), n_multipliers);
+          std::make_unique<FESystem<dim>>(FE_Q<dim>(degree_of_multipliers),
+                                          n_multipliers);
         // MappingQ and not MappingFE: the latter knows no faces in 1D.
         geometry  = std::make_unique<MappingQ<dim>>(1);
         cell_rule = std::make_unique<QGauss<dim>>(degree + 1);
@@ -148,7 +154,9 @@ namespace Ricochet
         displacement_element =
           std::make_unique<FESystem<dim>>(FE_SimplexP<dim>(degree), dim);
         multiplier_element =
-          std::make_unique<FESystem<dim>>(FE_SimplexP<dim>(1), n_multipliers);
+          std::make_unique<FESystem<dim>>(FE_SimplexP<dim>(
+                                            degree_of_multipliers),
+                                          n_multipliers);
         geometry  = std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
         cell_rule = std::make_unique<QGaussSimplex<dim>>(degree + 1);
         face_rule = std::make_unique<QGaussSimplex<dim - 1>>(degree + 1);

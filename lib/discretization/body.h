@@ -27,8 +27,11 @@ namespace Ricochet
     none,
     /// Continuous, piecewise linear: W^h of paper C, (4).
     linear,
-    /// As many as there are directions: one for pressure, the others for traction.
-    linear_vector
+    /// Of the degree of the displacements: one in each node.
+    nodal,
+    /// As many in each node as there are directions: one for pressure, the others for
+    /// traction.
+    nodal_vector
   };
 
   /**

@@ -75,14 +75,16 @@ namespace Ricochet
         : multiplier_space(contact.parameters);
     }
 
-    /// The space of the multipliers of all contacts.
+    /// The space of the multipliers of all contacts, with displacements of @p degree.
     MultiplierSpace
-    multipliers_of(const std::vector<Contact> &contacts)
+    multipliers_of(const std::vector<Contact> &contacts,
+                   const unsigned int          degree)
     {
       MultiplierSpace all = MultiplierSpace::none;
       for (const Contact &contact : contacts)
         all = std::max(all, multipliers_of(contact));
-      if (all == MultiplierSpace::linear_vector)
+      if (all == MultiplierSpace::nodal_vector ||
+          (all == MultiplierSpace::nodal && degree > 1))
         for (const Contact &contact : contacts)
           if (!contact.is_between_bodies() &&
               multipliers_of(contact) != MultiplierSpace::none)
@@ -562,7 +564,7 @@ namespace Ricochet
            setup.degree,
            setup.clamped,
            contact_ids(contacts_of(parameters.contact, setup)),
-           multipliers_of(contacts_of(parameters.contact, setup)),
+           multipliers_of(contacts_of(parameters.contact, setup), setup.degree),
            communicator,
            held_components(setup),
            setup.geometry.get(),

@@ -103,8 +103,8 @@ namespace Ricochet
     parameters.add_parameter(
       "Degree",
       degree,
-      "Polynomial degree of the displacement, of all bodies; 2 for a body alone, "
-      "against obstacles.",
+      "Polynomial degree of the displacement, of all bodies; 2 not with mortar, cut "
+      "faces and surfaces that touch themselves.",
       Patterns::Integer(1, 2));
     parameters.leave_subsection();
     parameters.enter_subsection("Start");
@@ -216,10 +216,12 @@ namespace Ricochet
                                contact.parameters.treatment +
                                "' takes the stress at the surface, which must "
                                "be of one material.");
-        if (touching.obstacles.empty() && degree > 1)
-          throw InputError(contact.section.where +
-                           ": between bodies and of a surface with itself, "
-                           "contact takes Mesh/Degree = 1.");
+        if (touching.obstacles.empty() && degree > 1 &&
+            (touching.is_self || contact.parameters.coupling != "points"))
+          throw InputError(
+            contact.section.where +
+            ": with Mesh/Degree = 2 contact between bodies takes "
+            "Coupling = points, and a surface cannot touch itself.");
       }
     ImpactSetup<dim> setup{parts.front().material.template make<dim>()};
     for (const ConditionSection<dim> &condition : conditions)

@@ -91,6 +91,7 @@
 
 #include <base/exceptions.h>
 #include <base/program.h>
+#include <discretization/curved_geometry.h>
 #include <discretization/distributed_mesh.h>
 #include <materials/material_parameters.h>
 #include <output/part_columns.h>
@@ -140,7 +141,8 @@ private:
     return x.distance(centre(0)) < x.distance(centre(1)) ? 0 : 1;
   }
 
-  void
+  /// @return the nodes of curved cells, nothing for straight ones.
+  CellNodes<3>
   make_whole_mesh(Triangulation<3> &mesh) const;
 
   /// The velocity of a ball that flies and spins, at the point x (m/s).
@@ -168,6 +170,8 @@ private:
   Tensor<1, 3>       spin[2];
   double             mesh_size[2]   = {.35, .4};
   double             fine_mesh_size = 0.;
+  unsigned int       degree         = 1;
+  bool               is_curved      = false;
   std::string        cell_shape     = "tetrahedra";
   std::string        slave          = "left";
 };
@@ -246,6 +250,15 @@ CollidingSpheres::add_parameters(ParameterHandler &prm)
     "dozen of them; from there on they grow. Only for tetrahedra. "
     "0: as everywhere (m).",
     Patterns::Double(0.));
+  prm.add_parameter("Degree",
+                    degree,
+                    "Polynomial degree of the displacement.",
+                    Patterns::Integer(1, 2));
+  prm.add_parameter(
+    "Curved cells",
+    is_curved,
+    "Whether the edges of cells are curved, with the nodes of the "
+    "surface on the sphere. Takes degree 2 and tetrahedra.");
   prm.add_parameter("Slave",
                     slave,
                     "The sphere in whose nodes contact is formulated.",
@@ -285,6 +298,13 @@ CollidingSpheres::validate() const
     throw InputError(
       "Spheres/Mesh size where they touch = " + to_text(fine_mesh_size) +
       " m is larger than that of a whole sphere.");
+  if (is_curved && (degree == 1 || cell_shape != "tetrahedra"))
+    throw InputError(
+      "Spheres/Curved cells = true takes Spheres/Degree = 2 and "
+      "Spheres/Cells = tetrahedra.");
+  if (degree > 1 && impact.contact.coupling != "points")
+    throw InputError("Contact/Coupling = " + impact.contact.coupling +
+                     " takes Spheres/Degree = 1; with 2 it can be points.");
   double n_unknowns = 0.;
   for (const unsigned int sphere : {0, 1})
     {
@@ -292,7 +312,7 @@ CollidingSpheres::validate() const
       // Half a ball of fine elements around it, and as many beyond.
       if (const auto fine = fine_place(sphere))
         volume += std::pow(fine->n_elements(), 3);
-      n_unknowns += 4. / 3. * numbers::PI * volume * 3.6;
+      n_unknowns += 4. / 3. * numbers::PI * volume * (degree == 1 ? 3.6 : 27.);
     }
   impact.check_size(n_unknowns, 3);
 }
@@ -335,25 +355,30 @@ CollidingSpheres::fine_place(const unsigned int sphere) const
   const double       along = std::sqrt(4. * radius * radius - offset * offset);
   const Tensor<1, 3> to_the_right({along, offset, 0.});
   const Tensor<1, 3> half = (sphere == 0 ? .5 : -.5) * to_the_right;
-  return FinePlace{centre(sphere) + half, fine_mesh_size, 1};
+  return FinePlace{centre(sphere) + half, fine_mesh_size, degree};
 }
 
 
 
-void
+CellNodes<3>
 CollidingSpheres::make_whole_mesh(Triangulation<3> &mesh) const
 {
+  CellNodes<3>     nodes;
   Triangulation<3> balls[2];
   for (unsigned int sphere = 0; sphere < 2; ++sphere)
     {
       Triangulation<3> ball;
       if (cell_shape == "tetrahedra")
-        make_ball_of_tetrahedra(centre(sphere),
-                                radius,
-                                mesh_size[sphere],
-                                balls[sphere],
-                                nullptr,
-                                fine_place(sphere));
+        {
+          CellNodes<3> own;
+          make_ball_of_tetrahedra(centre(sphere),
+                                  radius,
+                                  mesh_size[sphere],
+                                  balls[sphere],
+                                  is_curved ? &own : nullptr,
+                                  fine_place(sphere));
+          nodes.insert(nodes.end(), own.begin(), own.end());
+        }
       else
         {
           make_ball_of_hexahedra(centre(sphere),
@@ -369,6 +394,7 @@ CollidingSpheres::make_whole_mesh(Triangulation<3> &mesh) const
             face->set_boundary_id(sphere + 1);
     }
   join_parts<3>({&balls[0], &balls[1]}, mesh);
+  return nodes;
 }
 
 
@@ -390,20 +416,25 @@ CollidingSpheres::initial_velocity(const Point<3> &x) const
 void
 CollidingSpheres::run(RunFolder &folder)
 {
-  const auto mesh =
-    distribute_mesh<3>([&](Triangulation<3> &whole) { make_whole_mesh(whole); },
-                       folder.communicator);
+  CellNodes<3> nodes;
+  const auto   mesh = distribute_mesh<3>(
+    [&](Triangulation<3> &whole) { nodes = make_whole_mesh(whole); },
+    folder.communicator);
 
   // Two parts in one mesh, and the surfaces that may touch: slave first, whose
   // nodes are the points $y$, then the master, whose faces are the triangles.
   const Material<3> elastic = material.make<3>();
   ImpactSetup<3>    setup{elastic};
+  setup.degree = degree;
+  if (is_curved)
+    setup.geometry = make_curved_geometry(nodes, *mesh, folder.communicator);
   setup.parts.push_back({"left", elastic, material.density});
   setup.parts.push_back({"right", elastic, material.density});
   const types::boundary_id slave_id = slave == "left" ? 1 : 2;
   setup.pairs = {{"spheres", {slave_id}, {3U - slave_id}}};
   Impact<3> collision(impact, *mesh, setup, folder.communicator);
-  folder.log(std::to_string(mesh->n_global_active_cells()) + " cells, " +
+  folder.log(std::to_string(mesh->n_global_active_cells()) +
+             (is_curved ? " curved cells, " : " cells, ") +
              std::to_string(collision.body.owned_indices().size()) +
              " unknowns, " + material.law + ", " + impact.contact.treatment +
              ", mu = " + to_text(impact.contact.friction_coefficient));

@@ -449,8 +449,8 @@ class BadInput(ProgramTest):
                     "Time/Scheme=TR-BDF2", "Contact/Treatment=Signorini active set")
 
     def test_degree_and_solvers(self):
-        self.refuse(["Contact between bodies needs displacements of degree 1; the "
-                     "degree is 2"], "Mesh/Degree=2")
+        self.refuse(["Contact of a surface with itself takes displacements of degree "
+                     "1"], "Mesh/Degree=2")
         self.refuse(["direct, multigrid or automatic instead of corrected"],
                     "Linear solver/Type=corrected")
         self.refuse(["choose KLU, MUMPS or automatic"],

@@ -11,6 +11,7 @@
 #include <base/exceptions.h>
 #include <contact/surfaces/contact_surface.h>
 #include <contact/surfaces/point_passing_triangles.h>
+#include <discretization/curved_geometry.h>
 #include <discretization/distributed_mesh.h>
 #include <materials/laws/neo_hookean.h>
 #include <output/momenta.h>
@@ -484,14 +485,16 @@ namespace
   }
 
   /// Two balls of radius 1, of tetrahedra and of hexahedra or both alike, that meet off
-  /// their centres. Their meshes do not match.
+  /// their centres. Their meshes do not match. With degree 2 tetrahedra are curved.
   struct Collision
   {
     Collision(const std::string &treatment,
               const double       friction,
               const bool         tetrahedra,
-              const bool         linear = false)
+              const bool         linear = false,
+              const unsigned int degree = 1)
     {
+      CellNodes<3>   nodes;
       const double   offset = linear ? 0. : .5;
       const double   along  = std::sqrt(2.02 * 2.02 - offset * offset);
       const Point<3> left(-.5 * along, -.5 * offset, .1),
@@ -501,8 +504,16 @@ namespace
           Triangulation<3> bodies[2];
           if (tetrahedra)
             {
-              make_ball_of_tetrahedra(left, 1., .8, bodies[0]);
-              make_ball_of_tetrahedra(right, 1., .7, bodies[1]);
+              CellNodes<3> own[2];
+              for (const unsigned int p : {0, 1})
+                {
+                  make_ball_of_tetrahedra(p == 0 ? left : right,
+                                          1.,
+                                          (p == 0 ? .8 : .7) * degree,
+                                          bodies[p],
+                                          degree == 1 ? nullptr : &own[p]);
+                  nodes.insert(nodes.end(), own[p].begin(), own[p].end());
+                }
             }
           else
             {
@@ -513,7 +524,7 @@ namespace
           for (unsigned int p = 0; p < 2; ++p)
             {
               bodies[p].set_all_manifold_ids(dealii::numbers::flat_manifold_id);
-              if (!tetrahedra && p == 1)
+              if (!tetrahedra && p == 1 && degree == 1)
                 bodies[p].refine_global(1);
               if (tetrahedra)
                 parts[p].copy_triangulation(bodies[p]);
@@ -547,7 +558,10 @@ namespace
       ImpactSetup<3> setup{soft};
       setup.parts.push_back({"left", soft, 1.});
       setup.parts.push_back({"right", stiff, 2.});
-      setup.pairs = {{"balls", {1}, {2}}};
+      setup.pairs  = {{"balls", {1}, {2}}};
+      setup.degree = degree;
+      if (degree == 2 && tetrahedra)
+        setup.geometry = make_curved_geometry(nodes, *mesh, MPI_COMM_WORLD);
       impact =
         std::make_unique<Impact<3>>(parameters, *mesh, setup, MPI_COMM_WORLD);
       state = impact->state_in_motion(dealii::FunctionFromFunctionObjects<3>(
@@ -885,6 +899,85 @@ BOOST_AUTO_TEST_CASE(degenerate_configurations)
                                      << old / first << ", deepest " << deepest);
         BOOST_CHECK(touched);
         BOOST_CHECK_LT(deepest, .3);
+      }
+}
+
+
+
+// The surface between all nodes has no open edge and is as far from a ball as that of
+// cells of half the size. Constraints have a multiplier in each node.
+BOOST_AUTO_TEST_CASE(displacements_of_degree_two)
+{
+  for (const bool tetrahedra : {true, false})
+    for (const std::string &treatment :
+         fewer_in_debug(std::vector<std::string>{"persistent contact",
+                                                 "improved normal compliance",
+                                                 "Signorini active set",
+                                                 "penalty"}))
+      BOOST_TEST_CONTEXT(
+        treatment << (tetrahedra ? ", curved tetrahedra" : ", hexahedra"))
+      {
+        const double friction = treatment == "penalty" ? 0. : .3;
+        Collision    balls(treatment, friction, tetrahedra, false, 2);
+        const ContactSurface<3> surface(balls.impact->body, {1});
+        double                  area = 0., farthest = 0.;
+        for (const auto &facet : surface.facets)
+          {
+            area += facet.measure;
+            for (const auto &neighbour : facet.neighbours)
+              BOOST_CHECK(neighbour.has_value());
+          }
+        BOOST_CHECK_LT(area, 4. * dealii::numbers::PI);
+        BOOST_CHECK_GT(area, .85 * 4. * dealii::numbers::PI);
+        for (const auto &node : surface.nodes)
+          farthest = std::max(
+            farthest,
+            std::abs(node.reference_position.distance(
+                       Point<3>(-.5 * std::sqrt(2.02 * 2.02 - .25), -.25, .1)) -
+                     1.));
+        // All nodes of curved cells are on the ball.
+        if (tetrahedra)
+          BOOST_CHECK_SMALL(farthest, 1e-12);
+
+        const Momenta<3> momenta(balls.impact->body,
+                                 balls.impact->system.mass_matrix(),
+                                 /* small strains */ false);
+        const double     first  = balls.mechanical_energy();
+        const auto       linear = momenta.linear(balls.state.velocity);
+        const auto       angular =
+          momenta.angular(balls.state.solution, balls.state.velocity);
+        double old = first, friction_work = 0.;
+        for (unsigned int n = 0; n < n_steps; ++n)
+          {
+            const StepReport report = balls.step(time_step);
+            const double     now    = balls.mechanical_energy();
+            BOOST_CHECK_SMALL(
+              (now - old + report.contact_work + report.friction_work) / first,
+              1e-11);
+            friction_work += report.friction_work;
+            if (treatment == "persistent contact")
+              BOOST_CHECK_SMALL((now + friction_work - first) / first, 1e-9);
+            if (treatment == "Signorini active set")
+              BOOST_CHECK_LE(now + report.friction_work, old + 1e-11 * first);
+            old = now;
+          }
+        BOOST_TEST_MESSAGE(treatment << ": energy " << old / first
+                                     << ", friction " << friction_work / first
+                                     << ", area " << area);
+        BOOST_CHECK(balls.touched);
+        // The hexahedra stick, or nearly so.
+        if (friction > 0. && tetrahedra)
+          BOOST_CHECK_GT(friction_work, 1e-2 * first);
+        else
+          BOOST_CHECK_GE(friction_work, -1e-12 * first);
+        BOOST_CHECK_SMALL(
+          (momenta.linear(balls.state.velocity) - linear).norm(),
+          1e-10);
+        BOOST_CHECK_SMALL((momenta.angular(balls.state.solution,
+                                           balls.state.velocity) -
+                           angular)
+                            .norm(),
+                          1e-10);
       }
 }
 

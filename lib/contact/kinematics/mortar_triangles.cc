@@ -57,6 +57,12 @@ namespace Ricochet
       throw InputError(
         "A surface that may touch itself goes with Contact/Coupling "
         "= points only.");
+    // The facets between the nodes of degree 2 have other shares of a uniform pressure
+    // than the displacements.
+    if (body.dof_handler().get_fe().degree > 1)
+      throw InputError(
+        "Mortar contact takes displacements of degree 1. With degree 2 take "
+        "Contact/Coupling = points.");
     make_nodal_points(body);
     gaps.resize(own_points.size());
     all_rows.resize(own_points.size());

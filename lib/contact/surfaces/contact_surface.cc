@@ -69,23 +69,156 @@ namespace Ricochet
       return array;
     }
 
-    /// In an order that is anticlockwise from outside. Those of a quadrilateral come in
-    /// two rows.
+    /// The corners of a face in an order that is anticlockwise from outside, in the plane
+    /// with the outside on the left. Those of a quadrilateral come in two rows.
+    template <int dim>
     void
-    turn_around(Message<3> &message)
+    turn_around(std::vector<unsigned int>     &corners,
+                const std::vector<Point<dim>> &positions,
+                const Tensor<1, dim>          &normal)
     {
-      auto &ends = message.ends;
-      if (ends.size() == 4)
-        std::swap(ends[2], ends[3]);
-      Tensor<1, 3> edge[2], normal;
-      for (unsigned int c = 0; c < 3; ++c)
+      if (corners.size() == 4)
+        std::swap(corners[2], corners[3]);
+      if constexpr (dim > 1)
         {
-          edge[0][c] = ends[1].position[c] - ends[0].position[c];
-          edge[1][c] = ends.back().position[c] - ends[0].position[c];
-          normal[c]  = message.normal[c];
+          const auto along = [&](const unsigned int corner) {
+            return positions[corner] - positions[corners[0]];
+          };
+          double outside;
+          if constexpr (dim == 2)
+            outside = cross_product_2d(along(corners[1])) * normal;
+          else
+            outside =
+              cross_product_3d(along(corners[1]), along(corners.back())) *
+              normal;
+          if ((dim == 2 ? -outside : outside) < 0.)
+            std::reverse(corners.begin(), corners.end());
         }
-      if (cross_product_3d(edge[0], edge[1]) * normal < 0.)
-        std::reverse(ends.begin(), ends.end());
+    }
+
+    /// The nodes of a cell: vertices, and, with degree 2, those between them.
+    template <int dim>
+    struct NodesOfCell
+    {
+      explicit NodesOfCell(const Body<dim> &body)
+        : body(body)
+        , element(body.dof_handler().get_fe())
+        , points(element.base_element(0).get_unit_support_points())
+        , dofs(element.n_dofs_per_cell())
+      {}
+
+      void
+      reinit(const typename DoFHandler<dim>::active_cell_iterator &cell)
+      {
+        cell->get_dof_indices(dofs);
+        positions.clear();
+        for (const Point<dim> &point : points)
+          positions.push_back(
+            body.mapping().transform_unit_to_real_cell(cell, point));
+        // Vertices are where they are to the last digit.
+        for (const unsigned int v : cell->vertex_indices())
+          positions[v] = cell->vertex(v);
+        if (body.has_multipliers())
+          {
+            const auto  multiplier_cell = body.multiplier_cell(cell);
+            const auto &multipliers = body.multiplier_dof_handler().get_fe();
+            multiplier_dofs.resize(multipliers.n_dofs_per_cell());
+            multiplier_cell->get_dof_indices(multiplier_dofs);
+          }
+      }
+
+      /// The node in the middle of these vertices.
+      unsigned int
+      between(const std::vector<unsigned int> &vertices) const
+      {
+        Point<dim> middle;
+        for (const unsigned int v : vertices)
+          middle += points[v] / static_cast<double>(vertices.size());
+        unsigned int closest = 0;
+        for (unsigned int n = 0; n < points.size(); ++n)
+          if (points[n].distance(middle) < points[closest].distance(middle))
+            closest = n;
+        AssertThrow(points[closest].distance(middle) < 1e-9,
+                    ExcInternalError());
+        return closest;
+      }
+
+      typename Message<dim>::End
+      end(const unsigned int node) const
+      {
+        typename Message<dim>::End result;
+        result.position = to_array<dim>(positions[node]);
+        result.multipliers.fill(numbers::invalid_dof_index);
+        for (unsigned int c = 0; c < dim; ++c)
+          result.unknowns[c] =
+            body.system_index(dofs[element.component_to_system_index(c, node)]);
+        if (body.has_multipliers())
+          {
+            const auto &multipliers = body.multiplier_dof_handler().get_fe();
+            if (node < multipliers.base_element(0).n_dofs_per_cell())
+              for (unsigned int c = 0; c < multipliers.n_components(); ++c)
+                result.multipliers[c] = body.multiplier_system_index(
+                  multiplier_dofs[multipliers.component_to_system_index(c,
+                                                                        node)]);
+          }
+        return result;
+      }
+
+      const Body<dim>                     &body;
+      const FiniteElement<dim>            &element;
+      const std::vector<Point<dim>>       &points;
+      std::vector<types::global_dof_index> dofs, multiplier_dofs;
+      /// m
+      std::vector<Point<dim>> positions;
+    };
+
+    /// The facets of a face with @p corners: itself, or, with degree 2, the parts that
+    /// the nodes between them make of it.
+    template <int dim>
+    std::vector<std::vector<unsigned int>>
+    parts_of_face(const std::vector<unsigned int> &corners,
+                  const NodesOfCell<dim>          &nodes)
+    {
+      if (dim == 1 || nodes.element.degree == 1)
+        return {corners};
+      std::vector<unsigned int> middles;
+      for (unsigned int v = 0; v < corners.size(); ++v)
+        middles.push_back(
+          nodes.between({corners[v], corners[(v + 1) % corners.size()]}));
+      if (dim == 2)
+        return {{corners[0], middles[0]}, {middles[0], corners[1]}};
+      std::vector<std::vector<unsigned int>> parts;
+      const unsigned int                     n = corners.size();
+      if (n == 3)
+        {
+          for (unsigned int v = 0; v < n; ++v)
+            parts.push_back({corners[v], middles[v], middles[(v + n - 1) % n]});
+          parts.push_back(middles);
+          return parts;
+        }
+      const unsigned int centre = nodes.between(corners);
+      for (unsigned int v = 0; v < n; ++v)
+        {
+          parts.push_back({corners[v], middles[v], centre});
+          parts.push_back({middles[v], corners[(v + 1) % n], centre});
+        }
+      return parts;
+    }
+
+    /// Length or area, and direction, of a part of a face with a node between others.
+    template <int dim>
+    Tensor<1, dim>
+    measure_of(const std::vector<unsigned int> &part,
+               const std::vector<Point<dim>>   &positions)
+    {
+      Tensor<1, dim> result;
+      if constexpr (dim == 2)
+        result = cross_product_2d(positions[part[0]] - positions[part[1]]);
+      if constexpr (dim == 3)
+        result = .5 *
+          cross_product_3d(positions[part[1]] - positions[part[0]],
+                           positions[part[2]] - positions[part[0]]);
+      return result;
     }
 
     /// The facets of owned cells.
@@ -99,62 +232,58 @@ namespace Ricochet
                                     element,
                                     body.face_quadrature(),
                                     update_normal_vectors | update_JxW_values);
+      NodesOfCell<dim>          nodes(body);
       std::vector<Message<dim>> messages;
-      const auto                for_each_facet = [&](const auto &action) {
-        for (const auto &cell : body.dof_handler().active_cell_iterators())
-          if (cell->is_locally_owned())
-            for (const unsigned int f : cell->face_indices())
-              if (cell->face(f)->at_boundary() &&
-                  boundaries.count(cell->face(f)->boundary_id()) > 0)
-                action(cell, f);
-      };
-      for_each_facet([&](const auto &cell, const unsigned int f) {
-        const auto face = cell->face(f);
-        face_values.reinit(cell, f);
-        Message<dim> message;
-        for (const unsigned int q : face_values.quadrature_point_indices())
-          message.measure += face_values.JxW(q);
-        message.middle        = to_array<dim>(face->center());
-        message.normal        = to_array(face_values.normal_vector(0));
-        message.cell_diameter = cell->diameter();
-        message.boundary_id   = face->boundary_id();
-        message.part          = cell->material_id();
-        for (const unsigned int v : cell->vertex_indices())
-          {
-            bool on_face = false;
-            for (unsigned int w = 0; w < face->n_vertices(); ++w)
-              on_face =
-                on_face || face->vertex_index(w) == cell->vertex_index(v);
-            if (!on_face)
-              continue;
-            typename Message<dim>::End end;
-            end.position = to_array<dim>(cell->vertex(v));
-            end.multipliers.fill(numbers::invalid_dof_index);
-            for (unsigned int c = 0; c < dim; ++c)
-              end.unknowns[c] = body.system_index(cell->vertex_dof_index(v, c));
-            if (body.has_multipliers())
+      for (const auto &cell : body.dof_handler().active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary() &&
+                boundaries.count(cell->face(f)->boundary_id()) > 0)
               {
-                const auto multiplier_cell = body.multiplier_cell(cell);
-                for (unsigned int c = 0;
-                     c < body.multiplier_dof_handler().get_fe().n_components();
-                     ++c)
-                  end.multipliers[c] = body.multiplier_system_index(
-                    multiplier_cell->vertex_dof_index(v, c));
+                const auto face = cell->face(f);
+                face_values.reinit(cell, f);
+                nodes.reinit(cell);
+                std::vector<unsigned int> corners;
+                for (const unsigned int v : cell->vertex_indices())
+                  for (unsigned int w = 0; w < face->n_vertices(); ++w)
+                    if (face->vertex_index(w) == cell->vertex_index(v))
+                      corners.push_back(v);
+                turn_around<dim>(corners,
+                                 nodes.positions,
+                                 face_values.normal_vector(0));
+                const auto parts = parts_of_face<dim>(corners, nodes);
+                for (const std::vector<unsigned int> &part : parts)
+                  {
+                    Message<dim> message;
+                    message.cell_diameter = cell->diameter();
+                    message.boundary_id   = face->boundary_id();
+                    message.part          = cell->material_id();
+                    if (parts.size() == 1)
+                      {
+                        for (const unsigned int q :
+                             face_values.quadrature_point_indices())
+                          message.measure += face_values.JxW(q);
+                        message.middle = to_array<dim>(face->center());
+                        message.normal = to_array(face_values.normal_vector(0));
+                      }
+                    else
+                      {
+                        const Tensor<1, dim> measure =
+                          measure_of<dim>(part, nodes.positions);
+                        message.measure = measure.norm();
+                        message.normal =
+                          to_array<dim>(measure / measure.norm());
+                        Tensor<1, dim> middle;
+                        for (const unsigned int n : part)
+                          middle += nodes.positions[n] /
+                            static_cast<double>(part.size());
+                        message.middle = to_array<dim>(middle);
+                      }
+                    for (const unsigned int n : part)
+                      message.ends.push_back(nodes.end(n));
+                    messages.push_back(message);
+                  }
               }
-            message.ends.push_back(end);
-          }
-        // Outside on the left.
-        if constexpr (dim == 2)
-          if ((message.ends[1].position[0] - message.ends[0].position[0]) *
-                  message.normal[1] -
-                (message.ends[1].position[1] - message.ends[0].position[1]) *
-                  message.normal[0] <
-              0.)
-            std::swap(message.ends[0], message.ends[1]);
-        if constexpr (dim == 3)
-          turn_around(message);
-        messages.push_back(message);
-      });
       return messages;
     }
   } // namespace
@@ -166,9 +295,9 @@ namespace Ricochet
     const Body<dim>                    &body,
     const std::set<types::boundary_id> &boundaries)
   {
-    if (body.dof_handler().get_fe().degree != 1)
+    if (body.dof_handler().get_fe().degree > 2)
       throw InputError(
-        "Contact between bodies needs displacements of degree 1; "
+        "Contact between bodies takes displacements of degree 1 and 2; "
         "the degree is " +
         std::to_string(body.dof_handler().get_fe().degree) + ".");
     std::vector<Message<dim>> messages;

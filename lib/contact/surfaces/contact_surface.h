@@ -20,6 +20,12 @@ namespace Ricochet
    * their left, in 1D single nodes. In space they are triangles, whose nodes are seen
    * anticlockwise from outside; a quadrilateral is four of them around the mean of its
    * nodes, which moves with them.
+   *
+   * With displacements of degree 2 the nodes between vertices are nodes of the surface,
+   * and each face is the straight facets between all of its nodes: two segments, four
+   * triangles, or, of a quadrilateral, eight around its middle node. Nodes of curved cells
+   * are where the body is, so that the surface is as near to it as one of cells of half
+   * the size.
    */
   template <int dim>
   class ContactSurface
@@ -60,8 +66,8 @@ namespace Ricochet
       std::array<std::optional<unsigned int>, 3> neighbours;
     };
 
-    /// @throws InputError when the boundaries have no facet, for a degree other
-    /// than 1, and where more than two facets meet. Collective.
+    /// @throws InputError when the boundaries have no facet, for a degree beyond
+    /// 2, and where more than two facets meet. Collective.
     ContactSurface(const Body<dim>                            &body,
                    const std::set<dealii::types::boundary_id> &boundaries);
 

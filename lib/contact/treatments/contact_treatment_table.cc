@@ -427,8 +427,8 @@ namespace Ricochet
     return parameters.friction_coefficient > 0. ||
         (treatment.condition == ClosingCondition::signorini &&
          parameters.coupling == "points")
-      ? MultiplierSpace::linear_vector
-      : MultiplierSpace::linear;
+      ? MultiplierSpace::nodal_vector
+      : MultiplierSpace::nodal;
   }
 
 
