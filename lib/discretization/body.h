@@ -114,8 +114,10 @@ namespace Ricochet
     canonical_positions() const;
 
     /// The displacements of degree 1 of a body without multipliers. Collective.
+    /// @param of_own_degree those of the body's own degree instead, with or without
+    /// multipliers: no prolongation, rigid body modes only.
     CoarseSpace
-    coarse_space() const;
+    coarse_space(const bool of_own_degree = false) const;
 
     /// The sparsity pattern of all tangents.
     const dealii::TrilinosWrappers::SparsityPattern &

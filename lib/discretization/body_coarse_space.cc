@@ -65,10 +65,10 @@ namespace Ricochet
 
   template <int dim>
   CoarseSpace
-  Body<dim>::coarse_space() const
+  Body<dim>::coarse_space(const bool of_own_degree) const
   {
     CoarseSpace space;
-    if (displacement_element->degree == 1)
+    if (displacement_element->degree == 1 || of_own_degree)
       {
         space.rigid_body_modes =
           rigid_body_modes(*geometry, displacement_dofs, communicator);
@@ -158,9 +158,9 @@ namespace Ricochet
   }
 
   template CoarseSpace
-  Body<1>::coarse_space() const;
+  Body<1>::coarse_space(const bool) const;
   template CoarseSpace
-  Body<2>::coarse_space() const;
+  Body<2>::coarse_space(const bool) const;
   template CoarseSpace
-  Body<3>::coarse_space() const;
+  Body<3>::coarse_space(const bool) const;
 } // namespace Ricochet

@@ -594,7 +594,10 @@ namespace Ricochet
               dim,
               &body.sparsity_pattern(),
               [this]() { return body.canonical_positions(); },
-              [this]() { return body.coarse_space(); },
+              [this]() {
+                // Where contact couples other unknowns in each step.
+                return body.coarse_space(contact->couplings() != nullptr);
+              },
               is_moved(setup) ? [this](const double time,
                                        Vector &vector) { impose(time, vector); }
                               : std::function<void(const double, Vector &)>(),

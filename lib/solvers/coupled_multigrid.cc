@@ -25,7 +25,7 @@ namespace Ricochet
     , modes(values_of_modes(space))
   {
     AssertThrow(space.prolongation.m() == 0,
-                ExcMessage("Contact between bodies is of degree 1."));
+                ExcMessage("Bodies in contact are aggregated as they are."));
     displacement_part.reinit(space.rigid_body_modes[0]);
     displacement_result.reinit(space.rigid_body_modes[0]);
   }

@@ -38,7 +38,7 @@ namespace Ricochet
   class CoupledMultigrid : public TangentSolver
   {
   public:
-    /// @param coarse_space of displacements of degree 1.
+    /// @param coarse_space without a prolongation, of displacements of any degree.
     explicit CoupledMultigrid(CoarseSpace coarse_space);
 
     ~CoupledMultigrid() override;
