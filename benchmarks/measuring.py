@@ -6,6 +6,7 @@ import math
 import os
 import pathlib
 import re
+import resource
 import subprocess
 import tempfile
 
@@ -14,8 +15,8 @@ SHARES = re.compile(r"residuals (\S+) s, tangents (\S+) s, (\d+) factorisations 
 
 
 def measure(program, parameters, parameter_file=None, n_ranks=1):
-    """Unknowns, steps, iterations, seconds in all steps, the shares of a run, and
-    the memory of all ranks (MB)."""
+    """Unknowns, steps, iterations, seconds in all steps, the shares of a run, seconds
+    of the processors in all of it, and the memory of all ranks (MB)."""
     with tempfile.TemporaryDirectory() as folder:
         command = [] if n_ranks == 1 else ["mpirun", "-n", str(n_ranks)]
         command += [program] + ([parameter_file] if parameter_file else [])
@@ -25,8 +26,10 @@ def measure(program, parameters, parameter_file=None, n_ranks=1):
             command += ["--set", parameter]
         environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1",
                        "DEAL_II_NUM_THREADS": "1"}
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         log = subprocess.run(command, check=True, capture_output=True,
                              text=True, env=environment).stdout
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
         with open(pathlib.Path(folder) / "energy.csv", newline="") as file:
             rows = list(csv.reader(file))
     column = next(i for i, name in enumerate(rows[0])
@@ -42,6 +45,8 @@ def measure(program, parameters, parameter_file=None, n_ranks=1):
             "tangents": float(tangent), "factorisations": int(count),
             "factorising": float(factorisation),
             "substituting": float(substitution),
+            "cpu": (after.ru_utime + after.ru_stime - before.ru_utime -
+                    before.ru_stime),
             "solver": re.search(r"linear solver: (.*)", log).group(1),
             "memory": float(re.search(r"memory at most: (\d+) MB",
                                       log).group(1))}

@@ -562,6 +562,67 @@ def dominoes(run):
     ]
 
 
+def stretched_cube(stretch, shear, lame):
+    """Force and energy of a unit cube of neo-Hookean material, first if it is free to
+    get wider, then if it is not."""
+    def force(side):
+        return (shear * (stretch - 1. / stretch) +
+                lame * math.log(stretch * side**2) / stretch)
+
+    def energy(side):
+        log_j = math.log(stretch * side**2)
+        return (.5 * shear * (stretch**2 + 2. * side**2 - 3.) - shear * log_j +
+                .5 * lame * log_j**2)
+
+    low, high = 1., 2.
+    for _ in range(60):
+        side = .5 * (low + high)
+        across = shear * (side**2 - 1.) + lame * math.log(stretch * side**2)
+        low, high = (side, high) if across < 0. else (low, side)
+    return [(-force(x), energy(x)) for x in (side, 1.)]
+
+
+def twisted_cubes(run):
+    free, held = stretched_cube(.97, 10., 10. / 3.)
+    force, energy = run["contact_force_joint"], run["energy"]
+    points = run["active_points_joint"]
+    half = int(np.argmin(abs(run["time"] - 13.)))
+    return [
+        between("force when it has been pressed", run.at("contact_force_joint", 5.),
+                .98 * free[0], held[0]),
+        between("and when it has been turned by 90 degrees", force[-1],
+                .98 * free[0], held[0]),
+        between("stored when it has been pressed", run.at("elastic_energy_upper", 4.) +
+                run.at("elastic_energy_lower", 4.), 2. * .98 * free[1], 2. * held[1]),
+        near("energy at 90 degrees over that at 0", energy[-1] / run.at("energy", 4.), 1.,
+             .005),
+        near("part that touches at 45 degrees", points[half] / points[4],
+             2. * (math.sqrt(2.) - 1.), .03),
+        near("part that touches at 90 degrees", points[-1] / points[4], 1., 0.),
+        # Against that of the upper one in the middle of the turn.
+        between("spin of the lower cube over that of the upper one",
+                np.max(np.abs(run["angular_momentum_z_lower"])) /
+                run["angular_momentum_z_upper"][half], 0., .1),
+    ]
+
+
+def ball_on_block(run):
+    modulus = 9. * 10. * .25 / (3. * 10. + .25)
+    poisson = .5 * (3. * 10. - 2. * .25) / (3. * 10. + .25)
+    hertz = 4. / 3. * modulus / (2. * (1. - poisson**2)) * math.sqrt(.5) * .06**1.5
+    mass, omega = .51455, math.pi / 20.
+    force = run["contact_force_sole"]
+    return [
+        near("force when it has been pressed", np.mean(force[6:9]), hertz, .1),
+        near("and when it has been turned by 90 degrees", force[-1], hertz, .1),
+        near("angular momentum in the middle of the turn",
+             run.at("angular_momentum_z_ball", 13.), .4 * mass * .25 * omega, .08),
+        between("that of the block over it",
+                np.max(np.abs(run["angular_momentum_z_block"])) /
+                (.4 * mass * .25 * omega), 0., .05),
+    ]
+
+
 # Names, and whether they are quick.
 EXAMPLES = {
     "suitcase_on_belt": (suitcase_on_belt, True),
@@ -578,6 +639,8 @@ EXAMPLES = {
     "dominoes": (dominoes, False),
     "golf_ball": (golf_ball, False),
     "gear_pair": (gear_pair, False),
+    "twisted_cubes": (twisted_cubes, False),
+    "ball_on_block": (ball_on_block, False),
 }
 
 
