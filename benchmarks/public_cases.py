@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cost of the contact examples of the public code smith (LLNL, formerly serac;
-examples/contact/ of its repository) at their size, with inertia: twisted_cubes (their
-"twist"), ball_on_block ("sphere") and ironing of examples/. Steps are of the length of
+examples/contact/ of its repository) at their size, with inertia: examples/twisted_cubes.prm
+(their "twist"), examples/ball_on_block.prm ("sphere") and ironing.prm. Steps are of the length of
 theirs unless --step says otherwise. Seconds are those of the processor, so that other
 jobs on the machine do as little harm as may be; they include the start of the program.
 """
@@ -12,10 +12,11 @@ import pathlib
 
 from measuring import measure
 
-EXAMPLES = pathlib.Path(__file__).resolve().parent.parent / "examples"
+HERE = pathlib.Path(__file__).resolve().parent
 # What theirs takes a step on 4 ranks (s), measured elsewhere.
-CASES = {"twisted_cubes": ("twist", 1.2), "ball_on_block": ("sphere", 3.2),
-         "ironing": ("ironing", .8)}
+CASES = {"examples/twisted_cubes": ("twist", 1.2),
+         "examples/ball_on_block": ("sphere", 3.2),
+         "benchmarks/ironing": ("ironing", .8)}
 
 
 def main():
@@ -31,9 +32,9 @@ def main():
     for name in arguments.names or CASES:
         run = measure(program,
                       [f"Time/Time step={arguments.step}"] if arguments.step else [],
-                      str(EXAMPLES / f"{name}.prm"))
+                      str(HERE.parent / f"{name}.prm"))
         theirs, seconds = CASES[name]
-        print(f"| {name} ({theirs}) | {run['unknowns']} | {arguments.step or 1} "
+        print(f"| {name.split('/')[1]} ({theirs}) | {run['unknowns']} | {arguments.step or 1} "
               f"| {run['steps']} | {run['iterations'] / run['steps']:.1f} "
               f"| {run['solver']} | {run['cpu'] / run['steps']:.2f} | {seconds} "
               f"| {run['memory']:.0f} |", flush=True)

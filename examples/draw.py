@@ -5,7 +5,7 @@
     examples/draw.py [NAME...] [--output output/examples]
 
 Plane bodies are coloured by von Mises stress, obstacles grey. Bodies in space are drawn by the
-Python package of Ricochet.
+Python package of Ricochet, cut in halves, or from outside.
 """
 
 import argparse
@@ -122,10 +122,53 @@ def draw_plane(run, name, path):
     plt.close(figure)
 
 
+# Instants of bodies of hexahedra that are seen from outside.
+OUTSIDE = {"twisted_cubes": [3., 13., 23.]}
+HEXAHEDRON = np.array([(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5),
+                       (2, 3, 7, 6), (3, 0, 4, 7)])
+
+
+def draw_outside(run, times, path):
+    """Faces that belong to one cell, the farthest first."""
+    grids = [run.fields(time) for time in times]
+    largest = max(np.percentile(fields.values(grid, "von_mises"), 99.) for grid in grids)
+    towards = np.array([.45, -1., .5]) / np.linalg.norm([.45, -1., .5])
+    right = np.cross([0., 0., 1.], towards) / np.linalg.norm(towards[:2])
+    up = np.cross(towards, right)
+    figure, axes = plt.subplots(1, len(times), figsize=(8., 3.6), layout="constrained")
+    for panel, grid, time in zip(axes, grids, times):
+        start = fields.array_of_points(grid)
+        places = start + fields.displacements(grid)
+        stress = fields.values(grid, "von_mises")
+        faces = {}
+        for c in range(grid.GetNumberOfCells()):
+            cell = grid.GetCell(c)
+            points = np.array([cell.GetPointId(i) for i in range(8)])
+            for face in points[HEXAHEDRON]:
+                # Bodies that touch have faces in one place at the start.
+                where = np.hstack([start[face], places[face]]).round(7) + 0.
+                faces.setdefault(tuple(sorted(map(tuple, where))), []).append(face)
+        outer = np.array([own[0] for own in faces.values() if len(own) == 1])
+        outer = outer[np.argsort((places[outer].mean(axis=1)) @ towards)]
+        flat = np.stack([places @ right, places @ up], axis=-1)
+        panel.add_collection(PolyCollection(
+            flat[outer], array=stress[outer].mean(axis=1), cmap="viridis",
+            clim=(0., largest), edgecolors="#444444", linewidths=.3))
+        panel.autoscale_view()
+        panel.set(aspect="equal", xticks=[], yticks=[])
+        panel.set_title(f"t = {time:.4g} s", fontsize=8, loc="left", pad=2)
+        for side in panel.spines.values():
+            side.set_visible(False)
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
 def draw(name, folder, path):
     run = ricochet.Run(folder)
     if name in PANELS:
         draw_plane(run, name, path)
+    elif name in OUTSIDE:
+        draw_outside(run, OUTSIDE[name], path)
     else:
         pictures.draw_instants(run, "von_mises", path)
     with Image.open(path) as picture:

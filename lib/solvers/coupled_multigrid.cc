@@ -88,7 +88,7 @@ namespace Ricochet
         : -1. - static_cast<double>(multipliers->GID64(row - n_displacements));
     const Epetra_Vector numbers = in_columns(all, number);
 
-    body = std::make_unique<Epetra_CrsMatrix>(Copy, *displacements, 0);
+    copy_body(numbers);
     from_multipliers =
       std::make_unique<Epetra_CrsMatrix>(Copy, *displacements, 0);
     to_multipliers = std::make_unique<Epetra_CrsMatrix>(Copy, *multipliers, 0);
@@ -125,10 +125,6 @@ namespace Ricochet
             }
         if (row < n_displacements)
           {
-            body->InsertGlobalValues(index_of(*displacements, row),
-                                     columns.size(),
-                                     values.data(),
-                                     columns.data());
             from_multipliers->InsertGlobalValues(index_of(*displacements, row),
                                                  multiplier_columns.size(),
                                                  multiplier_values.data(),
@@ -143,11 +139,74 @@ namespace Ricochet
         (*inverse_diagonal)[row - n_displacements] =
           1. / (diagonal[row] - square / scaling->trilinos_vector()[0][row]);
       }
-    body->FillComplete(*displacements, *displacements);
     from_multipliers->FillComplete(*multipliers, *displacements);
     to_multipliers->FillComplete(*displacements, *multipliers);
     multiplier_part = std::make_unique<Epetra_Vector>(*multipliers);
     work            = std::make_unique<Epetra_Vector>(*displacements);
+  }
+
+
+
+  void
+  CoupledMultigrid::copy_body(const Epetra_Vector &numbers)
+  {
+    const Epetra_CrsMatrix &all = matrix.trilinos_matrix();
+    const int  n_displacements  = displacement_part.locally_owned_size();
+    const auto for_each_entry   = [&](const auto &action) {
+      int    *indices   = nullptr;
+      double *entries   = nullptr;
+      int     n_entries = 0;
+      for (int row = 0; row < n_displacements; ++row)
+        {
+          all.ExtractMyRowView(row, n_entries, entries, indices);
+          for (int k = 0; k < n_entries; ++k)
+            if (const double column = numbers[indices[k]]; column >= 0.)
+              action(row, static_cast<EpetraIndex>(column), entries[k]);
+        }
+    };
+    if (!body || pattern_of_body != pattern)
+      {
+        pattern_of_body = pattern;
+        body = std::make_unique<Epetra_CrsMatrix>(Copy, *displacements, 0);
+        std::vector<EpetraIndex> columns;
+        std::vector<double>      zeros;
+        int                      current = 0;
+        const auto               insert  = [&]() {
+          zeros.resize(columns.size());
+          body->InsertGlobalValues(index_of(*displacements, current),
+                                   columns.size(),
+                                   zeros.data(),
+                                   columns.data());
+          columns.clear();
+        };
+        for_each_entry([&](const int row, const EpetraIndex column, double) {
+          if (row != current)
+            insert();
+          current = row;
+          columns.push_back(column);
+        });
+        if (n_displacements > 0)
+          insert();
+        body->FillComplete(*displacements, *displacements);
+        places.clear();
+        int    *begin = nullptr, *sorted = nullptr;
+        double *values = nullptr;
+        body->ExtractCrsDataPointers(begin, sorted, values);
+        for_each_entry([&](const int row, const EpetraIndex column, double) {
+          const int *const place = std::find(sorted + begin[row],
+                                             sorted + begin[row + 1],
+                                             body->LCID(column));
+          Assert(place != sorted + begin[row + 1], ExcInternalError());
+          places.push_back(place - sorted);
+        });
+      }
+    int    *begin = nullptr, *sorted = nullptr;
+    double *values = nullptr;
+    body->ExtractCrsDataPointers(begin, sorted, values);
+    std::size_t k = 0;
+    for_each_entry([&](int, EpetraIndex, const double value) {
+      values[places[k++]] = value;
+    });
   }
 
 
@@ -220,14 +279,12 @@ namespace Ricochet
 
 
   int
-  CoupledMultigrid::iterate(const Vector &right_hand_side,
+  CoupledMultigrid::iterate(const Vector &forces,
                             Vector       &solution,
                             const double  tolerance) const
   {
     solution = 0.;
-    Vector forces(right_hand_side);
-    forces.scale(*scaling);
-    SolverControl control(400, tolerance * forces.l2_norm());
+    SolverControl                             control(400, tolerance);
     const SolverGMRES<Vector>::AdditionalData data(
       80,
       /* right_preconditioning = */ true);
@@ -269,16 +326,25 @@ namespace Ricochet
     // beyond, so that results do not depend on what came before.
     const bool is_first = stage_begins;
     stage_begins        = false;
+    Vector forces(right_hand_side);
+    forces.scale(*scaling);
+    const double norm = forces.l2_norm();
+    // With an older tangent the residual falls by about what it fell by in the last
+    // iteration, or not much more: what is better solved is not better.
+    const double wanted = may_reuse && !is_first
+      ? std::max(tolerance, std::min(.01 * norm / last_norm, 1e-2))
+      : tolerance;
+    last_norm           = norm;
     const auto go       = [&]() {
       const Stopwatch stopwatch(spent.substituting);
-      return iterate(right_hand_side, solution, tolerance);
+      return iterate(forces, solution, wanted * norm);
     };
     if (is_first)
       set_up();
     int n_iterations = go();
     if (is_first)
-      budget.begin(n_iterations, tolerance);
-    else if (budget.is_exceeded(n_iterations, tolerance))
+      budget.begin(n_iterations, wanted);
+    else if (budget.is_exceeded(n_iterations, wanted))
       {
         // The next solution of this stage will have a better one.
         set_up();

@@ -61,6 +61,11 @@ namespace Ricochet
     void
     split();
 
+    /// Make A, in its place if the pattern is that of the last one. @param numbers of the
+    /// displacements among the columns of T, less than zero for others.
+    void
+    copy_body(const Epetra_Vector &numbers);
+
     /// Set ML up for the Schur complement as it is now.
     void
     set_up();
@@ -69,9 +74,10 @@ namespace Ricochet
     void
     add_springs();
 
+    /// Solve for @p forces until the residual is below @p tolerance (N).
     /// @return the number of iterations, or -1 if they do not converge.
     int
-    iterate(const Vector &right_hand_side,
+    iterate(const Vector &forces,
             Vector       &solution,
             const double  tolerance) const;
 
@@ -85,12 +91,17 @@ namespace Ricochet
     // Displacements and multipliers, each numbered by themselves.
     std::unique_ptr<Epetra_Map>       displacements, multipliers;
     std::unique_ptr<Epetra_CrsMatrix> body, from_multipliers, to_multipliers;
+    // The pattern of T that A is from, and the place of each entry of T there.
+    std::uint64_t                     pattern_of_body = 0;
+    std::vector<unsigned int>         places;
     std::unique_ptr<Epetra_Vector>    inverse_diagonal;
     std::unique_ptr<Epetra_CrsMatrix> schur_complement;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> aggregation;
     mutable Vector displacement_part, displacement_result;
     mutable std::unique_ptr<Epetra_Vector> multiplier_part, work;
     IterationBudget                        budget;
+    // Norm of the right hand side of the last solve (N).
+    double last_norm = 0.;
   };
 } // namespace Ricochet
 

@@ -127,10 +127,11 @@ namespace Ricochet
             const double ratio =
               norm / history[history.size() - 2].relative_residual;
             tolerance = std::clamp(ratio * ratio, 1e-8, 1e-2);
-            // The last iteration should not end just below the tolerance.
+            // The last iteration should neither end just below the tolerance nor go
+            // on far below it.
             if (norm * tolerance < 100. * parameters.tolerance)
               tolerance =
-                std::clamp(.01 * parameters.tolerance / norm, 1e-8, tolerance);
+                std::clamp(.01 * parameters.tolerance / norm, 1e-8, 1e-2);
           }
         problem.solve(residual, update, may_reuse, tolerance);
         trial = solution;

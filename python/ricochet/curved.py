@@ -118,11 +118,15 @@ def with_joined_points(grid: Any) -> Any:
     points, cells = vtk.vtkPoints(), vtk.vtkCellArray()
     points.SetData(numpy_to_vtk(places[first], deep=True))
     cells.DeepCopy(grid.GetCells())
-    connectivity = groups[vtk_to_numpy(cells.GetConnectivityArray())].astype(np.int64)
-    cells.SetData(
-        cells.GetOffsetsArray(),
-        numpy_to_vtkIdTypeArray(np.ascontiguousarray(connectivity), deep=True),
+    # VTK may keep numbers of small grids with 32 bits, but takes no mixture.
+    offsets, connectivity = (
+        numpy_to_vtkIdTypeArray(numbers.astype(np.int64), deep=True)
+        for numbers in (
+            vtk_to_numpy(cells.GetOffsetsArray()),
+            groups[vtk_to_numpy(cells.GetConnectivityArray())],
+        )
     )
+    cells.SetData(offsets, connectivity)
     result = vtk.vtkUnstructuredGrid()
     result.SetPoints(points)
     result.SetCells(grid.GetCellTypesArray(), cells)
