@@ -17,12 +17,12 @@ namespace Ricochet
     const Correction                  correction,
     const ContactStructure           &contact,
     const LowRankCorrection::Options &options,
-    double                           &factorising)
+    TangentSolver::Costs             &spent)
     : factorisation(std::move(factorisation))
     , kind(correction)
     , contact(contact)
     , options(options)
-    , factorising(factorising)
+    , spent(spent)
   {}
 
 
@@ -75,7 +75,7 @@ namespace Ricochet
         tangent_matrix.get_mpi_communicator(),
         contact.functionals->functionals,
         contact.functionals->order,
-        contact.functionals->functionals,
+        std::nullopt,
         options);
   }
 
@@ -84,7 +84,7 @@ namespace Ricochet
   bool
   CorrectedFactorisation::factorise()
   {
-    const Stopwatch stopwatch(factorising);
+    const Stopwatch stopwatch(spent.factorising);
     restore_rows(&OwnedRow::open);
     if (correction)
       correction->forget_columns();
@@ -189,11 +189,22 @@ namespace Ricochet
         for (LowRankCorrection::Row &row : change)
           row.clear();
         tangent.contact_change(change);
-        for (LowRankCorrection::Row &row : change)
-          for (auto &entry : row)
-            entry.first += correction->first_observable();
+        set_change_of_functionals();
+        return;
       }
-    const Stopwatch stopwatch(factorising);
+    const Stopwatch stopwatch(spent.factorising);
+    correction->set_change(change, *factorisation);
+  }
+
+
+
+  void
+  CorrectedFactorisation::set_change_of_functionals()
+  {
+    const Stopwatch stopwatch(spent.factorising);
+    for (LowRankCorrection::Row &row : change)
+      for (auto &entry : row)
+        entry.first = correction->place(entry.first);
     correction->set_change(change, *factorisation);
   }
 
@@ -203,8 +214,49 @@ namespace Ricochet
   CorrectedFactorisation::solve(const Vector &right_hand_side, Vector &solution)
   {
     if (correction)
-      correction->solve(right_hand_side, solution, *factorisation);
+      spent.n_substitutions +=
+        correction->solve(right_hand_side, solution, *factorisation);
     else
-      factorisation->solve(right_hand_side, solution);
+      {
+        ++spent.n_substitutions;
+        factorisation->solve(right_hand_side, solution);
+      }
+  }
+
+
+
+  void
+  CorrectedFactorisation::solve_body(const Vector &right_hand_side,
+                                     Vector       &solution)
+  {
+    const Stopwatch stopwatch(spent.substituting);
+    ++spent.n_substitutions;
+    factorisation->solve(right_hand_side, solution);
+  }
+
+
+
+  void
+  CorrectedFactorisation::add_compliance(
+    const double               factor,
+    const std::vector<double> &coefficients,
+    std::vector<double>       &values)
+  {
+    const Stopwatch stopwatch(spent.factorising);
+    correction->add_compliance(factor, coefficients, values, *factorisation);
+  }
+
+
+
+  void
+  CorrectedFactorisation::solve_contact(
+    const std::vector<FunctionalRow> &new_change,
+    std::vector<double>              &coefficients,
+    const std::vector<double>        &values)
+  {
+    change = new_change;
+    set_change_of_functionals();
+    const Stopwatch stopwatch(spent.factorising);
+    correction->solve_small(coefficients, values, *factorisation);
   }
 } // namespace Ricochet

@@ -4,8 +4,10 @@
 
 #include <base/types.h>
 #include <solvers/factorisation.h>
+#include <solvers/condensed_system.h>
 #include <solvers/low_rank_correction.h>
 #include <solvers/tangent.h>
+#include <solvers/tangent_solver.h>
 
 #include <memory>
 #include <vector>
@@ -20,7 +22,7 @@ namespace Ricochet
    * The matrix of the body is that with open contact, which is the matrix of the
    * body alone for most treatments.
    */
-  class CorrectedFactorisation
+  class CorrectedFactorisation : public CondensedSystem
   {
   public:
     using Index = Factorisation::Index;
@@ -41,16 +43,16 @@ namespace Ricochet
      * @param factorisation of the body's matrix.
      * @param contact rows and functionals.
      * @param options of the correction.
-     * @param factorising gets the time that it takes to factor and to solve for
-     * columns added (s).
+     * @param spent gets what it takes to factor and to solve for columns added, and
+     * the number of solutions.
      */
     CorrectedFactorisation(std::unique_ptr<Factorisation>    factorisation,
                            const Correction                  correction,
                            const ContactStructure           &contact,
                            const LowRankCorrection::Options &options,
-                           double                           &factorising);
+                           TangentSolver::Costs             &spent);
 
-    ~CorrectedFactorisation();
+    ~CorrectedFactorisation() override;
 
     /**
      * A new matrix of the body, that of @p tangent with open contact. It is not
@@ -70,6 +72,46 @@ namespace Ricochet
 
     void
     solve(const Vector &right_hand_side, Vector &solution);
+
+    // As a system condensed to functionals, if contact enters by them; the body
+    // has to be factored.
+    unsigned int
+    n_functionals() const override
+    {
+      return correction->n_places();
+    }
+
+    unsigned int
+    place(const unsigned int f) const override
+    {
+      return correction->place(f);
+    }
+
+    void
+    solve_body(const Vector &right_hand_side, Vector &solution) override;
+
+    void
+    observe(const Vector &vector, std::vector<double> &values) override
+    {
+      correction->observe(vector, values);
+    }
+
+    void
+    add_functionals(const std::vector<double> &coefficients,
+                    Vector                    &vector) const override
+    {
+      correction->add_directions(coefficients, vector);
+    }
+
+    void
+    add_compliance(const double               factor,
+                   const std::vector<double> &coefficients,
+                   std::vector<double>       &values) override;
+
+    void
+    solve_contact(const std::vector<FunctionalRow> &change,
+                  std::vector<double>              &coefficients,
+                  const std::vector<double>        &values) override;
 
     /// The tangent of the last set_contact(), unless contact enters by
     /// functionals.
@@ -95,6 +137,11 @@ namespace Ricochet
     void
     make_row_correction();
 
+    /// The rows of #change are those between this rank's functionals; give it to
+    /// the correction.
+    void
+    set_change_of_functionals();
+
     void
     save_rows(std::vector<double> OwnedRow::*copy);
 
@@ -107,7 +154,7 @@ namespace Ricochet
     const Correction                     kind;
     const ContactStructure              &contact;
     const LowRankCorrection::Options     options;
-    double                              &factorising;
+    TangentSolver::Costs                &spent;
     std::vector<OwnedRow>                rows;
     std::vector<LowRankCorrection::Row>  change;
     std::unique_ptr<LowRankCorrection>   correction;

@@ -66,6 +66,7 @@ namespace Ricochet
       }
 
     const Stopwatch stopwatch(spent.substituting);
+    ++spent.n_substitutions;
     entry->factorisation->solve(right_hand_side, solution);
     return true;
   }

@@ -20,23 +20,16 @@ namespace Ricochet
                                        const MPI_Comm             communicator,
                                        Functionals                directions_,
                                        const std::vector<double> &order,
-                                       Functionals                observables_,
+                                       std::optional<Functionals> observables_,
                                        const Options             &options)
     : communicator(communicator)
     , directions(std::move(directions_))
-    , observables(std::move(observables_))
+    , own_observables(std::move(observables_))
+    , observables(own_observables ? *own_observables : directions)
     , options(options)
     , work(owned, communicator)
   {
     const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
-
-    // The observables of all ranks stand one behind the other.
-    const auto sizes =
-      Utilities::MPI::all_gather(communicator, observables.size());
-    my_first_observable =
-      std::accumulate(sizes.begin(), sizes.begin() + my_rank, 0u);
-    n_observables = std::accumulate(sizes.begin(), sizes.end(), 0u);
-    observed.resize(n_observables);
 
     IndexSet relevant = owned;
     relevant.add_indices(observables.index.begin(), observables.index.end());
@@ -61,6 +54,24 @@ namespace Ricochet
           place_of_direction[std::get<2>(sorted[place])] = place;
           direction_at_place[place] = std::get<2>(sorted[place]);
         }
+
+    // The observables of all ranks stand one behind the other, unless they are the
+    // directions: those that contact needs together lie together.
+    if (own_observables)
+      {
+        const auto sizes =
+          Utilities::MPI::all_gather(communicator, observables.size());
+        n_observables = std::accumulate(sizes.begin(), sizes.end(), 0u);
+        place_of_observable.resize(observables.size());
+        std::iota(place_of_observable.begin(),
+                  place_of_observable.end(),
+                  std::accumulate(sizes.begin(), sizes.begin() + my_rank, 0u));
+      }
+    else
+      {
+        n_observables       = n_places();
+        place_of_observable = place_of_direction;
+      }
     forget_columns();
   }
 
@@ -90,7 +101,7 @@ namespace Ricochet
         for (std::size_t k = observables.begin[o]; k < observables.begin[o + 1];
              ++k)
           sum += observables.value[k] * value[local_index[k]];
-        values[my_first_observable + o] = sum;
+        values[place_of_observable[o]] = sum;
       }
     Utilities::MPI::sum(values, communicator, values);
   }
@@ -137,10 +148,12 @@ namespace Ricochet
 
 
   void
-  LowRankCorrection::solve_missing_columns(Factorisation &factorisation)
+  LowRankCorrection::solve_missing_columns(
+    const std::vector<unsigned int> &needed,
+    Factorisation                   &factorisation)
   {
     std::vector<unsigned int> missing;
-    for (const unsigned int place : changed)
+    for (const unsigned int place : needed)
       if (columns[place].empty())
         missing.push_back(place);
     if (options.group_size == 0)
@@ -169,16 +182,11 @@ namespace Ricochet
   {
     if (!options.is_symmetric)
       return false;
-    for (unsigned int i = 0; i < changed.size(); ++i)
-      if (rows[i].size() != 1 || !(rows[i][0].second > 0.))
-        return false;
     // Each direction observes itself: then V^T A^{-1} U is symmetric.
     for (unsigned int i = 0; i < changed.size(); ++i)
-      {
-        const int d = direction_at_place[changed[i]];
-        if (d >= 0 && rows[i][0].first != my_first_observable + d)
-          return false;
-      }
+      if (rows[i].size() != 1 || !(rows[i][0].second > 0.) ||
+          rows[i][0].first != changed[i])
+        return false;
     return true;
   }
 
@@ -218,7 +226,7 @@ namespace Ricochet
       }
     if (!changed.empty())
       {
-        solve_missing_columns(factorisation);
+        solve_missing_columns(changed, factorisation);
         factorise_small();
       }
     has_change = true;
@@ -231,8 +239,7 @@ namespace Ricochet
   {
     const unsigned int n = changed.size();
     small                = std::make_unique<LAPACKFullMatrix<double>>(n, n);
-    small_is_positive =
-      Utilities::MPI::min(is_positive() ? 1 : 0, communicator) == 1;
+    small_is_positive    = is_positive();
     if (small_is_positive)
       {
         // Divided by C, the system is symmetric and positive definite. Cholesky's
@@ -295,14 +302,14 @@ namespace Ricochet
 
 
 
-  void
+  unsigned int
   LowRankCorrection::solve(const Vector  &right_hand_side,
                            Vector        &solution,
                            Factorisation &factorisation)
   {
     factorisation.solve(right_hand_side, solution);
     if (changed.empty())
-      return;
+      return 1;
     observe(solution, observed);
     dealii::Vector<double> y(changed.size());
     for (unsigned int i = 0; i < changed.size(); ++i)
@@ -313,7 +320,7 @@ namespace Ricochet
       {
         for (unsigned int i = 0; i < changed.size(); ++i)
           solution.add(-y[i], whole_columns[changed[i]]);
-        return;
+        return 1;
       }
     // The sum of the directions first: it gathers entries from other ranks.
     work = 0.;
@@ -322,5 +329,69 @@ namespace Ricochet
     work.compress(VectorOperation::add);
     work += right_hand_side;
     factorisation.solve(work, solution);
+    return 2;
+  }
+
+
+
+  void
+  LowRankCorrection::add_directions(const std::vector<double> &coefficients,
+                                    Vector                    &vector) const
+  {
+    for (unsigned int d = 0; d < coefficients.size(); ++d)
+      if (coefficients[d] != 0.)
+        add_direction(place_of_direction[d], coefficients[d], vector);
+    vector.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  LowRankCorrection::add_compliance(const double               factor,
+                                    const std::vector<double> &coefficients,
+                                    std::vector<double>       &values,
+                                    Factorisation             &factorisation)
+  {
+    std::vector<unsigned int> places;
+    for (unsigned int place = 0; place < coefficients.size(); ++place)
+      if (coefficients[place] != 0.)
+        places.push_back(place);
+    solve_missing_columns(places, factorisation);
+    for (const unsigned int place : places)
+      {
+        const double               weight = factor * coefficients[place];
+        const std::vector<double> &column = columns[place];
+        for (unsigned int o = 0; o < n_observables; ++o)
+          values[o] += weight * column[o];
+      }
+  }
+
+
+
+  void
+  LowRankCorrection::solve_small(std::vector<double>       &coefficients,
+                                 const std::vector<double> &values,
+                                 Factorisation             &factorisation)
+  {
+    // What does not change is known, and seen by the rest.
+    std::vector<double> known(coefficients);
+    for (const unsigned int place : changed)
+      known[place] = 0.;
+    std::vector<double> seen(values);
+    add_compliance(1., known, seen, factorisation);
+    if (changed.empty())
+      return;
+    dealii::Vector<double> z(changed.size());
+    for (unsigned int i = 0; i < changed.size(); ++i)
+      {
+        z[i] = coefficients[changed[i]];
+        for (const auto &[o, value] : rows[i])
+          z[i] -= value * seen[o];
+        if (small_is_positive)
+          z[i] /= rows[i][0].second;
+      }
+    small->solve(z);
+    for (unsigned int i = 0; i < changed.size(); ++i)
+      coefficients[changed[i]] = z[i];
   }
 } // namespace Ricochet

@@ -71,6 +71,7 @@ namespace Ricochet
         };
         Point own;
         own.closing          = *closing_directions(law, point.cell_diameter);
+        own.open_tangent     = open_tangent(law, point.cell_diameter);
         own.test             = add_law(own.closing.test);
         own.trial            = own.closing.trial == own.closing.test
                      ? own.test
