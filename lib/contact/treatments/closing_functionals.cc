@@ -33,9 +33,13 @@ namespace Ricochet
     const double entry = change[closing.row][closing.column];
     if (entry == 0.)
       return {};
-    closing.trial = change[closing.row] / entry;
+    // In the same way, so that they are equal to the last digit where the law is
+    // symmetric.
     for (unsigned int c = 0; c < 3; ++c)
-      closing.test[c] = change[c][closing.column] / entry;
+      {
+        closing.trial[c] = change[closing.row][c] / entry;
+        closing.test[c]  = change[c][closing.column] / entry;
+      }
     for (unsigned int c = 0; c < 3; ++c)
       for (unsigned int d = 0; d < 3; ++d)
         if (std::abs(change[c][d] -
