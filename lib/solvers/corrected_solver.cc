@@ -2,7 +2,7 @@
 #include <base/exceptions.h>
 #include <base/stopwatch.h>
 #include <solvers/corrected_solver.h>
-#include <solvers/kept.h>
+#include <base/kept.h>
 
 namespace Ricochet
 {

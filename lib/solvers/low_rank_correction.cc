@@ -38,6 +38,11 @@ namespace Ricochet
       local_index.push_back(ghosted.trilinos_vector().Map().LID(
         static_cast<TrilinosWrappers::types::int_type>(index)));
 
+    for (const Index index : directions.index)
+      owned_index.push_back(owned.is_element(index)
+                              ? static_cast<int>(owned.index_within_set(index))
+                              : -1);
+
     // The directions of all ranks are sorted.
     using Entry = std::tuple<double, unsigned int, unsigned int>;
     std::vector<Entry> sorted;
@@ -113,10 +118,22 @@ namespace Ricochet
                                    const double       factor,
                                    Vector            &vector) const
   {
-    const int d = direction_at_place[place];
-    if (d >= 0)
-      for (std::size_t k = directions.begin[d]; k < directions.begin[d + 1];
-           ++k)
+    if (direction_at_place[place] >= 0)
+      add_own_direction(direction_at_place[place], factor, vector);
+  }
+
+
+
+  void
+  LowRankCorrection::add_own_direction(const unsigned int d,
+                                       const double       factor,
+                                       Vector            &vector) const
+  {
+    for (std::size_t k = directions.begin[d]; k < directions.begin[d + 1]; ++k)
+      if (owned_index[k] >= 0)
+        vector.trilinos_vector()[0][owned_index[k]] +=
+          factor * directions.value[k];
+      else
         vector(directions.index[k]) += factor * directions.value[k];
   }
 
@@ -340,7 +357,7 @@ namespace Ricochet
   {
     for (unsigned int d = 0; d < coefficients.size(); ++d)
       if (coefficients[d] != 0.)
-        add_direction(place_of_direction[d], coefficients[d], vector);
+        add_own_direction(d, coefficients[d], vector);
     vector.compress(VectorOperation::add);
   }
 

@@ -51,7 +51,7 @@ namespace Ricochet
        * the columns needed and keep them whole, which saves the second
        * back-substitution but serves for a single state.
        */
-      unsigned int group_size = 16;
+      unsigned int group_size = 64;
       /// A is symmetric but for rows that it decouples; then the observables have
       /// to be the directions.
       bool is_symmetric = false;
@@ -135,6 +135,12 @@ namespace Ricochet
                   const double       factor,
                   Vector            &vector) const;
 
+    /// The same for this rank's direction @p d.
+    void
+    add_own_direction(const unsigned int d,
+                      const double       factor,
+                      Vector            &vector) const;
+
     void
     solve_columns(const std::vector<unsigned int> &places,
                   Factorisation                   &factorisation);
@@ -165,6 +171,9 @@ namespace Ricochet
     std::vector<unsigned int> place_of_direction;
     std::vector<int>          direction_at_place;
     std::vector<int>          local_index;
+    // Place of each entry of the directions among the unknowns of this rank; -1:
+    // another rank's.
+    std::vector<int> owned_index;
     // By place: observables of the column, empty if not solved for; the column
     // itself, if those are kept.
     std::vector<std::vector<double>> columns;
