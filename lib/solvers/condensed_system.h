@@ -48,7 +48,8 @@ namespace Ricochet
     add_functionals(const std::vector<double> &coefficients,
                     Vector                    &vector) const = 0;
 
-    /// Add @p factor times the compliance times @p coefficients to @p values.
+    /// Add @p factor times the compliance times @p coefficients to @p values, which
+    /// may be those of the first places only.
     virtual void
     add_compliance(const double               factor,
                    const std::vector<double> &coefficients,

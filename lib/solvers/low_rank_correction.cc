@@ -378,7 +378,7 @@ namespace Ricochet
       {
         const double               weight = factor * coefficients[place];
         const std::vector<double> &column = columns[place];
-        for (unsigned int o = 0; o < n_observables; ++o)
+        for (unsigned int o = 0; o < values.size(); ++o)
           values[o] += weight * column[o];
       }
   }
@@ -394,7 +394,11 @@ namespace Ricochet
     std::vector<double> known(coefficients);
     for (const unsigned int place : changed)
       known[place] = 0.;
-    std::vector<double> seen(values);
+    unsigned int n_seen = 0;
+    for (const Row &row : rows)
+      for (const auto &entry : row)
+        n_seen = std::max(n_seen, entry.first + 1);
+    std::vector<double> seen(values.begin(), values.begin() + n_seen);
     add_compliance(1., known, seen, factorisation);
     if (changed.empty())
       return;

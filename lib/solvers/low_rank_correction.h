@@ -110,7 +110,8 @@ namespace Ricochet
                    Vector                    &vector) const;
 
     /// Add the observables of A^{-1} U @p coefficients, times @p factor, to
-    /// @p values; the coefficients are those of all directions, by place.
+    /// @p values, which may be the first ones only; the coefficients are those of
+    /// all directions, by place.
     void
     add_compliance(const double               factor,
                    const std::vector<double> &coefficients,

@@ -72,11 +72,24 @@ namespace Ricochet
   void
   CondensedStage::residual(const Vector &point, Vector &result)
   {
-    Unknowns            unknowns = read(point);
-    std::vector<double> values(flight_values);
-    for (double &value : values)
-      value *= unknowns.share;
-    system.add_compliance(-1., of_all_ranks(unknowns.coefficients), values);
+    Unknowns                  unknowns = read(point);
+    const std::vector<double> coefficients =
+      of_all_ranks(unknowns.coefficients);
+    // Points far from contact are looked at as if the reaction did not reach them,
+    // until contact comes near. The residual of the whole stage tells if it did
+    // matter.
+    const auto        last      = std::find_if(coefficients.rbegin(),
+                                   coefficients.rend(),
+                                   [](const double z) { return z != 0.; });
+    const std::size_t n_pressed = coefficients.rend() - last;
+    const std::size_t n_near =
+      std::min(coefficients.size(),
+               n_pressed > 0 ? n_pressed + n_pressed / 2 + 64 : 0);
+    std::vector<double> values(n_near, 0.);
+    system.add_compliance(-1., coefficients, values);
+    values.resize(coefficients.size(), 0.);
+    for (unsigned int place = 0; place < values.size(); ++place)
+      values[place] += unknowns.share * flight_values[place];
     std::vector<double> change(unknowns.coefficients.size());
     for (unsigned int f = 0; f < change.size(); ++f)
       change[f] = values[system.place(f)];
