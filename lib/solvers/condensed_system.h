@@ -34,13 +34,20 @@ namespace Ricochet
     virtual unsigned int
     place(const unsigned int f) const = 0;
 
-    /// Solve K @p solution = @p right_hand_side. @throws NewtonFailure
+    /// Begin with the solution of the body alone, K^{-1} @p right_hand_side.
+    /// @throws NewtonFailure
     virtual void
-    solve_body(const Vector &right_hand_side, Vector &solution) = 0;
+    begin(const Vector &right_hand_side) = 0;
 
-    /// Values of all functionals of @p vector.
+    /// The values of the functionals of the body's solution: those of the first
+    /// places, as many as @p values has.
     virtual void
-    observe(const Vector &vector, std::vector<double> &values) = 0;
+    observe(std::vector<double> &values) = 0;
+
+    /// @p solution = that of the body less K^{-1} times the sum of this rank's
+    /// functionals with their @p coefficients. @throws NewtonFailure
+    virtual void
+    finish(const std::vector<double> &coefficients, Vector &solution) = 0;
 
     /// Add the sum of this rank's functionals with their @p coefficients to @p
     /// vector.

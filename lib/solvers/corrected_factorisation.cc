@@ -88,6 +88,7 @@ namespace Ricochet
     restore_rows(&OwnedRow::open);
     if (correction)
       correction->forget_columns();
+    regions.clear();
     return factorisation->factorise(tangent_matrix, false);
   }
 
@@ -226,12 +227,81 @@ namespace Ricochet
 
 
   void
-  CorrectedFactorisation::solve_body(const Vector &right_hand_side,
-                                     Vector       &solution)
+  CorrectedFactorisation::begin(const Vector &right_hand_side)
   {
     const Stopwatch stopwatch(spent.substituting);
     ++spent.n_substitutions;
-    factorisation->solve(right_hand_side, solution);
+    if (body_solution.size() != right_hand_side.size())
+      {
+        body_solution.reinit(right_hand_side);
+        work.reinit(right_hand_side);
+      }
+    if (factorisation->has_halves())
+      factorisation->go_forwards(right_hand_side, half);
+    else
+      factorisation->solve(right_hand_side, body_solution);
+  }
+
+
+
+  void
+  CorrectedFactorisation::observe(std::vector<double> &values)
+  {
+    const Stopwatch stopwatch(spent.substituting);
+    if (factorisation->has_halves() && !values.empty())
+      {
+        const unsigned int n_steps =
+          (values.size() + region_step - 1) / region_step;
+        auto known = regions.find(n_steps);
+        if (known == regions.end())
+          known =
+            regions
+              .emplace(n_steps,
+                       factorisation->region_of(
+                         correction->unknowns_of_first(n_steps * region_step)))
+              .first;
+        factorisation->go_backwards(half, &known->second, body_solution);
+      }
+    correction->observe(body_solution, values);
+  }
+
+
+
+  void
+  CorrectedFactorisation::finish(const std::vector<double> &coefficients,
+                                 Vector                    &solution)
+  {
+    const Stopwatch stopwatch(spent.substituting);
+    const bool      pressed =
+      Utilities::MPI::max(std::any_of(coefficients.begin(),
+                                      coefficients.end(),
+                                      [](const double z) { return z != 0.; })
+                            ? 1
+                            : 0,
+                          tangent_matrix.get_mpi_communicator()) == 1;
+    if (pressed)
+      {
+        ++spent.n_substitutions;
+        work = 0.;
+        correction->add_directions(coefficients, work);
+      }
+    if (factorisation->has_halves())
+      {
+        if (pressed)
+          {
+            factorisation->go_forwards(work, contact_half);
+            for (std::size_t i = 0; i < half.size(); ++i)
+              half[i] -= contact_half[i];
+          }
+        factorisation->go_backwards(half, nullptr, solution);
+        return;
+      }
+    solution = body_solution;
+    if (pressed)
+      {
+        factorisation->solve(work, body_solution);
+        solution -= body_solution;
+      }
   }
 
 

@@ -9,6 +9,7 @@
 #include <solvers/tangent.h>
 #include <solvers/tangent_solver.h>
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -88,13 +89,13 @@ namespace Ricochet
     }
 
     void
-    solve_body(const Vector &right_hand_side, Vector &solution) override;
+    begin(const Vector &right_hand_side) override;
 
     void
-    observe(const Vector &vector, std::vector<double> &values) override
-    {
-      correction->observe(vector, values);
-    }
+    observe(std::vector<double> &values) override;
+
+    void
+    finish(const std::vector<double> &coefficients, Vector &solution) override;
 
     void
     add_functionals(const std::vector<double> &coefficients,
@@ -158,6 +159,13 @@ namespace Ricochet
     std::vector<OwnedRow>                rows;
     std::vector<LowRankCorrection::Row>  change;
     std::unique_ptr<LowRankCorrection>   correction;
+    // The solution of begin(), or half of it.
+    Vector              body_solution, work;
+    std::vector<double> half, contact_half;
+    // Parts of the factorisation that observe() needs, by the number of places in
+    // steps of #region_step.
+    static constexpr unsigned int                 region_step = 64;
+    std::map<unsigned int, Factorisation::Region> regions;
   };
 } // namespace Ricochet
 

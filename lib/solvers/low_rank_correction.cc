@@ -99,9 +99,11 @@ namespace Ricochet
   {
     ghosted             = vector;
     const double *value = ghosted.trilinos_vector()[0];
-    values.assign(n_observables, 0.);
+    std::fill(values.begin(), values.end(), 0.);
     for (unsigned int o = 0; o < observables.size(); ++o)
       {
+        if (place_of_observable[o] >= values.size())
+          continue;
         double sum = 0.;
         for (std::size_t k = observables.begin[o]; k < observables.begin[o + 1];
              ++k)
@@ -109,6 +111,20 @@ namespace Ricochet
         values[place_of_observable[o]] = sum;
       }
     Utilities::MPI::sum(values, communicator, values);
+  }
+
+
+
+  std::vector<LowRankCorrection::Index>
+  LowRankCorrection::unknowns_of_first(const unsigned int n) const
+  {
+    std::vector<Index> unknowns;
+    for (unsigned int d = 0; d < directions.size(); ++d)
+      if (place_of_direction[d] < n)
+        unknowns.insert(unknowns.end(),
+                        directions.index.begin() + directions.begin[d],
+                        directions.index.begin() + directions.begin[d + 1]);
+    return unknowns;
   }
 
 
@@ -156,6 +172,7 @@ namespace Ricochet
     factorisation.solve(units, solutions);
     for (unsigned int c = 0; c < places.size(); ++c)
       {
+        columns[places[c]].resize(n_observables);
         observe(solutions[c], columns[places[c]]);
         if (options.group_size == 0)
           whole_columns[places[c]].swap(solutions[c]);
@@ -327,6 +344,7 @@ namespace Ricochet
     factorisation.solve(right_hand_side, solution);
     if (changed.empty())
       return 1;
+    observed.resize(n_observables);
     observe(solution, observed);
     dealii::Vector<double> y(changed.size());
     for (unsigned int i = 0; i < changed.size(); ++i)

@@ -100,8 +100,13 @@ namespace Ricochet
           Factorisation &factorisation);
 
     /// Values of all observables of @p vector, on all ranks.
+    /// @param values gets the first ones, as many as it has.
     void
     observe(const Vector &vector, std::vector<double> &values);
+
+    /// The unknowns of this rank's directions at the first @p n places.
+    std::vector<Index>
+    unknowns_of_first(const unsigned int n) const;
 
     /// Add the sum of this rank's directions with their @p coefficients to @p
     /// vector.

@@ -21,16 +21,36 @@ namespace Ricochet
     , body_force_scale(problem.force_scale() - contact_scale)
     , contact_force_scale(contact_scale)
     , open_residual(residual)
-    , flight(residual)
     , work(residual)
   {
     contact.force_change(forces);
+    const std::vector<double> all = of_all_ranks(forces);
     for (double &force : forces)
       force = -force;
     system.add_functionals(forces, open_residual);
-    system.solve_body(open_residual, flight);
-    flight *= -1.;
-    system.observe(flight, flight_values);
+    system.begin(open_residual);
+    look_around(all);
+  }
+
+
+
+  void
+  CondensedStage::look_around(const std::vector<double> &coefficients)
+  {
+    // Points far from contact are left as the guess has them, until contact comes
+    // near. The residual of the whole stage tells if they did matter.
+    const auto        last      = std::find_if(coefficients.rbegin(),
+                                   coefficients.rend(),
+                                   [](const double z) { return z != 0.; });
+    const std::size_t n_pressed = coefficients.rend() - last;
+    const std::size_t n_near =
+      std::min(coefficients.size(), n_pressed + n_pressed / 2 + 64);
+    if (n_near <= flight_values.size())
+      return;
+    flight_values.resize(n_near);
+    system.observe(flight_values);
+    for (double &value : flight_values)
+      value = -value;
   }
 
 
@@ -75,24 +95,15 @@ namespace Ricochet
     Unknowns                  unknowns = read(point);
     const std::vector<double> coefficients =
       of_all_ranks(unknowns.coefficients);
-    // Points far from contact are looked at as if the reaction did not reach them,
-    // until contact comes near. The residual of the whole stage tells if it did
-    // matter.
-    const auto        last      = std::find_if(coefficients.rbegin(),
-                                   coefficients.rend(),
-                                   [](const double z) { return z != 0.; });
-    const std::size_t n_pressed = coefficients.rend() - last;
-    const std::size_t n_near =
-      std::min(coefficients.size(),
-               n_pressed > 0 ? n_pressed + n_pressed / 2 + 64 : 0);
-    std::vector<double> values(n_near, 0.);
+    look_around(coefficients);
+    std::vector<double> values(flight_values);
+    for (double &value : values)
+      value *= unknowns.share;
     system.add_compliance(-1., coefficients, values);
-    values.resize(coefficients.size(), 0.);
-    for (unsigned int place = 0; place < values.size(); ++place)
-      values[place] += unknowns.share * flight_values[place];
     std::vector<double> change(unknowns.coefficients.size());
     for (unsigned int f = 0; f < change.size(); ++f)
-      change[f] = values[system.place(f)];
+      change[f] =
+        system.place(f) < values.size() ? values[system.place(f)] : 0.;
     contact.look_at_change(change);
     contact.force_change(forces);
     for (unsigned int f = 0; f < change.size(); ++f)
@@ -132,6 +143,7 @@ namespace Ricochet
     std::vector<double> values(flight_values);
     for (double &value : values)
       value *= -rest.share;
+    values.resize(system.n_functionals(), 0.);
     system.solve_contact(change, coefficients, values);
     for (unsigned int f = 0; f < rest.coefficients.size(); ++f)
       rest.coefficients[f] = -coefficients[system.place(f)];
@@ -175,18 +187,12 @@ namespace Ricochet
                     nullptr},
                    unknowns);
 
-    const Unknowns result = read(unknowns);
-    solution.add(result.share, flight);
-    const bool pressed = std::any_of(result.coefficients.begin(),
-                                     result.coefficients.end(),
-                                     [](const double z) { return z != 0.; });
-    if (Utilities::MPI::max(pressed ? 1 : 0, communicator) == 1)
-      {
-        work = 0.;
-        system.add_functionals(result.coefficients, work);
-        system.solve_body(work, flight);
-        solution -= flight;
-      }
+    // There was at least one step.
+    Unknowns result = read(unknowns);
+    for (double &coefficient : result.coefficients)
+      coefficient /= -result.share;
+    system.finish(result.coefficients, work);
+    solution.add(-result.share, work);
     return history;
   }
 } // namespace Ricochet

@@ -74,15 +74,20 @@ namespace Ricochet
     double
     norm(const Vector &small_residual);
 
+    /// Make #flight_values reach as far as contact with these @p coefficients, of
+    /// all ranks, may; at least.
+    void
+    look_around(const std::vector<double> &coefficients);
+
     const NewtonSolver::Problem &problem;
     CondensedSystem             &system;
     ContactOperator             &contact;
     const MPI_Comm               communicator;
     /// Magnitude of all forces but contact's (N), and of contact's.
     double body_force_scale, contact_force_scale;
-    // The residual at the guess with open contact (N), its solution, and what
-    // that makes of the functionals.
-    Vector              open_residual, flight, work;
+    // The residual at the guess with open contact (N), and what its solution makes
+    // of the functionals, those near contact.
+    Vector              open_residual, work;
     std::vector<double> flight_values;
     std::vector<double> forces;
   };
