@@ -180,6 +180,27 @@ namespace Ricochet
                   dealii::ExcMessage("This contact has no functionals."));
     }
 
+    /// Where the structure has functionals: look at the state where their values (of
+    /// this rank) differ by @p change from those at the last complete_residual(), as
+    /// complete_residual() does. Until that is called again, all but contact_force(),
+    /// friction_force(), and works speak of this state.
+    virtual void
+    look_at_change(const std::vector<double> & /*change*/)
+    {
+      AssertThrow(false,
+                  dealii::ExcMessage("This contact has no functionals."));
+    }
+
+    /// The contact force less what open contact makes of the same state, times the
+    /// stage's weight, as a sum of the functionals: the coefficient of each of this
+    /// rank's (N). Its derivatives are those of tangent_change().
+    virtual void
+    force_change(std::vector<double> & /*coefficients*/) const
+    {
+      AssertThrow(false,
+                  dealii::ExcMessage("This contact has no functionals."));
+    }
+
     /**
      * A number that is the same on all ranks and changes whenever the tangent
      * does, or nothing if the tangent changes with every state.

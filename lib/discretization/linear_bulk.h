@@ -6,6 +6,8 @@
 #include <discretization/bulk_operator.h>
 #include <materials/material.h>
 
+#include <list>
+
 namespace Ricochet
 {
   /**
@@ -79,6 +81,10 @@ namespace Ricochet
     }
 
   private:
+    /// force(), found or made.
+    const Vector &
+    force_at(const Vector &solution) const;
+
     /// Take the mean translation of each part, which stores nothing, out of #work:
     /// far from where it started, the displacement of a body is much larger than
     /// its differences.
@@ -96,6 +102,13 @@ namespace Ricochet
     double                    scale = 0.;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, product;
+    /// The forces of the last few displacements, the latest first: a scheme, its
+    /// balance of energy and the step after it ask for the same ones.
+    struct KnownForce
+    {
+      Vector displacement, force;
+    };
+    mutable std::list<KnownForce> known_forces;
   };
 
   /// Consistent mass matrix (kg) of @p body with the constant @p densities of its

@@ -616,12 +616,13 @@ namespace Ricochet
     std::snprintf(line,
                   sizeof(line),
                   "of the steps: residuals %.3g s, tangents %.3g s, %u "
-                  "factorisations %.3g s, back-substitutions %.3g s",
+                  "factorisations %.3g s, back-substitutions %.3g s (%u)",
                   shares.residual,
                   shares.tangent,
                   system.n_factorisations(),
                   shares.factorisation,
-                  shares.back_substitution);
+                  shares.back_substitution,
+                  system.n_back_substitutions());
     folder.log(line);
     folder.log("linear solver: " + system.linear_solver_description());
     Utilities::System::MemoryStats memory;

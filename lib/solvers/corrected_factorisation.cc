@@ -17,12 +17,12 @@ namespace Ricochet
     const Correction                  correction,
     const ContactStructure           &contact,
     const LowRankCorrection::Options &options,
-    double                           &factorising)
+    TangentSolver::Costs             &spent)
     : factorisation(std::move(factorisation))
     , kind(correction)
     , contact(contact)
     , options(options)
-    , factorising(factorising)
+    , spent(spent)
   {}
 
 
@@ -75,7 +75,7 @@ namespace Ricochet
         tangent_matrix.get_mpi_communicator(),
         contact.functionals->functionals,
         contact.functionals->order,
-        contact.functionals->functionals,
+        std::nullopt,
         options);
   }
 
@@ -84,10 +84,11 @@ namespace Ricochet
   bool
   CorrectedFactorisation::factorise()
   {
-    const Stopwatch stopwatch(factorising);
+    const Stopwatch stopwatch(spent.factorising);
     restore_rows(&OwnedRow::open);
     if (correction)
       correction->forget_columns();
+    regions.clear();
     return factorisation->factorise(tangent_matrix, false);
   }
 
@@ -189,11 +190,22 @@ namespace Ricochet
         for (LowRankCorrection::Row &row : change)
           row.clear();
         tangent.contact_change(change);
-        for (LowRankCorrection::Row &row : change)
-          for (auto &entry : row)
-            entry.first += correction->first_observable();
+        set_change_of_functionals();
+        return;
       }
-    const Stopwatch stopwatch(factorising);
+    const Stopwatch stopwatch(spent.factorising);
+    correction->set_change(change, *factorisation);
+  }
+
+
+
+  void
+  CorrectedFactorisation::set_change_of_functionals()
+  {
+    const Stopwatch stopwatch(spent.factorising);
+    for (LowRankCorrection::Row &row : change)
+      for (auto &entry : row)
+        entry.first = correction->place(entry.first);
     correction->set_change(change, *factorisation);
   }
 
@@ -203,8 +215,118 @@ namespace Ricochet
   CorrectedFactorisation::solve(const Vector &right_hand_side, Vector &solution)
   {
     if (correction)
-      correction->solve(right_hand_side, solution, *factorisation);
+      spent.n_substitutions +=
+        correction->solve(right_hand_side, solution, *factorisation);
     else
-      factorisation->solve(right_hand_side, solution);
+      {
+        ++spent.n_substitutions;
+        factorisation->solve(right_hand_side, solution);
+      }
+  }
+
+
+
+  void
+  CorrectedFactorisation::begin(const Vector &right_hand_side)
+  {
+    const Stopwatch stopwatch(spent.substituting);
+    ++spent.n_substitutions;
+    if (body_solution.size() != right_hand_side.size())
+      {
+        body_solution.reinit(right_hand_side);
+        work.reinit(right_hand_side);
+      }
+    if (factorisation->has_halves())
+      factorisation->go_forwards(right_hand_side, half);
+    else
+      factorisation->solve(right_hand_side, body_solution);
+  }
+
+
+
+  void
+  CorrectedFactorisation::observe(std::vector<double> &values)
+  {
+    const Stopwatch stopwatch(spent.substituting);
+    if (factorisation->has_halves() && !values.empty())
+      {
+        const unsigned int n_steps =
+          (values.size() + region_step - 1) / region_step;
+        auto known = regions.find(n_steps);
+        if (known == regions.end())
+          known =
+            regions
+              .emplace(n_steps,
+                       factorisation->region_of(
+                         correction->unknowns_of_first(n_steps * region_step)))
+              .first;
+        factorisation->go_backwards(half, &known->second, body_solution);
+      }
+    correction->observe(body_solution, values);
+  }
+
+
+
+  void
+  CorrectedFactorisation::finish(const std::vector<double> &coefficients,
+                                 Vector                    &solution)
+  {
+    const Stopwatch stopwatch(spent.substituting);
+    const bool      pressed =
+      Utilities::MPI::max(std::any_of(coefficients.begin(),
+                                      coefficients.end(),
+                                      [](const double z) { return z != 0.; })
+                            ? 1
+                            : 0,
+                          tangent_matrix.get_mpi_communicator()) == 1;
+    if (pressed)
+      {
+        ++spent.n_substitutions;
+        work = 0.;
+        correction->add_directions(coefficients, work);
+      }
+    if (factorisation->has_halves())
+      {
+        if (pressed)
+          {
+            factorisation->go_forwards(work, contact_half);
+            for (std::size_t i = 0; i < half.size(); ++i)
+              half[i] -= contact_half[i];
+          }
+        factorisation->go_backwards(half, nullptr, solution);
+        return;
+      }
+    solution = body_solution;
+    if (pressed)
+      {
+        factorisation->solve(work, body_solution);
+        solution -= body_solution;
+      }
+  }
+
+
+
+  void
+  CorrectedFactorisation::add_compliance(
+    const double               factor,
+    const std::vector<double> &coefficients,
+    std::vector<double>       &values)
+  {
+    const Stopwatch stopwatch(spent.factorising);
+    correction->add_compliance(factor, coefficients, values, *factorisation);
+  }
+
+
+
+  void
+  CorrectedFactorisation::solve_contact(
+    const std::vector<FunctionalRow> &new_change,
+    std::vector<double>              &coefficients,
+    const std::vector<double>        &values)
+  {
+    change = new_change;
+    set_change_of_functionals();
+    const Stopwatch stopwatch(spent.factorising);
+    correction->solve_small(coefficients, values, *factorisation);
   }
 } // namespace Ricochet

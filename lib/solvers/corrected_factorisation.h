@@ -4,9 +4,12 @@
 
 #include <base/types.h>
 #include <solvers/factorisation.h>
+#include <solvers/condensed_system.h>
 #include <solvers/low_rank_correction.h>
 #include <solvers/tangent.h>
+#include <solvers/tangent_solver.h>
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -20,7 +23,7 @@ namespace Ricochet
    * The matrix of the body is that with open contact, which is the matrix of the
    * body alone for most treatments.
    */
-  class CorrectedFactorisation
+  class CorrectedFactorisation : public CondensedSystem
   {
   public:
     using Index = Factorisation::Index;
@@ -41,16 +44,16 @@ namespace Ricochet
      * @param factorisation of the body's matrix.
      * @param contact rows and functionals.
      * @param options of the correction.
-     * @param factorising gets the time that it takes to factor and to solve for
-     * columns added (s).
+     * @param spent gets what it takes to factor and to solve for columns added, and
+     * the number of solutions.
      */
     CorrectedFactorisation(std::unique_ptr<Factorisation>    factorisation,
                            const Correction                  correction,
                            const ContactStructure           &contact,
                            const LowRankCorrection::Options &options,
-                           double                           &factorising);
+                           TangentSolver::Costs             &spent);
 
-    ~CorrectedFactorisation();
+    ~CorrectedFactorisation() override;
 
     /**
      * A new matrix of the body, that of @p tangent with open contact. It is not
@@ -70,6 +73,46 @@ namespace Ricochet
 
     void
     solve(const Vector &right_hand_side, Vector &solution);
+
+    // As a system condensed to functionals, if contact enters by them; the body
+    // has to be factored.
+    unsigned int
+    n_functionals() const override
+    {
+      return correction->n_places();
+    }
+
+    unsigned int
+    place(const unsigned int f) const override
+    {
+      return correction->place(f);
+    }
+
+    void
+    begin(const Vector &right_hand_side) override;
+
+    void
+    observe(std::vector<double> &values) override;
+
+    void
+    finish(const std::vector<double> &coefficients, Vector &solution) override;
+
+    void
+    add_functionals(const std::vector<double> &coefficients,
+                    Vector                    &vector) const override
+    {
+      correction->add_directions(coefficients, vector);
+    }
+
+    void
+    add_compliance(const double               factor,
+                   const std::vector<double> &coefficients,
+                   std::vector<double>       &values) override;
+
+    void
+    solve_contact(const std::vector<FunctionalRow> &change,
+                  std::vector<double>              &coefficients,
+                  const std::vector<double>        &values) override;
 
     /// The tangent of the last set_contact(), unless contact enters by
     /// functionals.
@@ -95,6 +138,11 @@ namespace Ricochet
     void
     make_row_correction();
 
+    /// The rows of #change are those between this rank's functionals; give it to
+    /// the correction.
+    void
+    set_change_of_functionals();
+
     void
     save_rows(std::vector<double> OwnedRow::*copy);
 
@@ -107,10 +155,17 @@ namespace Ricochet
     const Correction                     kind;
     const ContactStructure              &contact;
     const LowRankCorrection::Options     options;
-    double                              &factorising;
+    TangentSolver::Costs                &spent;
     std::vector<OwnedRow>                rows;
     std::vector<LowRankCorrection::Row>  change;
     std::unique_ptr<LowRankCorrection>   correction;
+    // The solution of begin(), or half of it.
+    Vector              body_solution, work;
+    std::vector<double> half, contact_half;
+    // Parts of the factorisation that observe() needs, by the number of places in
+    // steps of #region_step.
+    static constexpr unsigned int                 region_step = 64;
+    std::map<unsigned int, Factorisation::Region> regions;
   };
 } // namespace Ricochet
 

@@ -2,7 +2,7 @@
 #include <base/exceptions.h>
 #include <base/stopwatch.h>
 #include <solvers/corrected_solver.h>
-#include <solvers/kept.h>
+#include <base/kept.h>
 
 namespace Ricochet
 {
@@ -26,7 +26,7 @@ namespace Ricochet
                             : CorrectedFactorisation::Correction::rows,
                           contact,
                           options,
-                          spent.factorising)};
+                          spent)};
         entry.factorisation->set_body(tangent);
         ++spent.n_factorisations;
         if (entry.factorisation->factorise())
@@ -39,6 +39,31 @@ namespace Ricochet
 
 
 
+  CorrectedSolver::Corrected &
+  CorrectedSolver::find(const Tangent &tangent)
+  {
+    return find_or_make(
+      kept,
+      n_kept,
+      [&](const Corrected &corrected) {
+        return corrected.body == tangent.body;
+      },
+      [&]() { return factorise_body(tangent); });
+  }
+
+
+
+  CondensedSystem &
+  CorrectedSolver::condensed(const Tangent &tangent)
+  {
+    // It will change what it has of contact.
+    Corrected &entry = find(tangent);
+    entry.contact.reset();
+    return *entry.factorisation;
+  }
+
+
+
   bool
   CorrectedSolver::solve(const Tangent &tangent,
                          const Vector  &right_hand_side,
@@ -46,13 +71,7 @@ namespace Ricochet
                          const bool /*may_reuse*/,
                          const double /*tolerance*/)
   {
-    Corrected &entry = find_or_make(
-      kept,
-      n_kept,
-      [&](const Corrected &corrected) {
-        return corrected.body == tangent.body;
-      },
-      [&]() { return factorise_body(tangent); });
+    Corrected &entry = find(tangent);
     // A state of contact with a name need not be put again.
     if (tangent.complete_contact &&
         !(tangent.contact && entry.contact == tangent.contact))

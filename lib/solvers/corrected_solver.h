@@ -42,6 +42,16 @@ namespace Ricochet
           const bool     may_reuse,
           const double   tolerance) override;
 
+    /// Where contact enters by functionals.
+    bool
+    condenses() const override
+    {
+      return contact.functionals.has_value();
+    }
+
+    CondensedSystem &
+    condensed(const Tangent &tangent) override;
+
   private:
     /// A factored body, its name, and that of the contact last put to it.
     struct Corrected
@@ -53,6 +63,10 @@ namespace Ricochet
 
     Corrected
     factorise_body(const Tangent &tangent);
+
+    /// That of the body of @p tangent, made if there is none.
+    Corrected &
+    find(const Tangent &tangent);
 
     const FactorisationChoice factorisations;
     const unsigned int        n_kept;

@@ -2,7 +2,7 @@
 #include <base/exceptions.h>
 #include <base/stopwatch.h>
 #include <solvers/direct_solver.h>
-#include <solvers/kept.h>
+#include <base/kept.h>
 
 namespace Ricochet
 {
@@ -66,6 +66,7 @@ namespace Ricochet
       }
 
     const Stopwatch stopwatch(spent.substituting);
+    ++spent.n_substitutions;
     entry->factorisation->solve(right_hand_side, solution);
     return true;
   }

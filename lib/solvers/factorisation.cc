@@ -9,6 +9,32 @@
 #include <algorithm>
 #include <cmath>
 
+extern "C"
+{
+  // BLAS
+  void
+  dtrsv_(const char   *triangle,
+         const char   *transpose,
+         const char   *diagonal,
+         const int    *n,
+         const double *matrix,
+         const int    *stride,
+         double       *vector,
+         const int    *step);
+  void
+  dgemv_(const char   *transpose,
+         const int    *n_rows,
+         const int    *n_columns,
+         const double *factor,
+         const double *matrix,
+         const int    *stride,
+         const double *vector,
+         const int    *step,
+         const double *old_factor,
+         double       *result,
+         const int    *result_step);
+}
+
 namespace Ricochet
 {
   using namespace dealii;
@@ -150,7 +176,117 @@ namespace Ricochet
             one_sided.clear();
           }
         cholesky.factorize(symmetric);
-        return cholesky.info() == Eigen::Success;
+        if (cholesky.info() != Eigen::Success)
+          return false;
+        find_supernodes();
+        return true;
+      }
+
+      bool
+      has_halves() const override
+      {
+        return !supernode_of.empty() && one_sided.empty();
+      }
+
+      Region
+      region_of(const std::vector<Index> &unknowns) const override
+      {
+        std::vector<bool> is_needed(supernodes.size(), false);
+        for (const Index unknown : unknowns)
+          is_needed[supernode_of[place_in_factor[unknown]]] = true;
+        return with_ancestors(is_needed);
+      }
+
+      void
+      go_forwards(const Vector        &right_hand_side,
+                  std::vector<double> &half) override
+      {
+        const int     n      = symmetric.rows();
+        const double *values = right_hand_side.trilinos_vector()[0];
+        half.assign(n, 0.);
+        std::vector<bool> is_needed(supernodes.size(), false);
+        for (int i = 0; i < n; ++i)
+          if (values[i] != 0.)
+            {
+              half[place_in_factor[i]]                    = sign[i] * values[i];
+              is_needed[supernode_of[place_in_factor[i]]] = true;
+            }
+        const double minus_one = -1., zero = 0.;
+        const int    one = 1;
+        for (const int s : with_ancestors(is_needed))
+          {
+            const Supernode &node = supernodes[s];
+            double          *own  = half.data() + node.first_column;
+            dtrsv_("L",
+                   "N",
+                   "N",
+                   &node.n_columns,
+                   node.values,
+                   &node.n_rows,
+                   own,
+                   &one);
+            const int n_below = node.n_rows - node.n_columns;
+            if (n_below == 0)
+              continue;
+            dgemv_("N",
+                   &n_below,
+                   &node.n_columns,
+                   &minus_one,
+                   node.values + node.n_columns,
+                   &node.n_rows,
+                   own,
+                   &one,
+                   &zero,
+                   below.data(),
+                   &one);
+            for (int i = 0; i < n_below; ++i)
+              half[node.rows[node.n_columns + i]] += below[i];
+          }
+      }
+
+      void
+      go_backwards(const std::vector<double> &half,
+                   const Region              *region,
+                   Vector                    &solution) override
+      {
+        std::vector<double> values(half);
+        const double        minus_one = -1., plus_one = 1.;
+        const int           one = 1;
+        const std::size_t   n_visited =
+          region ? region->size() : supernodes.size();
+        for (std::size_t k = n_visited; k-- > 0;)
+          {
+            const Supernode &node    = supernodes[region ? (*region)[k] : k];
+            double          *own     = values.data() + node.first_column;
+            const int        n_below = node.n_rows - node.n_columns;
+            if (n_below > 0)
+              {
+                for (int i = 0; i < n_below; ++i)
+                  below[i] = values[node.rows[node.n_columns + i]];
+                dgemv_("T",
+                       &n_below,
+                       &node.n_columns,
+                       &minus_one,
+                       node.values + node.n_columns,
+                       &node.n_rows,
+                       below.data(),
+                       &one,
+                       &plus_one,
+                       own,
+                       &one);
+              }
+            dtrsv_("L",
+                   "T",
+                   "N",
+                   &node.n_columns,
+                   node.values,
+                   &node.n_rows,
+                   own,
+                   &one);
+          }
+        double *result = solution.trilinos_vector()[0];
+        for (unsigned int i = 0; i < values.size(); ++i)
+          result[i] = values[place_in_factor[i]];
       }
 
       void
@@ -179,6 +315,82 @@ namespace Ricochet
       }
 
     private:
+      /// Gives access to the factor.
+      struct Cholesky
+        : Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower>
+      {
+        const cholmod_factor *
+        factor() const
+        {
+          return m_cholmodFactor;
+        }
+      };
+
+      /// Columns of the factor with the same rows below them, as CHOLMOD keeps them:
+      /// a dense matrix of all these rows, the columns' own ones first.
+      struct Supernode
+      {
+        int           first_column, n_columns, n_rows;
+        const int    *rows;
+        const double *values;
+        /// The one to which the first row below belongs; -1: none.
+        int parent;
+      };
+
+      /// None where the factor has none.
+      void
+      find_supernodes()
+      {
+        supernodes.clear();
+        supernode_of.clear();
+        const cholmod_factor *factor = cholesky.factor();
+        if (!factor->is_super || !factor->is_ll ||
+            factor->itype != CHOLMOD_INT || factor->dtype != CHOLMOD_DOUBLE)
+          return;
+        const auto *order = static_cast<const int *>(factor->Perm);
+        place_in_factor.resize(factor->n);
+        for (unsigned int k = 0; k < factor->n; ++k)
+          place_in_factor[order[k]] = k;
+        const auto *first       = static_cast<const int *>(factor->super);
+        const auto *first_row   = static_cast<const int *>(factor->pi);
+        const auto *first_value = static_cast<const int *>(factor->px);
+        const auto *rows        = static_cast<const int *>(factor->s);
+        const auto *values      = static_cast<const double *>(factor->x);
+        supernode_of.resize(factor->n);
+        int largest = 0;
+        for (unsigned int s = 0; s < factor->nsuper; ++s)
+          {
+            supernodes.push_back({first[s],
+                                  first[s + 1] - first[s],
+                                  first_row[s + 1] - first_row[s],
+                                  rows + first_row[s],
+                                  values + first_value[s],
+                                  -1});
+            for (int column = first[s]; column < first[s + 1]; ++column)
+              supernode_of[column] = s;
+            largest = std::max(largest, supernodes.back().n_rows);
+          }
+        for (Supernode &node : supernodes)
+          if (node.n_rows > node.n_columns)
+            node.parent = supernode_of[node.rows[node.n_columns]];
+        below.resize(largest);
+      }
+
+      /// The supernodes that are needed, and all that come after them, in their order.
+      Region
+      with_ancestors(std::vector<bool> &is_needed) const
+      {
+        Region region;
+        for (unsigned int s = 0; s < supernodes.size(); ++s)
+          if (is_needed[s])
+            {
+              region.push_back(s);
+              if (supernodes[s].parent >= 0)
+                is_needed[supernodes[s].parent] = true;
+            }
+        return region;
+      }
+
       /// Where an entry of the lower triangle and its mirror image are among
       /// the values of the matrix.
       struct Place
@@ -313,8 +525,11 @@ namespace Ricochet
       std::vector<Coupling>       one_sided;
       Eigen::VectorXd             sign;
       Eigen::MatrixXd             right, result;
-      Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower>
-        cholesky;
+      Cholesky                    cholesky;
+      // Of a supernodal factor; by its order of the unknowns.
+      std::vector<Supernode> supernodes;
+      std::vector<int>       supernode_of, place_in_factor;
+      std::vector<double>    below;
     };
   } // namespace
 

@@ -42,6 +42,39 @@ namespace Ricochet
     virtual void
     solve(const std::vector<Vector> &right_hand_sides,
           std::vector<Vector>       &solutions);
+
+    /// Whether the functions below can be used since the last factorise(): with
+    /// matrix = L L^T (but for the order of the unknowns), a solution is the way
+    /// forwards through L and the one backwards through L^T, and where only a part
+    /// of it is asked for, or little is on the right hand side, a part of L will do.
+    virtual bool
+    has_halves() const
+    {
+      return false;
+    }
+
+    /// The part of L that it takes to know some unknowns.
+    using Region = std::vector<int>;
+
+    virtual Region
+    region_of(const std::vector<Index> & /*unknowns*/) const
+    {
+      return {};
+    }
+
+    /// @p half = L^{-1} @p right_hand_side, in an order of its own.
+    virtual void
+    go_forwards(const Vector & /*right_hand_side*/,
+                std::vector<double> & /*half*/)
+    {}
+
+    /// @p solution = L^{-T} @p half; with a @p region only there, and elsewhere
+    /// nothing of meaning.
+    virtual void
+    go_backwards(const std::vector<double> & /*half*/,
+                 const Region * /*region*/,
+                 Vector & /*solution*/)
+    {}
   };
 
   /// LU factorisation of any matrix by @p package of Trilinos' Amesos, "KLU" or

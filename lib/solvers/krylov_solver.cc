@@ -28,7 +28,7 @@ namespace Ricochet
             : CorrectedFactorisation::Correction::rows,
           contact,
           LowRankCorrection::Options{0, false},
-          spent.factorising);
+          spent);
         stage_begins = true;
       }
     // An older tangent only serves after it was set up once in this stage.

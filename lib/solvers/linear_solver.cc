@@ -20,6 +20,7 @@ namespace Ricochet
                              const std::size_t                   n_unknowns,
                              const unsigned int                  n_ranks)
     : linear_body(linear_body)
+    , may_condense(parameters.condense && linear_body)
     , factorisations{parameters.factorisation, dim, n_unknowns, n_ranks}
     , type(parameters.type)
   {
@@ -135,6 +136,14 @@ namespace Ricochet
       "contact points are active (Type = direct) with the same time step. More "
       "cost memory.",
       Patterns::Integer(1, 1000));
+    parameters.add_parameter(
+      "Condense to contact",
+      condense,
+      "Linear bodies with Type = corrected before planes at rest, with treatments "
+      "whose forces are functions of gaps, pressures and slips in points (not active "
+      "sets): Newton's method looks at these alone and the body is solved for twice "
+      "in each stage of a time step, instead of twice in each iteration. Results are "
+      "the same to the tolerance of Newton's method.");
     parameters.leave_subsection();
   }
 
@@ -176,6 +185,22 @@ namespace Ricochet
 
 
 
+  bool
+  LinearSolver::condenses() const
+  {
+    return may_condense && ways.front()->condenses();
+  }
+
+
+
+  CondensedSystem &
+  LinearSolver::condensed(const Tangent &tangent)
+  {
+    return ways.front()->condensed(tangent);
+  }
+
+
+
   void
   LinearSolver::begin_stage()
   {
@@ -202,6 +227,17 @@ namespace Ricochet
     double sum = 0.;
     for (const auto &way : ways)
       sum += way->costs().factorising;
+    return sum;
+  }
+
+
+
+  unsigned int
+  LinearSolver::n_back_substitutions() const
+  {
+    unsigned int sum = 0;
+    for (const auto &way : ways)
+      sum += way->costs().n_substitutions;
     return sum;
   }
 

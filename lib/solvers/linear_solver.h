@@ -41,6 +41,8 @@ namespace Ricochet
       /// "automatic", "CHOLMOD", "KLU" or "MUMPS".
       std::string  factorisation = "automatic";
       unsigned int n_kept        = 8;
+      /// Let Newton's method look at contact alone where it can.
+      bool condense = true;
 
       void
       add_parameters(dealii::ParameterHandler &parameters);
@@ -81,6 +83,17 @@ namespace Ricochet
           const bool     may_reuse,
           const double   tolerance);
 
+    /// Whether there is a condensed() system.
+    bool
+    condenses() const;
+
+    /// The matrix of the linear body of @p tangent condensed to the functionals
+    /// through which contact acts, which serves until the next solve(). @pre
+    /// condenses()
+    /// @throws NewtonFailure when the body's matrix cannot be factored.
+    CondensedSystem &
+    condensed(const Tangent &tangent);
+
     /// Between two calls pivots are kept, which is faster; after one, results do
     /// not depend on what came before, so that a resumed run repeats them digit
     /// for digit.
@@ -96,6 +109,11 @@ namespace Ricochet
     double
     factorisation_seconds() const;
 
+    /// Number of solutions with factorisations, but for what is solved once and
+    /// kept.
+    unsigned int
+    n_back_substitutions() const;
+
     /// Time spent in solving with factorisations or multigrid (s).
     double
     back_substitution_seconds() const;
@@ -105,7 +123,7 @@ namespace Ricochet
     description() const;
 
   private:
-    const bool                linear_body;
+    const bool                linear_body, may_condense;
     const FactorisationChoice factorisations;
     std::string               type;
     // The ways to solve, one after the other until one succeeds.

@@ -20,23 +20,16 @@ namespace Ricochet
                                        const MPI_Comm             communicator,
                                        Functionals                directions_,
                                        const std::vector<double> &order,
-                                       Functionals                observables_,
+                                       std::optional<Functionals> observables_,
                                        const Options             &options)
     : communicator(communicator)
     , directions(std::move(directions_))
-    , observables(std::move(observables_))
+    , own_observables(std::move(observables_))
+    , observables(own_observables ? *own_observables : directions)
     , options(options)
     , work(owned, communicator)
   {
     const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
-
-    // The observables of all ranks stand one behind the other.
-    const auto sizes =
-      Utilities::MPI::all_gather(communicator, observables.size());
-    my_first_observable =
-      std::accumulate(sizes.begin(), sizes.begin() + my_rank, 0u);
-    n_observables = std::accumulate(sizes.begin(), sizes.end(), 0u);
-    observed.resize(n_observables);
 
     IndexSet relevant = owned;
     relevant.add_indices(observables.index.begin(), observables.index.end());
@@ -44,6 +37,11 @@ namespace Ricochet
     for (const Index index : observables.index)
       local_index.push_back(ghosted.trilinos_vector().Map().LID(
         static_cast<TrilinosWrappers::types::int_type>(index)));
+
+    for (const Index index : directions.index)
+      owned_index.push_back(owned.is_element(index)
+                              ? static_cast<int>(owned.index_within_set(index))
+                              : -1);
 
     // The directions of all ranks are sorted.
     using Entry = std::tuple<double, unsigned int, unsigned int>;
@@ -61,6 +59,24 @@ namespace Ricochet
           place_of_direction[std::get<2>(sorted[place])] = place;
           direction_at_place[place] = std::get<2>(sorted[place]);
         }
+
+    // The observables of all ranks stand one behind the other, unless they are the
+    // directions: those that contact needs together lie together.
+    if (own_observables)
+      {
+        const auto sizes =
+          Utilities::MPI::all_gather(communicator, observables.size());
+        n_observables = std::accumulate(sizes.begin(), sizes.end(), 0u);
+        place_of_observable.resize(observables.size());
+        std::iota(place_of_observable.begin(),
+                  place_of_observable.end(),
+                  std::accumulate(sizes.begin(), sizes.begin() + my_rank, 0u));
+      }
+    else
+      {
+        n_observables       = n_places();
+        place_of_observable = place_of_direction;
+      }
     forget_columns();
   }
 
@@ -83,16 +99,32 @@ namespace Ricochet
   {
     ghosted             = vector;
     const double *value = ghosted.trilinos_vector()[0];
-    values.assign(n_observables, 0.);
+    std::fill(values.begin(), values.end(), 0.);
     for (unsigned int o = 0; o < observables.size(); ++o)
       {
+        if (place_of_observable[o] >= values.size())
+          continue;
         double sum = 0.;
         for (std::size_t k = observables.begin[o]; k < observables.begin[o + 1];
              ++k)
           sum += observables.value[k] * value[local_index[k]];
-        values[my_first_observable + o] = sum;
+        values[place_of_observable[o]] = sum;
       }
     Utilities::MPI::sum(values, communicator, values);
+  }
+
+
+
+  std::vector<LowRankCorrection::Index>
+  LowRankCorrection::unknowns_of_first(const unsigned int n) const
+  {
+    std::vector<Index> unknowns;
+    for (unsigned int d = 0; d < directions.size(); ++d)
+      if (place_of_direction[d] < n)
+        unknowns.insert(unknowns.end(),
+                        directions.index.begin() + directions.begin[d],
+                        directions.index.begin() + directions.begin[d + 1]);
+    return unknowns;
   }
 
 
@@ -102,10 +134,22 @@ namespace Ricochet
                                    const double       factor,
                                    Vector            &vector) const
   {
-    const int d = direction_at_place[place];
-    if (d >= 0)
-      for (std::size_t k = directions.begin[d]; k < directions.begin[d + 1];
-           ++k)
+    if (direction_at_place[place] >= 0)
+      add_own_direction(direction_at_place[place], factor, vector);
+  }
+
+
+
+  void
+  LowRankCorrection::add_own_direction(const unsigned int d,
+                                       const double       factor,
+                                       Vector            &vector) const
+  {
+    for (std::size_t k = directions.begin[d]; k < directions.begin[d + 1]; ++k)
+      if (owned_index[k] >= 0)
+        vector.trilinos_vector()[0][owned_index[k]] +=
+          factor * directions.value[k];
+      else
         vector(directions.index[k]) += factor * directions.value[k];
   }
 
@@ -128,6 +172,7 @@ namespace Ricochet
     factorisation.solve(units, solutions);
     for (unsigned int c = 0; c < places.size(); ++c)
       {
+        columns[places[c]].resize(n_observables);
         observe(solutions[c], columns[places[c]]);
         if (options.group_size == 0)
           whole_columns[places[c]].swap(solutions[c]);
@@ -137,10 +182,12 @@ namespace Ricochet
 
 
   void
-  LowRankCorrection::solve_missing_columns(Factorisation &factorisation)
+  LowRankCorrection::solve_missing_columns(
+    const std::vector<unsigned int> &needed,
+    Factorisation                   &factorisation)
   {
     std::vector<unsigned int> missing;
-    for (const unsigned int place : changed)
+    for (const unsigned int place : needed)
       if (columns[place].empty())
         missing.push_back(place);
     if (options.group_size == 0)
@@ -169,16 +216,11 @@ namespace Ricochet
   {
     if (!options.is_symmetric)
       return false;
-    for (unsigned int i = 0; i < changed.size(); ++i)
-      if (rows[i].size() != 1 || !(rows[i][0].second > 0.))
-        return false;
     // Each direction observes itself: then V^T A^{-1} U is symmetric.
     for (unsigned int i = 0; i < changed.size(); ++i)
-      {
-        const int d = direction_at_place[changed[i]];
-        if (d >= 0 && rows[i][0].first != my_first_observable + d)
-          return false;
-      }
+      if (rows[i].size() != 1 || !(rows[i][0].second > 0.) ||
+          rows[i][0].first != changed[i])
+        return false;
     return true;
   }
 
@@ -218,7 +260,7 @@ namespace Ricochet
       }
     if (!changed.empty())
       {
-        solve_missing_columns(factorisation);
+        solve_missing_columns(changed, factorisation);
         factorise_small();
       }
     has_change = true;
@@ -231,8 +273,7 @@ namespace Ricochet
   {
     const unsigned int n = changed.size();
     small                = std::make_unique<LAPACKFullMatrix<double>>(n, n);
-    small_is_positive =
-      Utilities::MPI::min(is_positive() ? 1 : 0, communicator) == 1;
+    small_is_positive    = is_positive();
     if (small_is_positive)
       {
         // Divided by C, the system is symmetric and positive definite. Cholesky's
@@ -295,14 +336,15 @@ namespace Ricochet
 
 
 
-  void
+  unsigned int
   LowRankCorrection::solve(const Vector  &right_hand_side,
                            Vector        &solution,
                            Factorisation &factorisation)
   {
     factorisation.solve(right_hand_side, solution);
     if (changed.empty())
-      return;
+      return 1;
+    observed.resize(n_observables);
     observe(solution, observed);
     dealii::Vector<double> y(changed.size());
     for (unsigned int i = 0; i < changed.size(); ++i)
@@ -313,7 +355,7 @@ namespace Ricochet
       {
         for (unsigned int i = 0; i < changed.size(); ++i)
           solution.add(-y[i], whole_columns[changed[i]]);
-        return;
+        return 1;
       }
     // The sum of the directions first: it gathers entries from other ranks.
     work = 0.;
@@ -322,5 +364,73 @@ namespace Ricochet
     work.compress(VectorOperation::add);
     work += right_hand_side;
     factorisation.solve(work, solution);
+    return 2;
+  }
+
+
+
+  void
+  LowRankCorrection::add_directions(const std::vector<double> &coefficients,
+                                    Vector                    &vector) const
+  {
+    for (unsigned int d = 0; d < coefficients.size(); ++d)
+      if (coefficients[d] != 0.)
+        add_own_direction(d, coefficients[d], vector);
+    vector.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  LowRankCorrection::add_compliance(const double               factor,
+                                    const std::vector<double> &coefficients,
+                                    std::vector<double>       &values,
+                                    Factorisation             &factorisation)
+  {
+    std::vector<unsigned int> places;
+    for (unsigned int place = 0; place < coefficients.size(); ++place)
+      if (coefficients[place] != 0.)
+        places.push_back(place);
+    solve_missing_columns(places, factorisation);
+    for (const unsigned int place : places)
+      {
+        const double               weight = factor * coefficients[place];
+        const std::vector<double> &column = columns[place];
+        for (unsigned int o = 0; o < values.size(); ++o)
+          values[o] += weight * column[o];
+      }
+  }
+
+
+
+  void
+  LowRankCorrection::solve_small(std::vector<double>       &coefficients,
+                                 const std::vector<double> &values,
+                                 Factorisation             &factorisation)
+  {
+    // What does not change is known, and seen by the rest.
+    std::vector<double> known(coefficients);
+    for (const unsigned int place : changed)
+      known[place] = 0.;
+    unsigned int n_seen = 0;
+    for (const Row &row : rows)
+      for (const auto &entry : row)
+        n_seen = std::max(n_seen, entry.first + 1);
+    std::vector<double> seen(values.begin(), values.begin() + n_seen);
+    add_compliance(1., known, seen, factorisation);
+    if (changed.empty())
+      return;
+    dealii::Vector<double> z(changed.size());
+    for (unsigned int i = 0; i < changed.size(); ++i)
+      {
+        z[i] = coefficients[changed[i]];
+        for (const auto &[o, value] : rows[i])
+          z[i] -= value * seen[o];
+        if (small_is_positive)
+          z[i] /= rows[i][0].second;
+      }
+    small->solve(z);
+    for (unsigned int i = 0; i < changed.size(); ++i)
+      coefficients[changed[i]] = z[i];
   }
 } // namespace Ricochet

@@ -10,6 +10,7 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace Ricochet
@@ -26,6 +27,11 @@ namespace Ricochet
    * C count. The observables V^T A^{-1} u_i of their columns are solved for once
    * and kept: a new state of contact costs a small dense factorisation, a
    * solution two back-substitutions.
+   *
+   * Newton's method on a problem that is linear but for what acts along the
+   * directions needs no solutions in between: with x = x_0 - A^{-1} U z all it
+   * asks for are the observables V^T x_0 - (V^T A^{-1} U) z and solutions with the
+   * small matrix, see add_compliance() and solve_small().
    *
    * All functions are collective. The small dense system lives on all ranks.
    */
@@ -45,29 +51,38 @@ namespace Ricochet
        * the columns needed and keep them whole, which saves the second
        * back-substitution but serves for a single state.
        */
-      unsigned int group_size = 16;
-      /// A is symmetric, and the observables are the directions but for rows
-      /// that A decouples.
+      unsigned int group_size = 64;
+      /// A is symmetric but for rows that it decouples; then the observables have
+      /// to be the directions.
       bool is_symmetric = false;
     };
 
     /**
      * @param directions of this rank; they may have entries of other ranks.
      * @param order of the directions, by which they are expected to be needed.
-     * @param observables of this rank; they may look at other ranks.
+     * @param observables of this rank; they may look at other ranks. None: the
+     * directions.
      */
     LowRankCorrection(const dealii::IndexSet    &owned,
                       const MPI_Comm             communicator,
                       Functionals                directions,
                       const std::vector<double> &order,
-                      Functionals                observables,
+                      std::optional<Functionals> observables,
                       const Options             &options);
 
-    /// Place of this rank's first observable among those of all ranks.
+    /// The place of this rank's direction @p d among those of all ranks, in their
+    /// order.
     unsigned int
-    first_observable() const
+    place(const unsigned int d) const
     {
-      return my_first_observable;
+      return place_of_direction[d];
+    }
+
+    /// Number of directions on all ranks.
+    unsigned int
+    n_places() const
+    {
+      return direction_at_place.size();
     }
 
     /// The factored matrix is a new one: forget the columns.
@@ -78,10 +93,45 @@ namespace Ricochet
     void
     set_change(const std::vector<Row> &my_rows, Factorisation &factorisation);
 
-    void
+    /// @return the number of solutions with the factorisation that it took.
+    unsigned int
     solve(const Vector  &right_hand_side,
           Vector        &solution,
           Factorisation &factorisation);
+
+    /// Values of all observables of @p vector, on all ranks.
+    /// @param values gets the first ones, as many as it has.
+    void
+    observe(const Vector &vector, std::vector<double> &values);
+
+    /// The unknowns of this rank's directions at the first @p n places.
+    std::vector<Index>
+    unknowns_of_first(const unsigned int n) const;
+
+    /// Add the sum of this rank's directions with their @p coefficients to @p
+    /// vector.
+    void
+    add_directions(const std::vector<double> &coefficients,
+                   Vector                    &vector) const;
+
+    /// Add the observables of A^{-1} U @p coefficients, times @p factor, to
+    /// @p values, which may be the first ones only; the coefficients are those of
+    /// all directions, by place.
+    void
+    add_compliance(const double               factor,
+                   const std::vector<double> &coefficients,
+                   std::vector<double>       &values,
+                   Factorisation             &factorisation);
+
+    /**
+     * Solve (1 + C V^T A^{-1} U) z = @p coefficients - C @p values with the change
+     * of the last set_change(); coefficients of all directions by place, which
+     * become z.
+     */
+    void
+    solve_small(std::vector<double>       &coefficients,
+                const std::vector<double> &values,
+                Factorisation             &factorisation);
 
   private:
     /// Add the direction at this place, if it is this rank's (to be compressed
@@ -91,16 +141,20 @@ namespace Ricochet
                   const double       factor,
                   Vector            &vector) const;
 
+    /// The same for this rank's direction @p d.
+    void
+    add_own_direction(const unsigned int d,
+                      const double       factor,
+                      Vector            &vector) const;
+
     void
     solve_columns(const std::vector<unsigned int> &places,
                   Factorisation                   &factorisation);
 
+    /// Solve for those of the columns at @p places that are not known yet.
     void
-    solve_missing_columns(Factorisation &factorisation);
-
-    /// Values of all observables of @p vector, on all ranks.
-    void
-    observe(const Vector &vector, std::vector<double> &values);
+    solve_missing_columns(const std::vector<unsigned int> &places,
+                          Factorisation                   &factorisation);
 
     /// Whether C is diagonal and positive, and A symmetric.
     bool
@@ -110,14 +164,22 @@ namespace Ricochet
     factorise_small();
 
     const MPI_Comm    communicator;
-    const Functionals directions, observables;
-    const Options     options;
-    unsigned int      n_observables = 0, my_first_observable = 0;
+    const Functionals directions;
+    // None: the directions.
+    const std::optional<Functionals> own_observables;
+    const Functionals               &observables;
+    const Options                    options;
+    unsigned int                     n_observables = 0;
+    // Place of each observable of this rank among those of all ranks.
+    std::vector<unsigned int> place_of_observable;
     // Place of each direction of this rank in their common order, and the
     // other way round (-1: another rank's).
     std::vector<unsigned int> place_of_direction;
     std::vector<int>          direction_at_place;
     std::vector<int>          local_index;
+    // Place of each entry of the directions among the unknowns of this rank; -1:
+    // another rank's.
+    std::vector<int> owned_index;
     // By place: observables of the column, empty if not solved for; the column
     // itself, if those are kept.
     std::vector<std::vector<double>> columns;

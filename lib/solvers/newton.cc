@@ -69,38 +69,49 @@ namespace Ricochet
 
 
 
+  double
+  NewtonSolver::evaluate(const Problem &problem, const Vector &point)
+  {
+    // Only allocated when the problem changes its size.
+    if (residual.size() != point.size())
+      {
+        residual.reinit(point);
+        update.reinit(point);
+        trial.reinit(point);
+      }
+    problem.residual(point, residual);
+    const double norm = problem.norm(residual);
+    const double size = problem.force_scale();
+    // A size that is not a number must not look like none.
+    scale = size == 0. ? 1. : size;
+    return norm / scale;
+  }
+
+
+
+  bool
+  NewtonSolver::solves(const Problem &problem, const Vector &solution)
+  {
+    if (!is_small(problem, evaluate(problem, solution)))
+      return false;
+    problem.accept();
+    return true;
+  }
+
+
+
   const std::vector<NewtonSolver::Iteration> &
   NewtonSolver::solve(const Problem &problem, Vector &solution)
   {
-    // Only allocated when the problem changes its size.
-    if (residual.size() != solution.size())
-      {
-        residual.reinit(solution);
-        update.reinit(solution);
-        trial.reinit(solution);
-      }
     history.clear();
-
-    double     scale    = 0.;
-    const auto evaluate = [&](const Vector &point) {
-      problem.residual(point, residual);
-      const double norm = problem.norm(residual);
-      const double size = problem.force_scale();
-      // A size that is not a number must not look like none.
-      scale = size == 0. ? 1. : size;
-      return norm / scale;
-    };
-
-    double norm = evaluate(solution);
+    double norm = evaluate(problem, solution);
     if (!std::isfinite(norm) && problem.safe_guess)
       {
         solution = *problem.safe_guess;
-        norm     = evaluate(solution);
+        norm     = evaluate(problem, solution);
       }
     const auto converged = [&]() {
-      return history.size() > 1
-        ? norm <= parameters.tolerance + problem.round_off() / scale
-        : norm == 0.;
+      return history.size() > 1 ? is_small(problem, norm) : norm == 0.;
     };
     problem.accept();
     history.push_back({norm, 0., problem.active_set()});
@@ -136,13 +147,13 @@ namespace Ricochet
         problem.solve(residual, update, may_reuse, tolerance);
         trial = solution;
         trial.add(-1., update);
-        double     new_norm    = evaluate(trial);
+        double     new_norm    = evaluate(problem, trial);
         double     step_length = 1.;
         const auto shorten     = [&]() {
           step_length *= .5;
           trial = solution;
           trial.add(-step_length, update);
-          new_norm = evaluate(trial);
+          new_norm = evaluate(problem, trial);
         };
         while (!std::isfinite(new_norm) && step_length > 1. / 1024.)
           shorten();

@@ -98,13 +98,30 @@ namespace Ricochet
     const std::vector<Iteration> &
     solve(const Problem &problem, Vector &solution);
 
+    /// Whether @p solution solves @p problem, to the same tolerance; if so, it is
+    /// accepted as the next iterate.
+    bool
+    solves(const Problem &problem, const Vector &solution);
+
   private:
+    /// The residual at @p point over #scale, which is set.
+    double
+    evaluate(const Problem &problem, const Vector &point);
+
+    bool
+    is_small(const Problem &problem, const double norm) const
+    {
+      return norm <= parameters.tolerance + problem.round_off() / scale;
+    }
+
     [[noreturn]] void
     fail(const std::string &reason) const;
 
     const Parameters       parameters;
     std::vector<Iteration> history;
-    Vector                 residual, update, trial;
+    // Magnitude of the forces at the last residual (N); 1 if there are none.
+    double scale = 1.;
+    Vector residual, update, trial;
   };
 } // namespace Ricochet
 

@@ -2,6 +2,7 @@
 #ifndef ricochet_solvers_tangent_solver_h
 #define ricochet_solvers_tangent_solver_h
 
+#include <solvers/condensed_system.h>
 #include <solvers/tangent.h>
 
 namespace Ricochet
@@ -17,6 +18,8 @@ namespace Ricochet
       unsigned int n_factorisations = 0;
       /// Time spent in them and in solving for columns of corrections (s).
       double factorising = 0.;
+      /// Solutions with factorisations, but for columns of corrections.
+      unsigned int n_substitutions = 0;
       /// Time spent in solving with them (s).
       double substituting = 0.;
     };
@@ -38,6 +41,20 @@ namespace Ricochet
           Vector        &solution,
           const bool     may_reuse,
           const double   tolerance) = 0;
+
+    /// Whether it has condensed() systems.
+    virtual bool
+    condenses() const
+    {
+      return false;
+    }
+
+    /// See LinearSolver::condensed().
+    virtual CondensedSystem &
+    condensed(const Tangent & /*tangent*/)
+    {
+      AssertThrow(false, dealii::ExcMessage("It condenses nothing."));
+    }
 
     /// See LinearSolver::begin_stage().
     void

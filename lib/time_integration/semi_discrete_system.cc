@@ -3,6 +3,8 @@
 #include <time_integration/semi_discrete_system.h>
 #include <time_integration/stage_problem.h>
 
+#include <cmath>
+
 namespace Ricochet
 {
   using namespace dealii;
@@ -64,6 +66,7 @@ namespace Ricochet
     , load(std::move(load))
     , follower(follower)
     , newton(newton_parameters)
+    , condensed_newton(newton_parameters)
     , linear_solver(solver_parameters,
                     contact_structure(contact,
                                       unknowns.clamped,
@@ -80,6 +83,7 @@ namespace Ricochet
     , force(contact.row_scaling())
     , reaction(contact.row_scaling())
     , safe_guess(contact.row_scaling())
+    , residual(contact.row_scaling())
   {}
 
   void
@@ -196,6 +200,23 @@ namespace Ricochet
       state.contact_shares[k] = *shares[k];
   }
 
+  bool
+  SemiDiscreteSystem::solve_condensed(
+    StageProblem                &problem,
+    const NewtonSolver::Problem &newton_problem,
+    Vector                      &solution)
+  {
+    newton_problem.residual(solution, residual);
+    if (!std::isfinite(newton_problem.norm(residual)))
+      return false;
+    CondensedStage condensed = problem.condensed(newton_problem, residual);
+    const auto    &history   = condensed.solve(condensed_newton, solution);
+    problem.add_iterations(history.size() - 1);
+    if (newton_observer)
+      newton_observer(history);
+    return newton.solves(newton_problem, solution);
+  }
+
   unsigned int
   SemiDiscreteSystem::solve_stage(const Stage &stage,
                                   const State &old_state,
@@ -243,6 +264,19 @@ namespace Ricochet
       contact.begin_stage(start, stage.contact_weight_new);
       do
         {
+          if (linear_solver.condenses())
+            {
+              try
+                {
+                  if (solve_condensed(problem, newton_problem, solution))
+                    continue;
+                }
+              catch (const NewtonFailure &)
+                {
+                  // So will the whole system, which says why.
+                  contact.begin_stage(start, stage.contact_weight_new);
+                }
+            }
           const auto &history = newton.solve(newton_problem, solution);
           if (newton_observer)
             newton_observer(history);

@@ -43,6 +43,8 @@ namespace Ricochet
     Vector scheme_force;
   };
 
+  class StageProblem;
+
   /**
  * The system of ordinary differential equations (or inclusions)
  *
@@ -201,6 +203,13 @@ namespace Ricochet
       return linear_solver.n_factorisations();
     }
 
+    /// Number of solutions with them, see LinearSolver::n_back_substitutions().
+    unsigned int
+    n_back_substitutions() const
+    {
+      return linear_solver.n_back_substitutions();
+    }
+
     /// Where the time of all stages went (s).
     struct Shares
     {
@@ -219,6 +228,13 @@ namespace Ricochet
       newton_observer;
 
   private:
+    /// Solve one pass of a stage from the guess @p solution by its condensed system.
+    /// @return whether the whole system is solved.
+    bool
+    solve_condensed(StageProblem                &problem,
+                    const NewtonSolver::Problem &newton_problem,
+                    Vector                      &solution);
+
     /// The forces of contact are those of the operator's last call.
     void
     take_shares(State &state) const;
@@ -229,13 +245,15 @@ namespace Ricochet
     const Load                                                     load;
     const FollowerLoad                                            *follower;
     NewtonSolver                                                   newton;
+    // Of condensed systems: it keeps its vectors.
+    NewtonSolver condensed_newton;
     LinearSolver linear_solver;
     double       residual_seconds = 0., tangent_seconds = 0.;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, constant_part, force;
-    // What the equations leave over in prescribed displacements (N), and where
-    // Newton's method may begin.
-    Vector        reaction, safe_guess;
+    // What the equations leave over in prescribed displacements (N), where
+    // Newton's method may begin, and the residual at the guess (N).
+    Vector        reaction, safe_guess, residual;
     UnitedPattern united_pattern;
     Matrix        body_matrix;
   };

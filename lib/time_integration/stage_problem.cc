@@ -71,6 +71,17 @@ namespace Ricochet
             &safe_guess};
   }
 
+  CondensedStage
+  StageProblem::condensed(const NewtonSolver::Problem &for_newton,
+                          const Vector                &residual)
+  {
+    return {for_newton,
+            parts.linear_solver.condensed(tangent()),
+            parts.contact,
+            residual,
+            contact_scale};
+  }
+
   void
   StageProblem::forget_tangents()
   {
@@ -114,8 +125,9 @@ namespace Ricochet
       }
     result += parts.constant_part;
     parts.contact.complete_residual(point, result);
-    force_scale +=
+    contact_scale =
       stage.contact_weight_new * parts.contact.contact_force().l2_norm();
+    force_scale += contact_scale;
     for (const auto i : parts.clamped)
       parts.reaction(i) = result(i);
     parts.reaction.compress(VectorOperation::insert);

@@ -7,6 +7,7 @@
 #include <discretization/follower_load.h>
 #include <solvers/linear_solver.h>
 #include <solvers/newton.h>
+#include <time_integration/condensed_stage.h>
 #include <time_integration/stage.h>
 
 #include <optional>
@@ -68,6 +69,18 @@ namespace Ricochet
     void
     forget_tangents();
 
+    /// The same system condensed to contact, for the guess at which the residual was
+    /// looked at last: @p residual. @pre Parts::linear_solver condenses.
+    CondensedStage
+    condensed(const NewtonSolver::Problem &for_newton, const Vector &residual);
+
+    /// Count @p n linear solves made elsewhere.
+    void
+    add_iterations(const unsigned int n)
+    {
+      iterations += n;
+    }
+
     /// Linear solves made, those of a first attempt that failed included.
     unsigned int
     n_iterations() const
@@ -100,7 +113,7 @@ namespace Ricochet
     const Parts   parts;
     const Stage  &stage;
     const Vector &old_solution, &solution, &safe_guess;
-    double        constant_scale = 0., force_scale = 0.;
+    double        constant_scale = 0., force_scale = 0., contact_scale = 0.;
     double        bulk_round_off = 0.;
     unsigned int  iterations     = 0;
     // Which points are active in the tangent without a name, if there is one.

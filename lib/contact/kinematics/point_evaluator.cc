@@ -13,8 +13,13 @@ namespace Ricochet
   {
     unsigned int longest = 0;
     local_index.reserve(points.index.size());
+    const dealii::IndexSet owned = ghosted.locally_owned_elements();
     for (const auto index : points.index)
       {
+        owned_index.push_back(
+          owned.is_element(index)
+            ? static_cast<int>(owned.index_within_set(index))
+            : -1);
         local_index.push_back(ghosted.trilinos_vector().Map().LID(
           static_cast<dealii::TrilinosWrappers::types::int_type>(index)));
         AssertThrow(local_index.back() >= 0,
@@ -24,7 +29,6 @@ namespace Ricochet
       }
     for (const ContactPoint &point : points.points)
       longest = std::max(longest, point.end - point.begin);
-    values.resize(longest);
     local_matrix.resize(longest);
   }
 
@@ -123,19 +127,33 @@ namespace Ricochet
 
 
   void
+  ContactPointEvaluator::add_to_unknown(const unsigned int k,
+                                        const double       value,
+                                        Vector            &vector)
+  {
+    // Most of them are here, and need not be looked for.
+    if (owned_index[k] >= 0)
+      vector.trilinos_vector()[0][owned_index[k]] += value;
+    else if (value != 0.)
+      vector.add(1, &points.index[k], &value);
+  }
+
+
+
+  void
   ContactPointEvaluator::add(const unsigned int         p,
                              const ContactPointForce<> &force,
                              Vector                    &vector)
   {
     const ContactPoint &point = points.points[p];
     for (unsigned int k = point.begin; k < point.end; ++k)
-      values[k - point.begin] = point.weight *
-        (force.gap * points.gap_coefficient[k] +
-         force.stress_pressure * points.stress_pressure_coefficient[k] +
-         force.multiplier * points.multiplier_coefficient[k]);
-    vector.add(point.end - point.begin,
-               points.index.data() + point.begin,
-               values.data());
+      add_to_unknown(k,
+                     point.weight *
+                       (force.gap * points.gap_coefficient[k] +
+                        force.stress_pressure *
+                          points.stress_pressure_coefficient[k] +
+                        force.multiplier * points.multiplier_coefficient[k]),
+                     vector);
   }
 
 
@@ -179,11 +197,10 @@ namespace Ricochet
   {
     const ContactPoint &point = points.points[p];
     for (unsigned int k = point.begin; k < point.end; ++k)
-      values[k - point.begin] =
-        point.weight * traction[points.component[k]] * points.shape_value[k];
-    vector.add(point.end - point.begin,
-               points.index.data() + point.begin,
-               values.data());
+      add_to_unknown(k,
+                     point.weight * traction[points.component[k]] *
+                       points.shape_value[k],
+                     vector);
   }
 
 

@@ -113,6 +113,10 @@ namespace Ricochet
     void
     find_local_indices();
 
+    /// Add @p value to the unknown of coefficient @p k.
+    void
+    add_to_unknown(const unsigned int k, const double value, Vector &vector);
+
     /// Derivatives of the gap with respect to the unknowns.
     const std::vector<double> &
     gap_derivatives() const
@@ -126,8 +130,9 @@ namespace Ricochet
     Vector              ghosted;
     std::vector<int>    local_index;
     bool                some_points = false;
+    // Place of each unknown among those of this rank; -1: another rank's.
+    std::vector<int> owned_index;
     // Work space of add().
-    std::vector<double>         values;
     mutable std::vector<double> local_matrix;
 
   public:

@@ -33,9 +33,13 @@ namespace Ricochet
     const double entry = change[closing.row][closing.column];
     if (entry == 0.)
       return {};
-    closing.trial = change[closing.row] / entry;
+    // In the same way, so that they are equal to the last digit where the law is
+    // symmetric.
     for (unsigned int c = 0; c < 3; ++c)
-      closing.test[c] = change[c][closing.column] / entry;
+      {
+        closing.trial[c] = change[closing.row][c] / entry;
+        closing.test[c]  = change[c][closing.column] / entry;
+      }
     for (unsigned int c = 0; c < 3; ++c)
       for (unsigned int d = 0; d < 3; ++d)
         if (std::abs(change[c][d] -
@@ -71,6 +75,7 @@ namespace Ricochet
         };
         Point own;
         own.closing          = *closing_directions(law, point.cell_diameter);
+        own.open_tangent     = open_tangent(law, point.cell_diameter);
         own.test             = add_law(own.closing.test);
         own.trial            = own.closing.trial == own.closing.test
                      ? own.test

@@ -47,7 +47,9 @@ namespace Ricochet
     /// What a point has; numbers of functionals.
     struct Point
     {
-      Closing                           closing;
+      Closing closing;
+      /// See open_tangent().
+      ContactPointTangent               open_tangent;
       unsigned int                      test, trial, first_tangential;
       std::vector<dealii::Tensor<1, 3>> tangential;
     };

@@ -122,32 +122,21 @@ namespace Ricochet
   void
   PointwiseContact::complete_residual(const Vector &solution, Vector &residual)
   {
+    looks_at_change = false;
     kinematics->evaluate(solution, state);
-    choose_linearisation();
-    force = 0.;
-    point_force.resize(state.size());
-    for (unsigned int p = 0; p < state.size(); ++p)
+    if (friction.exists() && kinematics->has_constant_rows())
       {
-        point_force[p] = linearised_force(p);
-        if (point_force[p].gap != 0.)
-          kinematics->update_geometry(p);
-        evaluator.add(p, point_force[p], force);
+        slips.resize(state.size());
+        for (unsigned int p = 0; p < state.size(); ++p)
+          slips[p] = kinematics->geometry(p).slip();
       }
+    evaluate_laws();
+    force = 0.;
+    for (unsigned int p = 0; p < state.size(); ++p)
+      evaluator.add(p, point_force[p], force);
     force.compress(VectorOperation::add);
     if (friction.exists())
       {
-        friction.begin_evaluation(state.size());
-        for (unsigned int p = 0; p < state.size(); ++p)
-          {
-            const double pressure = positive_part(-point_force[p].gap);
-            // Where nothing presses, geometry may be that of another state.
-            friction.evaluate(p,
-                              pressure,
-                              kinematics->has_constant_rows() || pressure > 0.
-                                ? kinematics->geometry(p).slip()
-                                : dealii::Tensor<1, 3>(),
-                              evaluator.contact_points()[p].cell_diameter);
-          }
         friction_part = 0.;
         for (unsigned int p = 0; p < state.size(); ++p)
           if (friction_acts(p))
@@ -158,6 +147,96 @@ namespace Ricochet
     residual.add(weight, force);
 
     clear_multipliers(force);
+  }
+
+
+
+  void
+  PointwiseContact::evaluate_laws()
+  {
+    choose_linearisation();
+    point_force.resize(state.size());
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        point_force[p] = linearised_force(p);
+        if (point_force[p].gap != 0.)
+          kinematics->update_geometry(p);
+      }
+    if (!friction.exists())
+      return;
+    friction.begin_evaluation(state.size());
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const double pressure = positive_part(-point_force[p].gap);
+        // Where nothing presses, geometry may be that of another state.
+        friction.evaluate(p,
+                          pressure,
+                          kinematics->has_constant_rows() ? slips[p]
+                            : pressure > 0. ? kinematics->geometry(p).slip()
+                                            : dealii::Tensor<1, 3>(),
+                          evaluator.contact_points()[p].cell_diameter);
+      }
+  }
+
+
+
+  void
+  PointwiseContact::look_at_change(const std::vector<double> &change)
+  {
+    if (!looks_at_change)
+      {
+        state_before    = state;
+        slips_before    = slips;
+        looks_at_change = true;
+      }
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        // Laws know of a change what its product with the direction of trial is,
+        // but for what they do to open points.
+        const ClosingFunctionals::Point &own = (*functionals)[p];
+        state[p]                             = state_before[p];
+        double *const components[]           = {&state[p].gap,
+                                                &state[p].stress_pressure,
+                                                &state[p].multiplier};
+        *components[own.closing.column] += change[own.trial];
+        if (own.tangential.empty())
+          continue;
+        slips[p] = slips_before[p];
+        for (unsigned int t = 0; t < own.tangential.size(); ++t)
+          slips[p] += change[own.first_tangential + t] * own.tangential[t];
+      }
+    evaluate_laws();
+  }
+
+
+
+  void
+  PointwiseContact::force_change(std::vector<double> &coefficients) const
+  {
+    coefficients.assign(functionals->all().functionals.size(), 0.);
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const ContactPoint              &point  = evaluator.contact_points()[p];
+        const ClosingFunctionals::Point &own    = (*functionals)[p];
+        const double                     factor = weight * point.weight;
+        if (law->branch(linearisation[p], old_state[p], point.cell_diameter) !=
+            0)
+          {
+            const dealii::Tensor<1, 3> &open =
+              own.open_tangent[own.closing.row];
+            const double forces[]  = {point_force[p].gap,
+                                      point_force[p].stress_pressure,
+                                      point_force[p].multiplier};
+            coefficients[own.test] = factor *
+              (forces[own.closing.row] - open[0] * state[p].gap -
+               open[1] * state[p].stress_pressure -
+               open[2] * state[p].multiplier);
+          }
+        if (friction_acts(p))
+          for (unsigned int t = 0; t < own.tangential.size(); ++t)
+            coefficients[own.first_tangential + t] =
+              factor * (friction.traction(p) * own.tangential[t]);
+      }
   }
 
 
@@ -272,9 +351,7 @@ namespace Ricochet
         const double factor = weight * point.weight;
         const double closing =
           law_tangent[own.closing.row][own.closing.column] -
-          open_tangent(
-            *law,
-            point.cell_diameter)[own.closing.row][own.closing.column];
+          own.open_tangent[own.closing.row][own.closing.column];
         if (closing != 0.)
           change[own.test].emplace_back(own.trial, factor * closing);
 

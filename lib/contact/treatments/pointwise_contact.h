@@ -85,6 +85,12 @@ namespace Ricochet
     tangent_structure() const override;
 
     void
+    look_at_change(const std::vector<double> &change) override;
+
+    void
+    force_change(std::vector<double> &coefficients) const override;
+
+    void
     tangent_change(std::vector<FunctionalRow> &change) const override;
 
     std::optional<std::uint64_t>
@@ -178,6 +184,10 @@ namespace Ricochet
     void
     clear_multipliers(Vector &vector) const;
 
+    /// Ask law and friction for the forces at #state and #slips.
+    void
+    evaluate_laws();
+
     /// Choose the states at which the law is linearised for the residual at
     /// #state.
     void
@@ -215,6 +225,13 @@ namespace Ricochet
     double                           weight     = 1.;
     unsigned int                     n_iterates = 0;
     std::vector<ContactPointState<>> state, old_state, stress_state;
+    // Slip over the step (m), with friction.
+    std::vector<dealii::Tensor<1, 3>> slips;
+    // What look_at_change() begins from: state and slips of the last
+    // complete_residual(), as long as they differ from these.
+    bool                              looks_at_change = false;
+    std::vector<ContactPointState<>>  state_before;
+    std::vector<dealii::Tensor<1, 3>> slips_before;
     // Where the law is linearised: now, and at the last accepted iterate.
     std::vector<ContactPointState<>> linearisation, accepted_linearisation;
     // Force of the law per area (Pa) at the last complete_residual().

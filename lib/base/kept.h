@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ricochet_solvers_kept_h
-#define ricochet_solvers_kept_h
+#ifndef ricochet_base_kept_h
+#define ricochet_base_kept_h
 
 #include <algorithm>
 #include <list>

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <time_integration/condensed_stage.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  CondensedStage::CondensedStage(const NewtonSolver::Problem &problem,
+                                 CondensedSystem             &system,
+                                 ContactOperator             &contact,
+                                 const Vector                &residual,
+                                 const double                 contact_scale)
+    : problem(problem)
+    , system(system)
+    , contact(contact)
+    , communicator(residual.get_mpi_communicator())
+    , body_force_scale(problem.force_scale() - contact_scale)
+    , contact_force_scale(contact_scale)
+    , open_residual(residual)
+    , work(residual)
+  {
+    contact.force_change(forces);
+    const std::vector<double> all = of_all_ranks(forces);
+    for (double &force : forces)
+      force = -force;
+    system.add_functionals(forces, open_residual);
+    system.begin(open_residual);
+    look_around(all);
+  }
+
+
+
+  void
+  CondensedStage::look_around(const std::vector<double> &coefficients)
+  {
+    // Points far from contact are left as the guess has them, until contact comes
+    // near. The residual of the whole stage tells if they did matter.
+    const auto        last      = std::find_if(coefficients.rbegin(),
+                                   coefficients.rend(),
+                                   [](const double z) { return z != 0.; });
+    const std::size_t n_pressed = coefficients.rend() - last;
+    const std::size_t n_near =
+      std::min(coefficients.size(), n_pressed + n_pressed / 2 + 64);
+    if (n_near <= flight_values.size())
+      return;
+    flight_values.resize(n_near);
+    system.observe(flight_values);
+    for (double &value : flight_values)
+      value = -value;
+  }
+
+
+
+  CondensedStage::Unknowns
+  CondensedStage::read(const Vector &vector)
+  {
+    const double *values = vector.trilinos_vector()[0];
+    const auto    n      = vector.locally_owned_size() - 1;
+    return {{values, values + n}, values[n]};
+  }
+
+
+
+  void
+  CondensedStage::write(const Unknowns &unknowns, Vector &vector)
+  {
+    double *values = vector.trilinos_vector()[0];
+    std::copy(unknowns.coefficients.begin(),
+              unknowns.coefficients.end(),
+              values);
+    values[unknowns.coefficients.size()] = unknowns.share;
+  }
+
+
+
+  std::vector<double>
+  CondensedStage::of_all_ranks(const std::vector<double> &coefficients) const
+  {
+    std::vector<double> all(system.n_functionals(), 0.);
+    for (unsigned int f = 0; f < coefficients.size(); ++f)
+      all[system.place(f)] = coefficients[f];
+    Utilities::MPI::sum(all, communicator, all);
+    return all;
+  }
+
+
+
+  void
+  CondensedStage::residual(const Vector &point, Vector &result)
+  {
+    Unknowns                  unknowns = read(point);
+    const std::vector<double> coefficients =
+      of_all_ranks(unknowns.coefficients);
+    look_around(coefficients);
+    std::vector<double> values(flight_values);
+    for (double &value : values)
+      value *= unknowns.share;
+    system.add_compliance(-1., coefficients, values);
+    std::vector<double> change(unknowns.coefficients.size());
+    for (unsigned int f = 0; f < change.size(); ++f)
+      change[f] =
+        system.place(f) < values.size() ? values[system.place(f)] : 0.;
+    contact.look_at_change(change);
+    contact.force_change(forces);
+    for (unsigned int f = 0; f < change.size(); ++f)
+      unknowns.coefficients[f] = forces[f] - unknowns.coefficients[f];
+    if (unknowns.share != 0.)
+      {
+        work = 0.;
+        system.add_functionals(forces, work);
+        contact_force_scale = work.l2_norm();
+      }
+    unknowns.share = 1. - unknowns.share;
+    write(unknowns, result);
+  }
+
+
+
+  double
+  CondensedStage::norm(const Vector &small_residual)
+  {
+    const Unknowns rest = read(small_residual);
+    work                = 0.;
+    if (rest.share != 0.)
+      work.add(rest.share, open_residual);
+    system.add_functionals(rest.coefficients, work);
+    return problem.norm(work);
+  }
+
+
+
+  void
+  CondensedStage::linear_solve(const Vector &right_hand_side, Vector &update)
+  {
+    Unknowns                   rest = read(right_hand_side);
+    std::vector<FunctionalRow> change(rest.coefficients.size());
+    contact.tangent_change(change);
+    std::vector<double> coefficients = of_all_ranks(rest.coefficients);
+    std::vector<double> values(flight_values);
+    for (double &value : values)
+      value *= -rest.share;
+    values.resize(system.n_functionals(), 0.);
+    system.solve_contact(change, coefficients, values);
+    for (unsigned int f = 0; f < rest.coefficients.size(); ++f)
+      rest.coefficients[f] = -coefficients[system.place(f)];
+    rest.share = -rest.share;
+    write(rest, update);
+  }
+
+
+
+  const std::vector<NewtonSolver::Iteration> &
+  CondensedStage::solve(NewtonSolver &newton, Vector &solution)
+  {
+    const unsigned int n_own = forces.size() + 1;
+    const auto         sizes = Utilities::MPI::all_gather(communicator, n_own);
+    const auto         rank  = Utilities::MPI::this_mpi_process(communicator);
+    unsigned int       first = 0, n_all = 0;
+    for (unsigned int r = 0; r < sizes.size(); ++r)
+      {
+        first += r < rank ? sizes[r] : 0;
+        n_all += sizes[r];
+      }
+    IndexSet own(n_all);
+    own.add_range(first, first + n_own);
+    Vector unknowns(own, communicator);
+
+    const auto &history =
+      newton.solve({[this](const Vector &point, Vector &result) {
+                      residual(point, result);
+                    },
+                    [this](const Vector &right_hand_side,
+                           Vector       &update,
+                           const bool /*may_reuse*/,
+                           const double /*tolerance*/) {
+                      linear_solve(right_hand_side, update);
+                    },
+                    [this](const Vector &result) { return norm(result); },
+                    problem.accept,
+                    problem.active_set,
+                    [this]() { return body_force_scale + contact_force_scale; },
+                    problem.round_off,
+                    nullptr},
+                   unknowns);
+
+    // There was at least one step.
+    Unknowns result = read(unknowns);
+    for (double &coefficient : result.coefficients)
+      coefficient /= -result.share;
+    system.finish(result.coefficients, work);
+    solution.add(-result.share, work);
+    return history;
+  }
+} // namespace Ricochet

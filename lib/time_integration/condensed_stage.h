@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_time_integration_condensed_stage_h
+#define ricochet_time_integration_condensed_stage_h
+
+#include <contact/contact_operator.h>
+#include <solvers/condensed_system.h>
+#include <solvers/newton.h>
+
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * The nonlinear system of one stage of a linear body, condensed to the functionals
+   * through which contact acts. With the residual R = K (x - x_0) + f z(f x) all
+   * iterates of Newton's method from a guess x_g are
+   *
+   *     x = x_g + s (x_0 - x_g) - K^{-1} f z,
+   *
+   * where s = 1 after the first full step. So its unknowns are the coefficients z and
+   * s: it makes the same iterates, and measures them by the same norms, as
+   * NewtonSolver with the whole system, but for round-off, and the body is solved for
+   * twice in all.
+   */
+  class CondensedStage
+  {
+  public:
+    /**
+     * @param problem the whole stage.
+     * @param system of its body.
+     * @param contact has begun the stage, and looked at the guess last.
+     * @param residual that of the whole stage there.
+     * @param contact_force_scale what contact has of the problem's force scale (N).
+     */
+    CondensedStage(const NewtonSolver::Problem &problem,
+                   CondensedSystem             &system,
+                   ContactOperator             &contact,
+                   const Vector                &residual,
+                   const double                 contact_force_scale);
+
+    /**
+     * Solve with @p newton, from the guess @p solution to @p solution.
+     *
+     * @return what NewtonSolver::solve() returns.
+     * @throws NewtonFailure; the guess remains.
+     */
+    const std::vector<NewtonSolver::Iteration> &
+    solve(NewtonSolver &newton, Vector &solution);
+
+  private:
+    /// z and s of this rank, from and to the small vectors of Newton's method.
+    struct Unknowns
+    {
+      std::vector<double> coefficients;
+      double              share;
+    };
+
+    static Unknowns
+    read(const Vector &vector);
+
+    static void
+    write(const Unknowns &unknowns, Vector &vector);
+
+    /// Coefficients of all ranks, by place.
+    std::vector<double>
+    of_all_ranks(const std::vector<double> &coefficients) const;
+
+    void
+    residual(const Vector &point, Vector &result);
+
+    void
+    linear_solve(const Vector &right_hand_side, Vector &update);
+
+    double
+    norm(const Vector &small_residual);
+
+    /// Make #flight_values reach as far as contact with these @p coefficients, of
+    /// all ranks, may; at least.
+    void
+    look_around(const std::vector<double> &coefficients);
+
+    const NewtonSolver::Problem &problem;
+    CondensedSystem             &system;
+    ContactOperator             &contact;
+    const MPI_Comm               communicator;
+    /// Magnitude of all forces but contact's (N), and of contact's.
+    double body_force_scale, contact_force_scale;
+    // The residual at the guess with open contact (N), and what its solution makes
+    // of the functionals, those near contact.
+    Vector              open_residual, work;
+    std::vector<double> flight_values;
+    std::vector<double> forces;
+  };
+} // namespace Ricochet
+
+#endif
