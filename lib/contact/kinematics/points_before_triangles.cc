@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <base/exceptions.h>
 #include <contact/kinematics/points_before_triangles.h>
 #include <contact/surfaces/closest_point.h>
 #include <contact/surfaces/facet_search.h>
@@ -11,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 
@@ -38,9 +38,6 @@ namespace Ricochet
                                                const PointsIn     points_in)
     : SurfacePair<3>(body, pair)
   {
-    if (is_self)
-      throw InputError(
-        "Contact of a surface with itself is there in the plane only.");
     if (points_in == PointsIn::quadrature_points)
       make_quadrature_points(body);
     else
@@ -52,7 +49,7 @@ namespace Ricochet
     for (const auto &node : master.nodes)
       places.push_back(node.reference_position);
     const auto ends = BoundingBox<3>(places).get_boundary_points();
-    smallest_reach  = .1 * ends.first.distance(ends.second);
+    smallest_reach  = is_self ? 0. : .1 * ends.first.distance(ends.second);
     for (const auto &facet : master.facets)
       smallest_reach =
         std::max(smallest_reach, 2. * std::sqrt(2. * facet.measure));
@@ -71,6 +68,12 @@ namespace Ricochet
         std::sort(around[f].begin(), around[f].end());
         around[f].erase(std::unique(around[f].begin(), around[f].end()),
                         around[f].end());
+      }
+    if (is_self)
+      {
+        own_facets = std::make_unique<OwnFacets>(master);
+        for (const Point &point : own_points)
+          beside.push_back(own_facets->beside(point.facets));
       }
   }
 
@@ -196,6 +199,8 @@ namespace Ricochet
                                     const FacetSearch<3> &search,
                                     const Positions      &positions) const
   {
+    if (is_self)
+      return find_own_facet(p, search, positions);
     const Point &point = own_points[p];
     const auto   f = search.closest_facing(position_of(point, positions.slave),
                                          normal_of(point, positions.slave),
@@ -229,6 +234,97 @@ namespace Ricochet
 
 
 
+  std::optional<unsigned int>
+  PointsBeforeTriangles::find_own_facet(const unsigned int    p,
+                                        const FacetSearch<3> &search,
+                                        const Positions      &positions) const
+  {
+    const Point   &point  = own_points[p];
+    const Position y      = position_of(point, positions.slave),
+                   normal = normal_of(point, positions.slave);
+    dealii::Point<3> reference;
+    for (const auto &[node, weight] : point.nodes)
+      reference += weight * slave.nodes[node].reference_position;
+    const OwnFacets::Observer observer{reference,
+                                       point.facets[0],
+                                       beside[p],
+                                       y,
+                                       normal};
+    const auto                f = search.closest_facing(
+      y,
+      normal,
+      [&](const unsigned int other) {
+        return own_facets->can_touch(observer, other, positions.master);
+      },
+      reach);
+    if (!f)
+      return {};
+    const Corners<double> x   = corners(p, *f, positions);
+    const double          gap = PointBeforeTriangle<double>::gap(x);
+    if (is_off(x, *f))
+      return {};
+    // What is behind the plane of a facet, but nearer to another one and in front of
+    // that, is beside the body.
+    if (gap < 0.)
+      {
+        const auto nearest =
+          search.closest_facing(y, normal, [&](const unsigned int other) {
+            return !std::binary_search(beside[p].begin(),
+                                       beside[p].end(),
+                                       other);
+          });
+        const Corners<double> other = corners(p, *nearest, positions);
+        if (*nearest != *f && distance(other) < .999 * distance(x) &&
+            PointBeforeTriangle<double>::gap(other) >
+              1e-6 * std::sqrt(master.facets[*nearest].measure))
+          return {};
+      }
+    return f;
+  }
+
+
+
+  bool
+  PointsBeforeTriangles::meets_node(const unsigned int p) const
+  {
+    const Point &point = own_points[p];
+    if (point.multipliers[0] == numbers::invalid_dof_index)
+      return false;
+    const auto           &facet = master.facets[steps[p].old_facet];
+    const Corners<double> x     = corners(p, steps[p].old_facet, old_positions);
+    const auto            shares = closest_in_triangle(to_tensor(x[0]),
+                                            to_tensor(x[1]),
+                                            to_tensor(x[2]),
+                                            to_tensor(x[3]));
+    for (unsigned int v = 0; v < 3; ++v)
+      if (shares[v] > 1. - 1e-8)
+        {
+          const auto &corner = master.nodes[facet.nodes[v]];
+          return corner.mean_of.empty() && !corner.is_held &&
+            facet.nodes[v] < point.nodes[0].first;
+        }
+    return false;
+  }
+
+
+
+  std::vector<unsigned int>
+  PointsBeforeTriangles::allowed_around(const unsigned int p,
+                                        const unsigned int f) const
+  {
+    if (!is_self)
+      return around[f];
+    std::vector<unsigned int> allowed;
+    std::set_difference(around[f].begin(),
+                        around[f].end(),
+                        beside[p].begin(),
+                        beside[p].end(),
+                        std::back_inserter(allowed));
+    return allowed;
+  }
+
+
+
   unsigned int
   PointsBeforeTriangles::walk(const unsigned int p,
                               const unsigned int f,
@@ -240,7 +336,7 @@ namespace Ricochet
     // What is fast may pass several facets, but not the whole surface.
     for (unsigned int n = 0; n < 4; ++n)
       {
-        const auto next = closest_facing_of<3>(around[closest],
+        const auto next = closest_facing_of<3>(allowed_around(p, closest),
                                                master,
                                                positions.master,
                                                y,
@@ -383,6 +479,9 @@ namespace Ricochet
         find_facet_now(p, search);
         if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
           find_facet_later(p, *later, end);
+        step.is_double = gap.is_before_facet && is_self && meets_node(p);
+        if (step.is_double)
+          gap.is_before_facet = false;
         if (!gap.is_before_facet)
           continue;
         step.new_facet    = step.old_facet;
@@ -422,7 +521,7 @@ namespace Ricochet
     const auto  &old  = master.facets[step.old_facet];
     const double gap  = PointBeforeTriangle<double>::gap(
       corners(p, step.old_facet, new_positions));
-    for (const unsigned int f : around[step.old_facet])
+    for (const unsigned int f : allowed_around(p, step.old_facet))
       if (f != step.old_facet &&
           std::abs(
             PointBeforeTriangle<double>::gap(corners(p, f, new_positions)) -
