@@ -73,7 +73,12 @@ namespace Ricochet
       {
         own_facets = std::make_unique<OwnFacets>(master);
         for (const Point &point : own_points)
-          beside.push_back(own_facets->beside(point.facets));
+          {
+            dealii::Point<3> reference;
+            for (const auto &[node, weight] : point.nodes)
+              reference += weight * slave.nodes[node].reference_position;
+            own_around.push_back(own_facets->around(reference, point.facets));
+          }
       }
   }
 
@@ -170,7 +175,8 @@ namespace Ricochet
 
   bool
   PointsBeforeTriangles::is_off(const Corners<double> &x,
-                                const unsigned int     f) const
+                                const unsigned int     f,
+                                const double           tolerance) const
   {
     const Tensor<1, 3> y = to_tensor(x[0]), a = to_tensor(x[1]),
                        b = to_tensor(x[2]), c = to_tensor(x[3]);
@@ -189,7 +195,7 @@ namespace Ricochet
           return true;
     // Past a convex edge points may be as far as the neighbour is before them; what is
     // farther off the facet than before it is beside it.
-    return beside > 1.5 * std::abs(gap) + .5 * size;
+    return beside > 1.5 * std::abs(gap) + tolerance * size;
   }
 
 
@@ -242,26 +248,24 @@ namespace Ricochet
     const Point   &point  = own_points[p];
     const Position y      = position_of(point, positions.slave),
                    normal = normal_of(point, positions.slave);
-    dealii::Point<3> reference;
-    for (const auto &[node, weight] : point.nodes)
-      reference += weight * slave.nodes[node].reference_position;
-    const OwnFacets::Observer observer{reference,
-                                       point.facets[0],
-                                       beside[p],
-                                       y,
-                                       normal};
-    const auto                f = search.closest_facing(
+    const auto &around_it = own_around[p];
+    const auto  is_around = [&](const unsigned int f) {
+      return std::binary_search(around_it.begin(), around_it.end(), f);
+    };
+    const auto f = search.closest_facing(
       y,
       normal,
       [&](const unsigned int other) {
-        return own_facets->can_touch(observer, other, positions.master);
+        return !is_around(other) &&
+          own_facets->can_touch(y, normal, other, positions.master);
       },
       reach);
     if (!f)
       return {};
     const Corners<double> x   = corners(p, *f, positions);
     const double          gap = PointBeforeTriangle<double>::gap(x);
-    if (is_off(x, *f))
+    // Facets that are closer may not be allowed: then the point is beside this one.
+    if (is_off(x, *f, .1))
       return {};
     // What is behind the plane of a facet, but nearer to another one and in front of
     // that, is beside the body.
@@ -269,9 +273,7 @@ namespace Ricochet
       {
         const auto nearest =
           search.closest_facing(y, normal, [&](const unsigned int other) {
-            return !std::binary_search(beside[p].begin(),
-                                       beside[p].end(),
-                                       other);
+            return !is_around(other);
           });
         const Corners<double> other = corners(p, *nearest, positions);
         if (*nearest != *f && distance(other) < .999 * distance(x) &&
@@ -317,8 +319,8 @@ namespace Ricochet
     std::vector<unsigned int> allowed;
     std::set_difference(around[f].begin(),
                         around[f].end(),
-                        beside[p].begin(),
-                        beside[p].end(),
+                        own_around[p].begin(),
+                        own_around[p].end(),
                         std::back_inserter(allowed));
     return allowed;
   }

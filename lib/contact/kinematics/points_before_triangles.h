@@ -24,7 +24,7 @@ namespace Ricochet
    * began until the step is over.
    *
    * Of a surface against itself all points are before others of its triangles: see
-   * OwnFacets for which. A point never passes to one that it hangs together with.
+   * OwnFacets for which. A point never passes to one of those around it.
    */
   class PointsBeforeTriangles : public SurfacePair<3>
   {
@@ -138,9 +138,11 @@ namespace Ricochet
     last_facet(const unsigned int p, const Positions &now) const;
 
     /// Whether the point, the first of @p x, is beyond an open edge of the surface, or
-    /// beside the facet @p f.
+    /// beside the facet @p f by more than @p tolerance times its longest edge.
     bool
-    is_off(const Corners<double> &x, const unsigned int f) const;
+    is_off(const Corners<double> &x,
+           const unsigned int     f,
+           const double           tolerance = .5) const;
 
     /// The facet before which the point is, of those that @p search knows, if there
     /// is one.
@@ -195,10 +197,10 @@ namespace Ricochet
     double reach = 0., smallest_reach = 0.;
     /// The facets around each one: those that share a node with it, and itself.
     std::vector<std::vector<unsigned int>> around;
-    /// For contact with itself: what points can touch, and of each the facets that it
-    /// hangs together with.
+    /// For contact with itself: what points can touch, and of each the facets around
+    /// it, which it cannot.
     std::unique_ptr<OwnFacets>             own_facets;
-    std::vector<std::vector<unsigned int>> beside;
+    std::vector<std::vector<unsigned int>> own_around;
     Positions                              old_positions, new_positions;
     mutable std::vector<Step>              steps;
     mutable Derivatives                    result;

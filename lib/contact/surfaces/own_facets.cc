@@ -25,6 +25,16 @@ namespace Ricochet
       const auto shares = closest_in_triangle(y, x[0], x[1], x[2]);
       return shares[0] * x[0] + shares[1] * x[1] + shares[2] * x[2];
     }
+    std::vector<std::array<double, 3>>
+    positions_before(const ContactSurface<3> &surface)
+    {
+      std::vector<std::array<double, 3>> positions;
+      for (const auto &node : surface.nodes)
+        positions.push_back({{node.reference_position[0],
+                              node.reference_position[1],
+                              node.reference_position[2]}});
+      return positions;
+    }
   } // namespace
 
 
@@ -32,15 +42,12 @@ namespace Ricochet
   OwnFacets::OwnFacets(const ContactSurface<3> &surface)
     : surface(surface)
     , facets_at_node(surface.nodes.size())
+    , reference_positions(positions_before(surface))
+    , reference_search(surface, reference_positions)
   {
-    for (const auto &node : surface.nodes)
-      reference_positions.push_back({{node.reference_position[0],
-                                      node.reference_position[1],
-                                      node.reference_position[2]}});
     for (unsigned int f = 0; f < surface.facets.size(); ++f)
       for (const unsigned int n : nodes_of(f))
         facets_at_node[n].push_back(f);
-    const FacetSearch<3> search(surface, reference_positions);
     for (unsigned int f = 0; f < surface.facets.size(); ++f)
       {
         const auto         &own  = surface.facets[f];
@@ -51,7 +58,7 @@ namespace Ricochet
           middle += to_tensor(reference_positions[node]) / 3.;
         // The closest facet behind it that faces the other way ends the wall.
         const Position y   = {{middle[0], middle[1], middle[2]}};
-        const auto     end = search.closest_facing(
+        const auto     end = reference_search.closest_facing(
           y,
           y,
           [&](const unsigned int other) {
@@ -71,6 +78,14 @@ namespace Ricochet
                      middle)
                       .norm())
               : size);
+        double longest = 0.;
+        for (unsigned int v = 0; v < 3; ++v)
+          longest =
+            std::max(longest,
+                     (to_tensor(reference_positions[own.nodes[(v + 1) % 3]]) -
+                      to_tensor(reference_positions[own.nodes[v]]))
+                       .norm());
+        longest_edge.push_back(longest);
       }
   }
 
@@ -95,14 +110,36 @@ namespace Ricochet
 
 
   std::vector<unsigned int>
-  OwnFacets::beside(const std::vector<unsigned int> &facets) const
+  OwnFacets::around(const Point<3>                  &reference,
+                    const std::vector<unsigned int> &own) const
   {
     std::vector<unsigned int> result;
-    for (const unsigned int f : facets)
+    for (const unsigned int f : own)
       for (const unsigned int n : nodes_of(f))
         result.insert(result.end(),
                       facets_at_node[n].begin(),
                       facets_at_node[n].end());
+    // How much farther than the next elements what is behind is left out.
+    constexpr double n_edges = 3.;
+    const double     reach =
+      n_edges * *std::max_element(longest_edge.begin(), longest_edge.end());
+    Position lower, upper;
+    for (unsigned int c = 0; c < 3; ++c)
+      {
+        lower[c] = reference[c] - reach;
+        upper[c] = reference[c] + reach;
+      }
+    for (const unsigned int f : reference_search.near(lower, upper))
+      {
+        const auto        &facet = surface.facets[f];
+        const Tensor<1, 3> a = to_tensor(reference_positions[facet.nodes[0]]);
+        if (facet.part == surface.facets[own[0]].part &&
+            facet.normal * (reference - a) < 1e-6 * longest_edge[f] &&
+            (closest_point(surface, f, reference_positions, reference) -
+             reference)
+                .norm() < n_edges * longest_edge[f])
+          result.push_back(f);
+      }
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
@@ -111,39 +148,23 @@ namespace Ricochet
 
 
   bool
-  OwnFacets::can_touch(const Observer              &point,
+  OwnFacets::can_touch(const Position              &y,
+                       const Position              &normal,
                        const unsigned int           f,
                        const std::vector<Position> &positions) const
   {
-    if (std::binary_search(point.beside.begin(), point.beside.end(), f))
-      return false;
-    const auto        &facet = surface.facets[f];
     const Tensor<1, 3> n   = to_tensor(facet_normal<3>(surface, positions, f)),
-                       own = to_tensor(point.normal);
-    const double lengths = n.norm() * own.norm(), product = n * own;
+                       own = to_tensor(normal);
+    const double product   = n * own;
     // Where a surface is about to be folded it does not face itself yet; but what is
     // behind such a facet is only round a corner.
-    if (product > std::sqrt(.5) * lengths)
+    if (product > std::sqrt(.5) * n.norm() * own.norm())
       return false;
-    const Tensor<1, 3> y     = to_tensor(point.y),
-                       there = closest_point(surface, f, positions, y) - y;
-    const double gap =
-      n * (y - to_tensor(positions[facet.nodes[0]])) / n.norm();
+    const Tensor<1, 3> point = to_tensor(y);
+    const double       gap =
+      n * (point - to_tensor(positions[surface.facets[f].nodes[0]])) / n.norm();
     if (gap > 0.)
-      return there * own >= -.1 * there.norm() * own.norm();
-    // What is pressed in is before the facet, or not far beside it in a valley.
-    if (product >= 0. ||
-        there.norm() > 1.5 * -gap + 1e-6 * std::sqrt(facet.measure))
-      return false;
-    double depth = largest_depth[f];
-    // What was there before any displacement has hardly come nearer by more than half.
-    if (facet.part == surface.facets[point.facet].part)
-      depth = std::min(
-        depth,
-        .5 *
-          (closest_point(surface, f, reference_positions, point.reference) -
-           point.reference)
-            .norm());
-    return gap > -depth;
+      return (closest_point(surface, f, positions, point) - point) * own >= 0.;
+    return product < 0. && gap > -largest_depth[f];
   }
 } // namespace Ricochet
