@@ -117,11 +117,13 @@ def with_joined_points(grid: Any) -> Any:
     first = np.unique(groups, return_index=True)[1]
     points, cells = vtk.vtkPoints(), vtk.vtkCellArray()
     points.SetData(numpy_to_vtk(places[first], deep=True))
-    cells.DeepCopy(grid.GetCells())
-    connectivity = groups[vtk_to_numpy(cells.GetConnectivityArray())].astype(np.int64)
+    connectivity = groups[vtk_to_numpy(grid.GetCells().GetConnectivityArray())]
+    # VTK wants both of the same type; files have 32 bits.
     cells.SetData(
-        cells.GetOffsetsArray(),
-        numpy_to_vtkIdTypeArray(np.ascontiguousarray(connectivity), deep=True),
+        *(
+            numpy_to_vtkIdTypeArray(np.ascontiguousarray(values, dtype=np.int64), deep=True)
+            for values in (vtk_to_numpy(grid.GetCells().GetOffsetsArray()), connectivity)
+        )
     )
     result = vtk.vtkUnstructuredGrid()
     result.SetPoints(points)
