@@ -29,7 +29,7 @@ COLLISIONS = {
     "colliding_spheres": ("oblique_spin", 2),
 }
 FRAMES = 50
-WIDTH = 1500
+WIDTH, HEIGHT = 1500, 1200
 
 
 def run(program, file, every, folder, build):
@@ -47,7 +47,8 @@ def draw(one, path):
     pictures.draw_instants(one, "velocity", path)
     with Image.open(path) as picture:
         small = picture.convert("RGB")
-    small = small.resize((WIDTH, small.height * WIDTH // small.width), Image.LANCZOS)
+    width = min(WIDTH, HEIGHT * small.width // small.height)
+    small = small.resize((width, small.height * width // small.width), Image.LANCZOS)
     small.quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
 
 
