@@ -275,8 +275,9 @@ namespace Ricochet
           search.closest_facing(y, normal, [&](const unsigned int other) {
             return !is_around(other);
           });
-        const Corners<double> other = corners(p, *nearest, positions);
-        if (*nearest != *f && distance(other) < .999 * distance(x) &&
+        const Corners<double> other     = corners(p, *nearest, positions);
+        const bool            is_nearer = distance(other) < .999 * distance(x);
+        if (*nearest != *f && is_nearer &&
             PointBeforeTriangle<double>::gap(other) >
               1e-6 * std::sqrt(master.facets[*nearest].measure))
           return {};
