@@ -23,6 +23,7 @@ ORDER = (
     "obstacle_course",
     "colliding_disks",
     "colliding_spheres",
+    "colliding_tori",
     "sliding_block",
     "stent_artery",
     "ricochet",

@@ -119,6 +119,7 @@ RUNS = [
     ("stent_artery", "default", ["Time/Final time=0.02"]),
     ("colliding_disks", "default", ["Time/Final time=0.008"]),
     ("colliding_spheres", None, ["Time/Final time=0.004"]),
+    ("colliding_tori", None, ["Time/Final time=0.004"]),
     ("sliding_block", "default", ["Time/Final time=0.004"]),
 ]
 

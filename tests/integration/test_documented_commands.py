@@ -24,6 +24,7 @@ SHORTENED = {"elastic_ball": "Time/Final time=0.01",
              "obstacle_course": "Time/Final time=0.05",
              "colliding_disks": "Time/Final time=0.05",
              "colliding_spheres": "Time/Final time=0.012",
+             "colliding_tori": "Time/Final time=0.008",
              "stent_artery": "Time/Final time=0.3",
              "sliding_block": "Time/Final time=0.1"}
 

@@ -484,9 +484,55 @@ namespace
             Viscosity{}};
   }
 
+  /// What touches, and how it moves.
+  struct Motion
+  {
+    void
+    set_treatment(const std::string &treatment, const double friction)
+    {
+      const auto comma             = treatment.find(", ");
+      parameters.contact.treatment = treatment.substr(0, comma);
+      if (comma != std::string::npos)
+        parameters.contact.coupling = treatment.substr(comma + 2);
+      parameters.scheme.name                    = "midpoint";
+      parameters.contact.compliance_coefficient = 2e4;
+      parameters.contact.compliance_exponent    = 2.;
+      parameters.contact.penalty_epsilon_0      = 1e-4;
+      parameters.contact.augmentation           = 500.;
+      parameters.contact.friction_coefficient   = friction;
+      parameters.contact.tangential_compliance  = 300.;
+      parameters.newton.reuse_tangent_below     = 0.;
+    }
+
+    double
+    mechanical_energy() const
+    {
+      return impact->system.kinetic_energy(state.velocity) +
+        impact->bulk->energy(state.solution);
+    }
+
+    StepReport
+    step(const double time_step)
+    {
+      State            next;
+      const StepReport report =
+        impact->scheme->step(impact->system, state, time_step, next);
+      next.time = state.time + time_step;
+      touched   = touched || next.contact_force.l2_norm() > 0.;
+      state     = next;
+      return report;
+    }
+
+    std::unique_ptr<Triangulation<3>> mesh;
+    ImpactParameters                  parameters;
+    std::unique_ptr<Impact<3>>        impact;
+    State                             state;
+    bool                              touched = false;
+  };
+
   /// Two balls of radius 1, of tetrahedra and of hexahedra or both alike, that meet off
   /// their centres. Their meshes do not match. With degree 2 tetrahedra are curved.
-  struct Collision
+  struct Collision : Motion
   {
     Collision(const std::string &treatment,
               const double       friction,
@@ -539,18 +585,7 @@ namespace
           join_parts<3>({&parts[0], &parts[1]}, whole);
         },
         MPI_COMM_WORLD);
-      const auto comma             = treatment.find(", ");
-      parameters.contact.treatment = treatment.substr(0, comma);
-      if (comma != std::string::npos)
-        parameters.contact.coupling = treatment.substr(comma + 2);
-      parameters.scheme.name                    = "midpoint";
-      parameters.contact.compliance_coefficient = 2e4;
-      parameters.contact.compliance_exponent    = 2.;
-      parameters.contact.penalty_epsilon_0      = 1e-4;
-      parameters.contact.augmentation           = 500.;
-      parameters.contact.friction_coefficient   = friction;
-      parameters.contact.tangential_compliance  = 300.;
-      parameters.newton.reuse_tangent_below     = 0.;
+      set_treatment(treatment, friction);
       const Material<3> soft  = linear ? Material<3>(LinearElastic{200., 200.})
                                        : rubber(200.),
                         stiff = linear ? Material<3>(LinearElastic{300., 300.})
@@ -571,31 +606,70 @@ namespace
          [](const Point<3> &) { return 0.; },
          [](const Point<3> &) { return 0.; }}));
     }
+  };
 
-    double
-    mechanical_energy() const
+  /// A block with a slit, free in space: its two arms fly at each other, turn, and the
+  /// upper one slides along the lower one. Their meshes do not match.
+  struct Clamp : Motion
+  {
+    Clamp(const std::string &treatment,
+          const double       friction,
+          const bool         tetrahedra,
+          const bool         matching = false)
     {
-      return impact->system.kinetic_energy(state.velocity) +
-        impact->bulk->energy(state.solution);
+      mesh = distribute_mesh<3>(
+        [&](Triangulation<3> &whole) {
+          // The slit is the middle one of three layers, but for the first cells along x.
+          dealii::Table<3, dealii::types::material_id> cells(4, 2, 3);
+          for (unsigned int i = 1; i < 4; ++i)
+            for (unsigned int j = 0; j < 2; ++j)
+              cells(i, j, 1) = dealii::numbers::invalid_material_id;
+          Triangulation<3> block, pieces;
+          dealii::GridGenerator::subdivided_hyper_rectangle(block,
+                                                            {{.5, .5, .5, .5},
+                                                             {.5, .5},
+                                                             {.4, .1, .4}},
+                                                            Point<3>(),
+                                                            cells);
+          if (!matching)
+            dealii::GridTools::transform(
+              [](const Point<3> &x) {
+                const double up = x[2] > .45 ? 1. : 0.;
+                return Point<3>(x[0] + up * .13 * x[0],
+                                x[1] + up * .17 * x[0],
+                                x[2] + .02 * x[1] * (1. - 2. * up));
+              },
+              block);
+          if (tetrahedra)
+            dealii::GridGenerator::convert_hypercube_to_simplex_mesh(block,
+                                                                     pieces);
+          whole.copy_triangulation(tetrahedra ? pieces : block);
+          for (const auto &cell : whole.active_cell_iterators())
+            {
+              cell->set_material_id(0);
+              for (const auto &face : cell->face_iterators())
+                if (face->at_boundary())
+                  face->set_boundary_id(1);
+            }
+        },
+        MPI_COMM_WORLD);
+      set_treatment(treatment, friction);
+      // Few points hold a whole arm.
+      parameters.contact.compliance_coefficient = 4e3;
+      const Material<3> soft                    = rubber(200.);
+      ImpactSetup<3>    setup{soft};
+      setup.pairs = {touching_itself({1})};
+      impact =
+        std::make_unique<Impact<3>>(parameters, *mesh, setup, MPI_COMM_WORLD);
+      state = impact->state_in_motion(dealii::FunctionFromFunctionObjects<3>(
+        {[](const Point<3> &x) { return x[2] - .45; },
+         [=](const Point<3> &x) {
+           return (matching ? 0. : 1.) * x[0] * (x[2] - .45);
+         },
+         [](const Point<3> &x) {
+           return .5 * x[0] * (x[2] > .45 ? -1. : 1.);
+         }}));
     }
-
-    StepReport
-    step(const double time_step)
-    {
-      State            next;
-      const StepReport report =
-        impact->scheme->step(impact->system, state, time_step, next);
-      next.time = state.time + time_step;
-      touched   = touched || next.contact_force.l2_norm() > 0.;
-      state     = next;
-      return report;
-    }
-
-    std::unique_ptr<Triangulation<3>> mesh;
-    ImpactParameters                  parameters;
-    std::unique_ptr<Impact<3>>        impact;
-    State                             state;
-    bool                              touched = false;
   };
 
   constexpr double       time_step = .02;
@@ -651,6 +725,103 @@ BOOST_AUTO_TEST_CASE(surfaces_hang_together)
 
 
 
+namespace
+{
+  /// Energies and momenta over some steps.
+  void
+  check_balances(Motion            &motion,
+                 const std::string &treatment,
+                 const double       friction)
+  {
+    const Momenta<3> momenta(motion.impact->body,
+                             motion.impact->system.mass_matrix(),
+                             /* small strains */ false);
+    const double     first  = motion.mechanical_energy();
+    const auto       linear = momenta.linear(motion.state.velocity);
+    const auto       angular =
+      momenta.angular(motion.state.solution, motion.state.velocity);
+    double old = first, friction_work = 0., most = first;
+    for (unsigned int n = 0; n < n_steps; ++n)
+      {
+        const StepReport report = motion.step(time_step);
+        const double     now    = motion.mechanical_energy();
+        BOOST_CHECK_SMALL(
+          (now - old + report.contact_work + report.friction_work) / first,
+          1e-11);
+        BOOST_CHECK_GE(report.friction_work, -1e-12 * first);
+        friction_work += report.friction_work;
+        most = std::max(most, now + friction_work);
+        if (treatment.find("persistent contact") == 0 ||
+            treatment.find("Ayyad-Barboteu two-step") == 0)
+          BOOST_CHECK_SMALL((now + friction_work - first) / first, 1e-9);
+        if (treatment.find("Signorini active set") == 0)
+          BOOST_CHECK_LE(now + report.friction_work, old + 1e-11 * first);
+        old = now;
+      }
+    BOOST_TEST_MESSAGE(treatment << ", mu = " << friction << ": energy "
+                                 << old / first << ", most " << most / first
+                                 << ", friction " << friction_work / first);
+    BOOST_CHECK(motion.touched);
+    if (friction > 0.)
+      BOOST_CHECK_GT(friction_work, 1e-4 * first);
+    BOOST_CHECK_SMALL((momenta.linear(motion.state.velocity) - linear).norm(),
+                      1e-10);
+    BOOST_CHECK_SMALL(
+      (momenta.angular(motion.state.solution, motion.state.velocity) - angular)
+        .norm(),
+      1e-10);
+  }
+
+  /// The tangent of contact at a state near @p solution, where some points touch and
+  /// slide.
+  void
+  check_tangent(Motion &motion, Vector solution)
+  {
+    ContactOperator &contact = *motion.impact->contact;
+    const Body<3>   &body    = motion.impact->body;
+    Vector           noise(solution), direction(solution);
+    randomise(noise, 1e-3, 1);
+    randomise(direction, 1., 2);
+    // No pressure becomes negative by it: friction turns with positive ones only.
+    for (const auto i : body.multiplier_indices())
+      noise(i) = std::abs(noise(i));
+    noise.compress(dealii::VectorOperation::insert);
+    solution += noise;
+    contact.begin_stage({motion.state.solution,
+                         motion.state.contact_force,
+                         motion.state.mean_velocity,
+                         time_step,
+                         motion.state.time + time_step},
+                        1.);
+    Matrix body_matrix, matrix;
+    body_matrix.reinit(body.sparsity_pattern());
+    Vector residual(solution), product(solution), difference(solution);
+    residual = 0.;
+    contact.complete_residual(solution, residual);
+    UnitedPattern united;
+    united.update(body.sparsity_pattern(), *contact.couplings());
+    united.embed(body_matrix, matrix);
+    contact.complete_tangent(matrix);
+    matrix.vmult(product, direction);
+    const double h  = 1e-7;
+    const auto   at = [&](const double length) {
+      Vector point(solution), result(solution);
+      point.add(length, direction);
+      result = 0.;
+      contact.complete_residual(point, result);
+      return result;
+    };
+    difference = at(h);
+    difference -= at(-h);
+    difference *= .5 / h;
+    BOOST_CHECK_GT(product.l2_norm(), .1);
+    difference -= product;
+    BOOST_CHECK_SMALL(difference.l2_norm() / product.l2_norm(), 1e-6);
+  }
+} // namespace
+
+
+
 BOOST_AUTO_TEST_CASE(balances_close_and_momenta_are_kept)
 {
   for (const bool tetrahedra : {true, false})
@@ -664,55 +835,13 @@ BOOST_AUTO_TEST_CASE(balances_close_and_momenta_are_kept)
                              << (tetrahedra ? "tetrahedra" : "hexahedra"))
           {
             Collision        balls(treatment, friction, tetrahedra);
-            const Momenta<3> momenta(balls.impact->body,
-                                     balls.impact->system.mass_matrix(),
-                                     /* small strains */ false);
             const Momenta<3> left(balls.impact->body,
                                   balls.impact->system.mass_matrix(),
                                   false,
                                   2,
                                   0);
-            const double     first  = balls.mechanical_energy();
-            const auto       linear = momenta.linear(balls.state.velocity);
-            const auto       angular =
-              momenta.angular(balls.state.solution, balls.state.velocity);
-            const auto left_before = left.linear(balls.state.velocity);
-            double     old = first, friction_work = 0., most = first;
-            for (unsigned int n = 0; n < n_steps; ++n)
-              {
-                const StepReport report = balls.step(time_step);
-                const double     now    = balls.mechanical_energy();
-                BOOST_CHECK_SMALL((now - old + report.contact_work +
-                                   report.friction_work) /
-                                    first,
-                                  1e-11);
-                BOOST_CHECK_GE(report.friction_work, -1e-12 * first);
-                friction_work += report.friction_work;
-                most = std::max(most, now + friction_work);
-                if (treatment.find("persistent contact") == 0 ||
-                    treatment.find("Ayyad-Barboteu two-step") == 0)
-                  BOOST_CHECK_SMALL((now + friction_work - first) / first,
-                                    1e-9);
-                if (treatment.find("Signorini active set") == 0)
-                  BOOST_CHECK_LE(now + report.friction_work,
-                                 old + 1e-11 * first);
-                old = now;
-              }
-            BOOST_TEST_MESSAGE(treatment << ", mu = " << friction << ": energy "
-                                         << old / first << ", most "
-                                         << most / first << ", friction "
-                                         << friction_work / first);
-            BOOST_CHECK(balls.touched);
-            if (friction > 0.)
-              BOOST_CHECK_GT(friction_work, 1e-4 * first);
-            BOOST_CHECK_SMALL(
-              (momenta.linear(balls.state.velocity) - linear).norm(),
-              1e-10);
-            BOOST_CHECK_SMALL((momenta.angular(balls.state.solution,
-                                               balls.state.velocity) -
-                               angular)
-                                .norm(),
-                              1e-10);
+            const auto       left_before = left.linear(balls.state.velocity);
+            check_balances(balls, treatment, friction);
             BOOST_CHECK_GT(
               (left.linear(balls.state.velocity) - left_before).norm(),
               .2);
@@ -735,52 +864,60 @@ BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
             Collision balls(treatment, friction, tetrahedra);
             while (balls.state.contact_force.l2_norm() < 1.)
               balls.step(time_step);
-            ContactOperator &contact = *balls.impact->contact;
-            const Body<3>   &body    = balls.impact->body;
-            Vector           solution(balls.state.solution);
-            Vector           noise(solution), direction(solution);
-            randomise(noise, 1e-3, 1);
-            randomise(direction, 1., 2);
+            Vector solution(balls.state.solution);
             solution.add(time_step, balls.state.velocity);
-            solution += noise;
-            const auto parts = body.parts_of_unknowns(2);
+            const auto parts = balls.impact->body.parts_of_unknowns(2);
             Vector along = balls.impact->uniform(Tensor<1, 3>({.01, 0., 0.}));
             for (unsigned int i = 0; i < parts.size(); ++i)
               if (parts[i] == 0)
                 solution.trilinos_vector()[0][i] +=
                   along.trilinos_vector()[0][i];
-            contact.begin_stage({balls.state.solution,
-                                 balls.state.contact_force,
-                                 balls.state.mean_velocity,
-                                 time_step,
-                                 balls.state.time + time_step},
-                                1.);
-            Matrix body_matrix, matrix;
-            body_matrix.reinit(body.sparsity_pattern());
-            Vector residual(solution), product(solution), difference(solution);
-            residual = 0.;
-            contact.complete_residual(solution, residual);
-            UnitedPattern united;
-            united.update(body.sparsity_pattern(), *contact.couplings());
-            united.embed(body_matrix, matrix);
-            contact.complete_tangent(matrix);
-            matrix.vmult(product, direction);
-            const double h  = 1e-7;
-            const auto   at = [&](const double length) {
-              Vector point(solution), result(solution);
-              point.add(length, direction);
-              result = 0.;
-              contact.complete_residual(point, result);
-              return result;
-            };
-            difference = at(h);
-            difference -= at(-h);
-            difference *= .5 / h;
-            BOOST_CHECK_GT(product.l2_norm(), .05);
-            difference -= product;
-            BOOST_CHECK_SMALL(difference.l2_norm() / product.l2_norm(), 1e-6);
+            check_tangent(balls, solution);
           }
         }
+}
+
+
+
+BOOST_AUTO_TEST_CASE(surfaces_against_themselves)
+{
+  for (const bool tetrahedra : {true, false})
+    for (const std::string &treatment : fewer_in_debug(treatments))
+      for (const double friction : {0., .3})
+        {
+          if (friction > 0. && (treatment == "penalty" || !tetrahedra))
+            continue;
+          BOOST_TEST_CONTEXT(treatment
+                             << ", mu = " << friction << ", "
+                             << (tetrahedra ? "tetrahedra" : "hexahedra"))
+          {
+            Clamp clamp(treatment, friction, tetrahedra);
+            // Nothing touches while the slit is open.
+            clamp.step(time_step);
+            BOOST_CHECK(!clamp.touched);
+            check_balances(clamp, treatment, friction);
+            Clamp again(treatment, friction, tetrahedra);
+            while (again.state.contact_force.l2_norm() < .1)
+              again.step(time_step);
+            Vector solution(again.state.solution);
+            solution.add(time_step, again.state.velocity);
+            check_tangent(again, solution);
+          }
+        }
+}
+
+
+
+// Nodes that come down on nodes: of two constraints that are the same one is left out.
+BOOST_AUTO_TEST_CASE(own_nodes_on_nodes)
+{
+  for (const std::string treatment :
+       {"persistent contact", "Signorini active set"})
+    BOOST_TEST_CONTEXT(treatment)
+    {
+      Clamp clamp(treatment, 0., false, /* matching */ true);
+      check_balances(clamp, treatment, 0.);
+    }
 }
 
 

@@ -93,6 +93,19 @@ namespace Ricochet
     }
 
     mutable std::vector<Position> work;
+
+  private:
+    /// Whether the @p point and facet @p f of one surface hang together.
+    bool
+    shares_node(const Point &point, const unsigned int f) const;
+
+    /// Whether facet @p f of its own surface can touch the @p point at @p y.
+    bool
+    can_touch_itself(const Point                 &point,
+                     const unsigned int           f,
+                     const Position              &y,
+                     const Position              &normal_of_point,
+                     const std::vector<Position> &master_x) const;
   };
 } // namespace Ricochet
 

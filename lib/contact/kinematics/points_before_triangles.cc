@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <base/exceptions.h>
 #include <contact/kinematics/points_before_triangles.h>
 #include <contact/surfaces/closest_point.h>
 #include <contact/surfaces/facet_search.h>
@@ -11,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 
@@ -38,9 +38,6 @@ namespace Ricochet
                                                const PointsIn     points_in)
     : SurfacePair<3>(body, pair)
   {
-    if (is_self)
-      throw InputError(
-        "Contact of a surface with itself is there in the plane only.");
     if (points_in == PointsIn::quadrature_points)
       make_quadrature_points(body);
     else
@@ -52,7 +49,7 @@ namespace Ricochet
     for (const auto &node : master.nodes)
       places.push_back(node.reference_position);
     const auto ends = BoundingBox<3>(places).get_boundary_points();
-    smallest_reach  = .1 * ends.first.distance(ends.second);
+    smallest_reach  = is_self ? 0. : .1 * ends.first.distance(ends.second);
     for (const auto &facet : master.facets)
       smallest_reach =
         std::max(smallest_reach, 2. * std::sqrt(2. * facet.measure));
@@ -71,6 +68,17 @@ namespace Ricochet
         std::sort(around[f].begin(), around[f].end());
         around[f].erase(std::unique(around[f].begin(), around[f].end()),
                         around[f].end());
+      }
+    if (is_self)
+      {
+        own_facets = std::make_unique<OwnFacets>(master);
+        for (const Point &point : own_points)
+          {
+            dealii::Point<3> reference;
+            for (const auto &[node, weight] : point.nodes)
+              reference += weight * slave.nodes[node].reference_position;
+            own_around.push_back(own_facets->around(reference, point.facets));
+          }
       }
   }
 
@@ -167,7 +175,8 @@ namespace Ricochet
 
   bool
   PointsBeforeTriangles::is_off(const Corners<double> &x,
-                                const unsigned int     f) const
+                                const unsigned int     f,
+                                const double           tolerance) const
   {
     const Tensor<1, 3> y = to_tensor(x[0]), a = to_tensor(x[1]),
                        b = to_tensor(x[2]), c = to_tensor(x[3]);
@@ -186,7 +195,7 @@ namespace Ricochet
           return true;
     // Past a convex edge points may be as far as the neighbour is before them; what is
     // farther off the facet than before it is beside it.
-    return beside > 1.5 * std::abs(gap) + .5 * size;
+    return beside > 1.5 * std::abs(gap) + tolerance * size;
   }
 
 
@@ -196,6 +205,8 @@ namespace Ricochet
                                     const FacetSearch<3> &search,
                                     const Positions      &positions) const
   {
+    if (is_self)
+      return find_own_facet(p, search, positions);
     const Point &point = own_points[p];
     const auto   f = search.closest_facing(position_of(point, positions.slave),
                                          normal_of(point, positions.slave),
@@ -229,6 +240,94 @@ namespace Ricochet
 
 
 
+  std::optional<unsigned int>
+  PointsBeforeTriangles::find_own_facet(const unsigned int    p,
+                                        const FacetSearch<3> &search,
+                                        const Positions      &positions) const
+  {
+    const Point   &point  = own_points[p];
+    const Position y      = position_of(point, positions.slave),
+                   normal = normal_of(point, positions.slave);
+    const auto &around_it = own_around[p];
+    const auto  is_around = [&](const unsigned int f) {
+      return std::binary_search(around_it.begin(), around_it.end(), f);
+    };
+    const auto f = search.closest_facing(
+      y,
+      normal,
+      [&](const unsigned int other) {
+        return !is_around(other) &&
+          own_facets->can_touch(y, normal, other, positions.master);
+      },
+      reach);
+    if (!f)
+      return {};
+    const Corners<double> x   = corners(p, *f, positions);
+    const double          gap = PointBeforeTriangle<double>::gap(x);
+    // Facets that are closer may not be allowed: then the point is beside this one.
+    if (is_off(x, *f, .1))
+      return {};
+    // What is behind the plane of a facet, but nearer to another one and in front of
+    // that, is beside the body.
+    if (gap < 0.)
+      {
+        const auto nearest =
+          search.closest_facing(y, normal, [&](const unsigned int other) {
+            return !is_around(other);
+          });
+        const Corners<double> other     = corners(p, *nearest, positions);
+        const bool            is_nearer = distance(other) < .999 * distance(x);
+        if (*nearest != *f && is_nearer &&
+            PointBeforeTriangle<double>::gap(other) >
+              1e-6 * std::sqrt(master.facets[*nearest].measure))
+          return {};
+      }
+    return f;
+  }
+
+
+
+  bool
+  PointsBeforeTriangles::meets_node(const unsigned int p) const
+  {
+    const Point &point = own_points[p];
+    if (point.multipliers[0] == numbers::invalid_dof_index)
+      return false;
+    const auto           &facet = master.facets[steps[p].old_facet];
+    const Corners<double> x     = corners(p, steps[p].old_facet, old_positions);
+    const auto            shares = closest_in_triangle(to_tensor(x[0]),
+                                            to_tensor(x[1]),
+                                            to_tensor(x[2]),
+                                            to_tensor(x[3]));
+    for (unsigned int v = 0; v < 3; ++v)
+      if (shares[v] > 1. - 1e-8)
+        {
+          const auto &corner = master.nodes[facet.nodes[v]];
+          return corner.mean_of.empty() && !corner.is_held &&
+            facet.nodes[v] < point.nodes[0].first;
+        }
+    return false;
+  }
+
+
+
+  std::vector<unsigned int>
+  PointsBeforeTriangles::allowed_around(const unsigned int p,
+                                        const unsigned int f) const
+  {
+    if (!is_self)
+      return around[f];
+    std::vector<unsigned int> allowed;
+    std::set_difference(around[f].begin(),
+                        around[f].end(),
+                        own_around[p].begin(),
+                        own_around[p].end(),
+                        std::back_inserter(allowed));
+    return allowed;
+  }
+
+
+
   unsigned int
   PointsBeforeTriangles::walk(const unsigned int p,
                               const unsigned int f,
@@ -240,7 +339,7 @@ namespace Ricochet
     // What is fast may pass several facets, but not the whole surface.
     for (unsigned int n = 0; n < 4; ++n)
       {
-        const auto next = closest_facing_of<3>(around[closest],
+        const auto next = closest_facing_of<3>(allowed_around(p, closest),
                                                master,
                                                positions.master,
                                                y,
@@ -383,6 +482,9 @@ namespace Ricochet
         find_facet_now(p, search);
         if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
           find_facet_later(p, *later, end);
+        step.is_double = gap.is_before_facet && is_self && meets_node(p);
+        if (step.is_double)
+          gap.is_before_facet = false;
         if (!gap.is_before_facet)
           continue;
         step.new_facet    = step.old_facet;
@@ -422,7 +524,7 @@ namespace Ricochet
     const auto  &old  = master.facets[step.old_facet];
     const double gap  = PointBeforeTriangle<double>::gap(
       corners(p, step.old_facet, new_positions));
-    for (const unsigned int f : around[step.old_facet])
+    for (const unsigned int f : allowed_around(p, step.old_facet))
       if (f != step.old_facet &&
           std::abs(
             PointBeforeTriangle<double>::gap(corners(p, f, new_positions)) -

@@ -3,7 +3,10 @@
 #define ricochet_contact_kinematics_points_before_triangles_h
 
 #include <contact/kinematics/surface_pair.h>
+#include <contact/surfaces/own_facets.h>
 #include <contact/surfaces/point_passing_triangles.h>
+
+#include <memory>
 
 namespace Ricochet
 {
@@ -19,6 +22,9 @@ namespace Ricochet
    * at the end of a step is that at the beginning of the next one. Where both differ
    * after all, at vertices of some kinds, the point stays before the triangle where it
    * began until the step is over.
+   *
+   * Of a surface against itself all points are before others of its triangles: see
+   * OwnFacets for which. A point never passes to one of those around it.
    */
   class PointsBeforeTriangles : public SurfacePair<3>
   {
@@ -29,7 +35,7 @@ namespace Ricochet
       quadrature_points
     };
 
-    /// @throws InputError see SurfacePair; and for a surface against itself.
+    /// @throws InputError see SurfacePair.
     PointsBeforeTriangles(const Body<3>     &body,
                           const ContactPair &pair,
                           const PointsIn     points_in);
@@ -55,6 +61,12 @@ namespace Ricochet
     int
     passage(const unsigned int p) const override;
 
+    bool
+    is_double(const unsigned int p) const override
+    {
+      return steps[p].is_double;
+    }
+
     std::vector<Index>
     unknowns_nearby(const unsigned int p) const override;
 
@@ -79,6 +91,8 @@ namespace Ricochet
       /// Before which the point is at both ends of the step.
       unsigned int old_facet = 0, new_facet = 0;
       bool         may_pass = false;
+      /// See SurfacePair::is_double().
+      bool is_double = false;
       /// Outward normal of the slave at the beginning of the step.
       Position           normal{};
       bool               up_to_date = false;
@@ -107,6 +121,10 @@ namespace Ricochet
     shared_edge(const unsigned int old_facet,
                 const unsigned int new_facet) const;
 
+    /// The facets around facet @p f that the point @p p may be before.
+    std::vector<unsigned int>
+    allowed_around(const unsigned int p, const unsigned int f) const;
+
     /// The closest facet, found by walking over the surface from facet @p f.
     unsigned int
     walk(const unsigned int p,
@@ -120,9 +138,11 @@ namespace Ricochet
     last_facet(const unsigned int p, const Positions &now) const;
 
     /// Whether the point, the first of @p x, is beyond an open edge of the surface, or
-    /// beside the facet @p f.
+    /// beside the facet @p f by more than @p tolerance times its longest edge.
     bool
-    is_off(const Corners<double> &x, const unsigned int f) const;
+    is_off(const Corners<double> &x,
+           const unsigned int     f,
+           const double           tolerance = .5) const;
 
     /// The facet before which the point is, of those that @p search knows, if there
     /// is one.
@@ -130,6 +150,17 @@ namespace Ricochet
     find_facet(const unsigned int    p,
                const FacetSearch<3> &search,
                const Positions      &positions) const;
+
+    /// The same of a surface against itself.
+    std::optional<unsigned int>
+    find_own_facet(const unsigned int    p,
+                   const FacetSearch<3> &search,
+                   const Positions      &positions) const;
+
+    /// Of two nodes of one surface that meet each other exactly, whether @p p is the
+    /// one to leave out: two constraints would be the same.
+    bool
+    meets_node(const unsigned int p) const;
 
     /// The facet before which a point is at the beginning of a step, if there is one.
     void
@@ -161,10 +192,15 @@ namespace Ricochet
     update(const unsigned int p) const;
 
     /// Facets farther from a point are not looked for: a tenth of the surface, but no
-    /// less than two facets and what comes near in a step (m).
+    /// less than two facets and what comes near in a step; of its own surface only
+    /// these (m).
     double reach = 0., smallest_reach = 0.;
     /// The facets around each one: those that share a node with it, and itself.
     std::vector<std::vector<unsigned int>> around;
+    /// For contact with itself: what points can touch, and of each the facets around
+    /// it, which it cannot.
+    std::unique_ptr<OwnFacets>             own_facets;
+    std::vector<std::vector<unsigned int>> own_around;
     Positions                              old_positions, new_positions;
     mutable std::vector<Step>              steps;
     mutable Derivatives                    result;

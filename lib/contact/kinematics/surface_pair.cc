@@ -200,69 +200,6 @@ namespace Ricochet
   }
 
 
-
-  template <int dim>
-  bool
-  SurfacePair<dim>::shares_node(const Point &point, const unsigned int f) const
-  {
-    for (const unsigned int of_point : point.facets)
-      for (const unsigned int a : slave.facets[of_point].nodes)
-        for (const unsigned int b : master.facets[f].nodes)
-          if (a == b)
-            return true;
-    return false;
-  }
-
-
-
-  template <int dim>
-  bool
-  SurfacePair<dim>::can_touch_itself(
-    const Point                 &point,
-    const unsigned int           f,
-    const Position              &y,
-    const Position              &normal_of_point,
-    const std::vector<Position> &master_x) const
-  {
-    const auto &own = master.facets[f];
-    if (shares_node(point, f))
-      return false;
-    // Between the far sides of a wall is its material, which becomes thinner by less
-    // than half; what is pressed into a facet is nearer to it than that.
-    dealii::Point<dim> reference;
-    for (const auto &[node, weight] : point.nodes)
-      reference += weight * slave.nodes[node].reference_position;
-    const auto &a = master.nodes[own.nodes[0]].reference_position;
-    double      distance, gap = 0.;
-    if constexpr (dim == 2)
-      {
-        const auto   e = master.nodes[own.nodes[1]].reference_position - a;
-        const double along =
-          std::clamp(((reference - a) * e) / e.norm_square(), 0., 1.);
-        distance = (reference - (a + along * e)).norm();
-      }
-    else
-      distance = (reference - a).norm();
-    const Position normal = facet_normal<dim>(master, master_x, f);
-    double         square = 0., square_of_point = 0., product = 0.;
-    for (unsigned int c = 0; c < dim; ++c)
-      {
-        gap += normal[c] * (y[c] - master_x[own.nodes[0]][c]);
-        square += normal[c] * normal[c];
-        square_of_point += normal_of_point[c] * normal_of_point[c];
-        product += normal[c] * normal_of_point[c];
-      }
-    // Where the surface is about to be folded it does not face itself yet; but what is
-    // behind such a facet is only round a corner.
-    const double cosine  = product / std::sqrt(square * square_of_point);
-    const bool   is_wall = slave.facets[point.facets[0]].part == own.part;
-    const double depth   = is_wall ? .5 * distance : own.measure;
-    return gap > (cosine < 0. ? -depth * std::sqrt(square) : 0.) &&
-      cosine < std::sqrt(.5);
-  }
-
-
-
   template class SurfacePair<1>;
   template class SurfacePair<2>;
   template class SurfacePair<3>;
