@@ -885,7 +885,10 @@ BOOST_AUTO_TEST_CASE(surfaces_against_themselves)
     for (const std::string &treatment : fewer_in_debug(treatments))
       for (const double friction : {0., .3})
         {
-          if (friction > 0. && (treatment == "penalty" || !tetrahedra))
+          // With friction, and on hexahedra, one of each kind.
+          if ((friction > 0. || !tetrahedra) &&
+              treatment != "persistent contact" &&
+              treatment != "improved normal compliance")
             continue;
           BOOST_TEST_CONTEXT(treatment
                              << ", mu = " << friction << ", "
@@ -895,13 +898,12 @@ BOOST_AUTO_TEST_CASE(surfaces_against_themselves)
             // Nothing touches while the slit is open.
             clamp.step(time_step);
             BOOST_CHECK(!clamp.touched);
+            while (clamp.state.contact_force.l2_norm() < .1)
+              clamp.step(time_step);
+            Vector solution(clamp.state.solution);
+            solution.add(time_step, clamp.state.velocity);
+            check_tangent(clamp, solution);
             check_balances(clamp, treatment, friction);
-            Clamp again(treatment, friction, tetrahedra);
-            while (again.state.contact_force.l2_norm() < .1)
-              again.step(time_step);
-            Vector solution(again.state.solution);
-            solution.add(time_step, again.state.velocity);
-            check_tangent(again, solution);
           }
         }
 }
