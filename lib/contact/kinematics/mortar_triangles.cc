@@ -19,10 +19,10 @@ namespace Ricochet
   namespace
   {
     /// Pieces smaller than this part of a triangle are round-off.
-    constexpr double smallest_part = 1e-12;
+    constexpr double smallest_piece = 1e-12;
 
     /// Triangles are cut as far as so many of their lengths from the master.
-    constexpr double reach = 2.;
+    constexpr double reach_of_triangles = 2.;
 
     /// Triangles that are steeper against each other do not face each other: the
     /// projection of one on the other says nothing about where they touch.
@@ -209,8 +209,9 @@ namespace Ricochet
         const Tensor<1, 3> e1 = x[1] - x[0], e2 = x[2] - x[0];
         const Tensor<1, 3> normal_of_own = cross_product_3d(e1, e2);
         const double       square        = normal_of_own.norm_square();
-        const double farthest = reach * std::sqrt(std::sqrt(square)) + way;
-        Position     lower, upper;
+        const double       farthest =
+          reach_of_triangles * std::sqrt(std::sqrt(square)) + way;
+        Position lower, upper;
         for (unsigned int c = 0; c < 3; ++c)
           {
             lower[c] = std::min({x[0][c], x[1][c], x[2][c]}) - farthest;
@@ -237,7 +238,7 @@ namespace Ricochet
                    cross_product_3d(e1, r) * normal_of_own / square}};
               }
             const ClippedTriangle polygon(projected);
-            if (!(polygon.area() > smallest_part))
+            if (!(polygon.area() > smallest_piece))
               continue;
             const auto        &middle = polygon.middle();
             const Tensor<1, 3> y      = x[0] + middle[0] * e1 + middle[1] * e2;
