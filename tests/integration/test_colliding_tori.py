@@ -47,8 +47,6 @@ class CollidingTori(ProgramTest):
 
     @needs_numpy
     def test_walls_meet_inside(self):
-        if is_debug_build():
-            self.skipTest("takes a minute with assertions; the next test runs the same")
         cases = [("with", "colliding_tori", FLAT + PERSISTENT + ["Output/Fields every=30"]),
                  ("without", "colliding_tori",
                   FLAT + PERSISTENT + WITHOUT + ["Output/Fields every=30"])]
