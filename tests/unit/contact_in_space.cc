@@ -773,9 +773,9 @@ namespace
   }
 
   /// The tangent of contact at a state near @p solution, where some points touch and
-  /// slide.
+  /// slide. @param least_product contact acts there.
   void
-  check_tangent(Motion &motion, Vector solution)
+  check_tangent(Motion &motion, Vector solution, const double least_product)
   {
     ContactOperator &contact = *motion.impact->contact;
     const Body<3>   &body    = motion.impact->body;
@@ -814,7 +814,7 @@ namespace
     difference = at(h);
     difference -= at(-h);
     difference *= .5 / h;
-    BOOST_CHECK_GT(product.l2_norm(), .1);
+    BOOST_CHECK_GT(product.l2_norm(), least_product);
     difference -= product;
     BOOST_CHECK_SMALL(difference.l2_norm() / product.l2_norm(), 1e-6);
   }
@@ -872,7 +872,10 @@ BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
               if (parts[i] == 0)
                 solution.trilinos_vector()[0][i] +=
                   along.trilinos_vector()[0][i];
-            check_tangent(balls, solution);
+            check_tangent(balls,
+                          solution,
+                          treatment.find("mortar") == std::string::npos ? 1.
+                                                                        : .1);
           }
         }
 }
@@ -902,7 +905,7 @@ BOOST_AUTO_TEST_CASE(surfaces_against_themselves)
               clamp.step(time_step);
             Vector solution(clamp.state.solution);
             solution.add(time_step, clamp.state.velocity);
-            check_tangent(clamp, solution);
+            check_tangent(clamp, solution, .1);
             check_balances(clamp, treatment, friction);
           }
         }

@@ -29,20 +29,6 @@ namespace Ricochet
     constexpr double smallest_cosine = .2;
 
     constexpr unsigned int no_place = numbers::invalid_unsigned_int;
-
-    /// Call @p add (number of a node, factor) for all nodes that node @p n moves with.
-    template <typename Function>
-    void
-    for_each_node(const ContactSurface<3> &surface,
-                  const unsigned int       n,
-                  const Function          &add)
-    {
-      const auto &mean_of = surface.nodes[n].mean_of;
-      if (mean_of.empty())
-        add(n, 1.);
-      for (const unsigned int of : mean_of)
-        add(of, 1. / mean_of.size());
-    }
   } // namespace
 
 
@@ -124,12 +110,11 @@ namespace Ricochet
   {
     double sum = 0.;
     for (unsigned int v = 0; v < 3; ++v)
-      for_each_node(slave,
-                    slave.facets[triangle].nodes[v],
-                    [&](const unsigned int n, const double factor) {
-                      if (n == face.nodes[k])
-                        sum += shares[v] * factor;
-                    });
+      slave.for_each_node_of(slave.facets[triangle].nodes[v],
+                             [&](const unsigned int n, const double factor) {
+                               if (n == face.nodes[k])
+                                 sum += shares[v] * factor;
+                             });
     return sum;
   }
 
@@ -343,16 +328,7 @@ namespace Ricochet
                       middle,
                       &old_positions,
                       .5 * start.time_step);
-        const auto longest = [](const std::vector<Position> &from,
-                                const std::vector<Position> &to) {
-          double result = 0.;
-          for (unsigned int n = 0; n < to.size(); ++n)
-            result =
-              std::max(result, (to_tensor(to[n]) - to_tensor(from[n])).norm());
-          return result;
-        };
-        way = longest(old_positions.slave, middle.slave) +
-          longest(old_positions.master, middle.master);
+        way = longest_way(old_positions, middle);
       }
     const FacetSearch<3> search(master, middle.master);
     for (Face &face : faces)
@@ -482,22 +458,26 @@ namespace Ricochet
   {
     for (unsigned int v = 0; v < 3; ++v)
       {
-        for_each_node(slave,
-                      slave.facets[point.triangle].nodes[v],
-                      [&](const unsigned int n, const double factor) {
-                        const unsigned int place =
-                          place_of(slave.nodes[n], n, slave_places, rows);
-                        for (unsigned int c = 0; c < 3; ++c)
-                          add(place + c, c, point.shares[v] * factor);
-                      });
-        for_each_node(master,
-                      master.facets[point.opposite].nodes[v],
-                      [&](const unsigned int n, const double factor) {
-                        const unsigned int place =
-                          place_of(master.nodes[n], n, master_places, rows);
-                        for (unsigned int c = 0; c < 3; ++c)
-                          add(place + c, 3 * (v + 1) + c, factor);
-                      });
+        slave.for_each_node_of(slave.facets[point.triangle].nodes[v],
+                               [&](const unsigned int n, const double factor) {
+                                 const unsigned int place =
+                                   place_of(slave.nodes[n],
+                                            n,
+                                            slave_places,
+                                            rows);
+                                 for (unsigned int c = 0; c < 3; ++c)
+                                   add(place + c, c, point.shares[v] * factor);
+                               });
+        master.for_each_node_of(master.facets[point.opposite].nodes[v],
+                                [&](const unsigned int n, const double factor) {
+                                  const unsigned int place =
+                                    place_of(master.nodes[n],
+                                             n,
+                                             master_places,
+                                             rows);
+                                  for (unsigned int c = 0; c < 3; ++c)
+                                    add(place + c, 3 * (v + 1) + c, factor);
+                                });
       }
   }
 
@@ -514,11 +494,10 @@ namespace Ricochet
         for (unsigned int q = 0; q < face.n_points; ++q)
           for (const unsigned int corner :
                master.facets[face.points[q].opposite].nodes)
-            for_each_node(master,
-                          corner,
-                          [&](const unsigned int n, const double) {
-                            master_places[n] = no_place;
-                          });
+            master.for_each_node_of(corner,
+                                    [&](const unsigned int n, const double) {
+                                      master_places[n] = no_place;
+                                    });
       }
   }
 

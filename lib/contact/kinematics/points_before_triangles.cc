@@ -108,11 +108,11 @@ namespace Ricochet
             std::map<unsigned int, double> weight;
             for (unsigned int v = 0; v < 3; ++v)
               {
-                const auto &mean_of = slave.nodes[facet.nodes[v]].mean_of;
-                if (mean_of.empty())
-                  weight[facet.nodes[v]] += at_corner[v];
-                for (const unsigned int of : mean_of)
-                  weight[of] += at_corner[v] / mean_of.size();
+                slave.for_each_node_of(facet.nodes[v],
+                                       [&](const unsigned int n,
+                                           const double       share) {
+                                         weight[n] += share * at_corner[v];
+                                       });
               }
             point.nodes.assign(weight.begin(), weight.end());
             for (const auto &node : point.nodes)
@@ -311,13 +311,13 @@ namespace Ricochet
 
 
 
-  std::vector<unsigned int>
+  const std::vector<unsigned int> &
   PointsBeforeTriangles::allowed_around(const unsigned int p,
                                         const unsigned int f) const
   {
     if (!is_self)
       return around[f];
-    std::vector<unsigned int> allowed;
+    allowed.clear();
     std::set_difference(around[f].begin(),
                         around[f].end(),
                         own_around[p].begin(),
@@ -456,16 +456,7 @@ namespace Ricochet
                       &old_positions,
                       start.time_step);
       }
-    const auto way = [](const std::vector<Position> &from,
-                        const std::vector<Position> &to) {
-      double longest = 0.;
-      for (unsigned int n = 0; n < to.size(); ++n)
-        longest =
-          std::max(longest, (to_tensor(to[n]) - to_tensor(from[n])).norm());
-      return longest;
-    };
-    reach = smallest_reach + way(old_positions.slave, end.slave) +
-      way(old_positions.master, end.master);
+    reach = smallest_reach + longest_way(old_positions, end);
     const FacetSearch<3> search(master, old_positions.master);
     const auto           later = has_length
                 ? std::make_unique<FacetSearch<3>>(master, end.master)
@@ -596,11 +587,11 @@ namespace Ricochet
                                  const unsigned int first) {
       for (unsigned int v = 0; v < 3; ++v)
         {
-          const auto &node = master.nodes[master.facets[facet].nodes[v]];
-          if (node.mean_of.empty())
-            add(node, first + v, 1.);
-          for (const unsigned int of : node.mean_of)
-            add(master.nodes[of], first + v, 1. / node.mean_of.size());
+          master.for_each_node_of(master.facets[facet].nodes[v],
+                                  [&](const unsigned int n,
+                                      const double       share) {
+                                    add(master.nodes[n], first + v, share);
+                                  });
         }
     };
     for (const auto &[node, weight] : own_points[p].nodes)
@@ -727,11 +718,11 @@ namespace Ricochet
       if (neighbour)
         for (const unsigned int n : master.facets[*neighbour].nodes)
           {
-            const auto &mean_of = master.nodes[n].mean_of;
-            if (mean_of.empty())
-              add(master.nodes[n]);
-            for (const unsigned int of : mean_of)
-              add(master.nodes[of]);
+            master.for_each_node_of(n,
+                                    [&](const unsigned int of,
+                                        const double /*share*/) {
+                                      add(master.nodes[of]);
+                                    });
           }
     for (const Index multiplier : own_points[p].multipliers)
       if (multiplier != numbers::invalid_dof_index)

@@ -121,8 +121,9 @@ namespace Ricochet
     shared_edge(const unsigned int old_facet,
                 const unsigned int new_facet) const;
 
-    /// The facets around facet @p f that the point @p p may be before.
-    std::vector<unsigned int>
+    /// The facets around facet @p f that the point @p p may be before. The next call
+    /// overwrites them.
+    const std::vector<unsigned int> &
     allowed_around(const unsigned int p, const unsigned int f) const;
 
     /// The closest facet, found by walking over the surface from facet @p f.
@@ -202,6 +203,7 @@ namespace Ricochet
     std::unique_ptr<OwnFacets>             own_facets;
     std::vector<std::vector<unsigned int>> own_around;
     Positions                              old_positions, new_positions;
+    mutable std::vector<unsigned int>      allowed;
     mutable std::vector<Step>              steps;
     mutable Derivatives                    result;
   };

@@ -103,11 +103,11 @@ namespace Ricochet
     for (unsigned int f = 0; f < slave.facets.size(); ++f)
       for (const unsigned int n : slave.facets[f].nodes)
         {
-          const auto &mean_of = slave.nodes[n].mean_of;
-          if (mean_of.empty())
-            add(n, f, 1.);
-          for (const unsigned int of : mean_of)
-            add(of, f, 1. / mean_of.size());
+          slave.for_each_node_of(n,
+                                 [&](const unsigned int of,
+                                     const double       share) {
+                                   add(of, f, share);
+                                 });
         }
     for (unsigned int n = 0; n < all.size(); ++n)
       if (slave.nodes[n].mean_of.empty() && is_mine(body, n))
@@ -154,6 +154,28 @@ namespace Ricochet
         master_index,
         start ? &start->master : nullptr,
         positions.master);
+  }
+
+
+
+  template <int dim>
+  double
+  SurfacePair<dim>::longest_way(const Positions &from, const Positions &to)
+  {
+    const auto of_surface = [](const std::vector<Position> &a,
+                               const std::vector<Position> &b) {
+      double longest = 0.;
+      for (unsigned int n = 0; n < b.size(); ++n)
+        {
+          Tensor<1, dim> way;
+          for (unsigned int c = 0; c < dim; ++c)
+            way[c] = b[n][c] - a[n][c];
+          longest = std::max(longest, way.norm());
+        }
+      return longest;
+    };
+    return of_surface(from.slave, to.slave) +
+      of_surface(from.master, to.master);
   }
 
 

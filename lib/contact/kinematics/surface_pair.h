@@ -243,6 +243,11 @@ namespace Ricochet
                   const Positions *start = nullptr,
                   const double     time  = 1.) const;
 
+    /// By how much a node of the slave and one of the master can have come nearer to
+    /// each other: the longest ways of both (m). No positions @p to: 0.
+    static double
+    longest_way(const Positions &from, const Positions &to);
+
     /// Read the multipliers of all points, where the last vector of get_positions()
     /// was a solution.
     void

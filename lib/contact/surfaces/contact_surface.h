@@ -75,6 +75,19 @@ namespace Ricochet
     std::vector<Node>  nodes;
     std::vector<Facet> facets;
 
+    /// Call @p action (number of a node, its share) for the nodes that node @p n moves
+    /// with: itself, or those that it is the mean of.
+    template <typename Action>
+    void
+    for_each_node_of(const unsigned int n, const Action &action) const
+    {
+      const std::vector<unsigned int> &mean_of = nodes[n].mean_of;
+      if (mean_of.empty())
+        action(n, 1.);
+      for (const unsigned int of : mean_of)
+        action(of, 1. / mean_of.size());
+    }
+
   private:
     void
     connect_facets();

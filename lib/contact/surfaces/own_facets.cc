@@ -96,12 +96,9 @@ namespace Ricochet
   {
     std::vector<unsigned int> nodes;
     for (const unsigned int n : surface.facets[f].nodes)
-      {
-        const auto &mean_of = surface.nodes[n].mean_of;
-        if (mean_of.empty())
-          nodes.push_back(n);
-        nodes.insert(nodes.end(), mean_of.begin(), mean_of.end());
-      }
+      surface.for_each_node_of(n, [&](const unsigned int of, const double) {
+        nodes.push_back(of);
+      });
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     return nodes;
