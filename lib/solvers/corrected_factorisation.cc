@@ -190,7 +190,7 @@ namespace Ricochet
         for (LowRankCorrection::Row &row : change)
           row.clear();
         tangent.contact_change(change);
-        set_change_of_functionals();
+        set_change_of_functionals(false);
         return;
       }
     const Stopwatch stopwatch(spent.factorising);
@@ -200,13 +200,13 @@ namespace Ricochet
 
 
   void
-  CorrectedFactorisation::set_change_of_functionals()
+  CorrectedFactorisation::set_change_of_functionals(const bool may_update)
   {
     const Stopwatch stopwatch(spent.factorising);
     for (LowRankCorrection::Row &row : change)
       for (auto &entry : row)
         entry.first = correction->place(entry.first);
-    correction->set_change(change, *factorisation);
+    correction->set_change(change, *factorisation, may_update);
   }
 
 
@@ -231,6 +231,7 @@ namespace Ricochet
   {
     const Stopwatch stopwatch(spent.substituting);
     ++spent.n_substitutions;
+    has_seen_contact = false;
     if (body_solution.size() != right_hand_side.size())
       {
         body_solution.reinit(right_hand_side);
@@ -325,7 +326,10 @@ namespace Ricochet
     const std::vector<double>        &values)
   {
     change = new_change;
-    set_change_of_functionals();
+    // The states of one stage are near each other; what is left of another stage
+    // would not be there in a resumed run.
+    set_change_of_functionals(has_seen_contact);
+    has_seen_contact = true;
     const Stopwatch stopwatch(spent.factorising);
     correction->solve_small(coefficients, values, *factorisation);
   }

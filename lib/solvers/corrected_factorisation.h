@@ -141,7 +141,7 @@ namespace Ricochet
     /// The rows of #change are those between this rank's functionals; give it to
     /// the correction.
     void
-    set_change_of_functionals();
+    set_change_of_functionals(const bool may_update);
 
     void
     save_rows(std::vector<double> OwnedRow::*copy);
@@ -160,7 +160,9 @@ namespace Ricochet
     std::vector<LowRankCorrection::Row>  change;
     std::unique_ptr<LowRankCorrection>   correction;
     // The solution of begin(), or half of it.
-    Vector              body_solution, work;
+    Vector body_solution, work;
+    // Whether there was a state of contact since begin().
+    bool                has_seen_contact = false;
     std::vector<double> half, contact_half;
     // Parts of the factorisation that observe() needs, by the number of places in
     // steps of #region_step.

@@ -33,6 +33,32 @@ extern "C"
          const double *old_factor,
          double       *result,
          const int    *result_step);
+  void
+  dtrsm_(const char   *side,
+         const char   *triangle,
+         const char   *transpose,
+         const char   *diagonal,
+         const int    *n_rows,
+         const int    *n_columns,
+         const double *factor,
+         const double *matrix,
+         const int    *stride,
+         double       *result,
+         const int    *result_stride);
+  void
+  dgemm_(const char   *transpose_left,
+         const char   *transpose_right,
+         const int    *n_rows,
+         const int    *n_columns,
+         const int    *n_inner,
+         const double *factor,
+         const double *left,
+         const int    *left_stride,
+         const double *right,
+         const int    *right_stride,
+         const double *old_factor,
+         double       *result,
+         const int    *result_stride);
 }
 
 namespace Ricochet
@@ -185,7 +211,8 @@ namespace Ricochet
       bool
       has_halves() const override
       {
-        return !supernode_of.empty() && one_sided.empty();
+        return !supernode_of.empty() && one_sided.empty() &&
+          sign.minCoeff() > 0.;
       }
 
       Region
@@ -208,7 +235,7 @@ namespace Ricochet
         for (int i = 0; i < n; ++i)
           if (values[i] != 0.)
             {
-              half[place_in_factor[i]]                    = sign[i] * values[i];
+              half[place_in_factor[i]]                    = values[i];
               is_needed[supernode_of[place_in_factor[i]]] = true;
             }
         const double minus_one = -1., zero = 0.;
@@ -241,6 +268,132 @@ namespace Ricochet
                    &one);
             for (int i = 0; i < n_below; ++i)
               half[node.rows[node.n_columns + i]] += below[i];
+          }
+      }
+
+      HalfColumns
+      go_forwards(const Functionals &right_hand_sides) override
+      {
+        HalfColumns       half;
+        std::vector<bool> is_needed(supernodes.size(), false);
+        for (const Index unknown : right_hand_sides.index)
+          is_needed[supernode_of[place_in_factor[unknown]]] = true;
+        half.region    = with_ancestors(is_needed);
+        half.n_columns = right_hand_sides.size();
+        // Place of a supernode in the region less that in the factor.
+        std::vector<int> shift(supernodes.size());
+        int              n_rows = 0;
+        for (const int s : half.region)
+          {
+            half.first_row.push_back(n_rows);
+            shift[s] = n_rows - supernodes[s].first_column;
+            n_rows += supernodes[s].n_columns;
+          }
+        half.first_row.push_back(n_rows);
+        const auto row_of = [&](const int place) {
+          return half.values.data() +
+            static_cast<std::size_t>(place + shift[supernode_of[place]]) *
+            half.n_columns;
+        };
+        half.values.assign(static_cast<std::size_t>(n_rows) * half.n_columns,
+                           0.);
+        for (int c = 0; c < half.n_columns; ++c)
+          for (std::size_t k = right_hand_sides.begin[c];
+               k < right_hand_sides.begin[c + 1];
+               ++k)
+            row_of(place_in_factor[right_hand_sides.index[k]])[c] +=
+              right_hand_sides.value[k];
+
+        // A row has all columns beside each other, so what BLAS sees is the
+        // transposed.
+        const double        one = 1., zero = 0.;
+        std::vector<double> below_columns(below.size() * half.n_columns);
+        for (const int s : half.region)
+          {
+            const Supernode &node = supernodes[s];
+            double          *own  = row_of(node.first_column);
+            dtrsm_("R",
+                   "L",
+                   "T",
+                   "N",
+                   &half.n_columns,
+                   &node.n_columns,
+                   &one,
+                   node.values,
+                   &node.n_rows,
+                   own,
+                   &half.n_columns);
+            const int n_below = node.n_rows - node.n_columns;
+            if (n_below == 0)
+              continue;
+            dgemm_("N",
+                   "T",
+                   &half.n_columns,
+                   &n_below,
+                   &node.n_columns,
+                   &one,
+                   own,
+                   &half.n_columns,
+                   node.values + node.n_columns,
+                   &node.n_rows,
+                   &zero,
+                   below_columns.data(),
+                   &half.n_columns);
+            const double *change = below_columns.data();
+            for (int i = 0; i < n_below; ++i)
+              {
+                double *row = row_of(node.rows[node.n_columns + i]);
+                for (int c = 0; c < half.n_columns; ++c)
+                  row[c] -= *change++;
+              }
+          }
+        return half;
+      }
+
+      void
+      multiply(const HalfColumns   &left,
+               const HalfColumns   &right,
+               std::vector<double> &products) const override
+      {
+        products.assign(static_cast<std::size_t>(left.n_columns) *
+                          right.n_columns,
+                        0.);
+        const double      one     = 1.;
+        const std::size_t n_left  = left.region.size(),
+                          n_right = right.region.size();
+        for (std::size_t l = 0, r = 0; l < n_left && r < n_right;)
+          {
+            if (left.region[l] != right.region[r])
+              {
+                ++(left.region[l] < right.region[r] ? l : r);
+                continue;
+              }
+            // As far as both go the same way.
+            const std::size_t first_l = l, first_r = r;
+            while (l < n_left && r < n_right &&
+                   left.region[l] == right.region[r])
+              {
+                ++l;
+                ++r;
+              }
+            const int  n_rows = left.first_row[l] - left.first_row[first_l];
+            const auto row = [](const HalfColumns &half, const std::size_t k) {
+              return half.values.data() +
+                static_cast<std::size_t>(half.first_row[k]) * half.n_columns;
+            };
+            dgemm_("N",
+                   "T",
+                   &left.n_columns,
+                   &right.n_columns,
+                   &n_rows,
+                   &one,
+                   row(left, first_l),
+                   &left.n_columns,
+                   row(right, first_r),
+                   &right.n_columns,
+                   &one,
+                   products.data(),
+                   &left.n_columns);
           }
       }
 

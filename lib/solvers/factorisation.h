@@ -3,6 +3,7 @@
 #define ricochet_solvers_factorisation_h
 
 #include <base/types.h>
+#include <solvers/functionals.h>
 
 #include <memory>
 #include <string>
@@ -66,6 +67,33 @@ namespace Ricochet
     virtual void
     go_forwards(const Vector & /*right_hand_side*/,
                 std::vector<double> & /*half*/)
+    {}
+
+    /// The same for several right hand sides, where they are not zero.
+    struct HalfColumns
+    {
+      /// The part of L with all that is not zero.
+      Region region;
+      /// Place in #values of the first unknown of each member of the region, in
+      /// unknowns, and behind the last one.
+      std::vector<int> first_row;
+      int              n_columns = 0;
+      /// For each unknown of the region one number of each column.
+      std::vector<double> values;
+    };
+
+    virtual HalfColumns
+    go_forwards(const Functionals & /*right_hand_sides*/)
+    {
+      return {};
+    }
+
+    /// Inner products of the columns of @p left and @p right, which are entries of
+    /// the inverse as seen by their right hand sides: by columns.
+    virtual void
+    multiply(const HalfColumns & /*left*/,
+             const HalfColumns & /*right*/,
+             std::vector<double> & /*products*/) const
     {}
 
     /// @p solution = L^{-T} @p half; with a @p region only there, and elsewhere

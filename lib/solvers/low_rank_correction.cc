@@ -86,6 +86,7 @@ namespace Ricochet
   LowRankCorrection::forget_columns()
   {
     columns.assign(direction_at_place.size(), {});
+    half_columns.clear();
     if (options.group_size == 0)
       whole_columns.resize(direction_at_place.size());
     has_change = false;
@@ -182,6 +183,46 @@ namespace Ricochet
 
 
   void
+  LowRankCorrection::solve_half_columns(const unsigned int               group,
+                                        const std::vector<unsigned int> &places,
+                                        Factorisation &factorisation)
+  {
+    // On one rank.
+    Functionals own;
+    for (const unsigned int place : places)
+      {
+        const int d = direction_at_place[place];
+        for (std::size_t k = directions.begin[d]; k < directions.begin[d + 1];
+             ++k)
+          own.add(directions.index[k], directions.value[k]);
+        own.end_functional();
+        columns[place].resize(n_observables);
+      }
+    half_columns.emplace(group, factorisation.go_forwards(own));
+
+    // The order of two groups does not depend on which of them came first.
+    std::vector<double> products;
+    for (const auto &[other, half] : half_columns)
+      {
+        const unsigned int first = std::min(group, other),
+                           last  = std::max(group, other);
+        const auto &left         = half_columns.at(first),
+                   &right        = half_columns.at(last);
+        factorisation.multiply(left, right, products);
+        for (int c = 0; c < right.n_columns; ++c)
+          for (int r = 0; r < (first == last ? c + 1 : left.n_columns); ++r)
+            {
+              const unsigned int row    = first * options.group_size + r,
+                                 column = last * options.group_size + c;
+              columns[row][column]      = columns[column][row] =
+                products[c * left.n_columns + r];
+            }
+      }
+  }
+
+
+
+  void
   LowRankCorrection::solve_missing_columns(
     const std::vector<unsigned int> &needed,
     Factorisation                   &factorisation)
@@ -195,17 +236,20 @@ namespace Ricochet
         solve_columns(missing, factorisation);
         return;
       }
-    std::set<std::size_t> groups;
+    std::set<unsigned int> groups;
     for (const unsigned int place : missing)
       groups.insert(place / options.group_size);
-    for (const std::size_t group : groups)
+    for (const unsigned int group : groups)
       {
         std::vector<unsigned int> places(
           std::min<std::size_t>((group + 1) * options.group_size,
                                 columns.size()) -
           group * options.group_size);
         std::iota(places.begin(), places.end(), group * options.group_size);
-        solve_columns(places, factorisation);
+        if (uses_halves(factorisation))
+          solve_half_columns(group, places, factorisation);
+        else
+          solve_columns(places, factorisation);
       }
   }
 
@@ -228,9 +272,11 @@ namespace Ricochet
 
   void
   LowRankCorrection::set_change(const std::vector<Row> &my_rows,
-                                Factorisation          &factorisation)
+                                Factorisation          &factorisation,
+                                const bool              may_update)
   {
-    const bool same = has_change && my_rows == my_last_rows;
+    const bool same = has_change && my_rows == my_last_rows &&
+      (may_update || !small_is_positive || !positive_small.is_updated());
     if (Utilities::MPI::min(same ? 1 : 0, communicator) == 1)
       return;
     has_change   = false;
@@ -260,8 +306,13 @@ namespace Ricochet
       }
     if (!changed.empty())
       {
-        solve_missing_columns(changed, factorisation);
-        factorise_small();
+        std::vector<unsigned int> needed(changed);
+        if (uses_halves(factorisation))
+          for (const Row &row : rows)
+            for (const auto &entry : row)
+              needed.push_back(entry.first);
+        solve_missing_columns(needed, factorisation);
+        factorise_small(may_update);
       }
     has_change = true;
   }
@@ -269,35 +320,23 @@ namespace Ricochet
 
 
   void
-  LowRankCorrection::factorise_small()
+  LowRankCorrection::factorise_small(const bool may_update)
   {
     const unsigned int n = changed.size();
-    small                = std::make_unique<LAPACKFullMatrix<double>>(n, n);
     small_is_positive    = is_positive();
     if (small_is_positive)
       {
-        // Divided by C, the system is symmetric and positive definite. Cholesky's
-        // factorisation reads the lower triangle.
-        for (unsigned int j = 0; j < n; ++j)
-          {
-            const std::vector<double> &column = columns[changed[j]];
-            for (unsigned int i = j; i < n; ++i)
-              (*small)(i, j) = column[rows[i][0].first];
-            (*small)(j, j) += 1. / rows[j][0].second;
-          }
-        small->set_property(LAPACKSupport::symmetric);
-        try
-          {
-            small->compute_cholesky_factorization();
-            return;
-          }
-        catch (const LACExceptions::ExcSingular &)
-          {
-            // Not so if the body's own matrix is indefinite.
-            small_is_positive = false;
-            small = std::make_unique<LAPACKFullMatrix<double>>(n, n);
-          }
+        // Divided by C, the system is symmetric and positive definite; or not, if
+        // the body's own matrix is indefinite.
+        std::vector<double> diagonal;
+        for (const Row &row : rows)
+          diagonal.push_back(1. / row[0].second);
+        small_is_positive =
+          positive_small.set(changed, diagonal, columns, may_update);
+        if (small_is_positive)
+          return;
       }
+    small = std::make_unique<LAPACKFullMatrix<double>>(n, n);
 
     // In blocks of columns, packed so that the innermost loop runs over
     // neighbours.
@@ -336,6 +375,17 @@ namespace Ricochet
 
 
 
+  void
+  LowRankCorrection::solve_with_small(dealii::Vector<double> &vector) const
+  {
+    if (small_is_positive)
+      positive_small.solve(vector);
+    else
+      small->solve(vector);
+  }
+
+
+
   unsigned int
   LowRankCorrection::solve(const Vector  &right_hand_side,
                            Vector        &solution,
@@ -350,7 +400,7 @@ namespace Ricochet
     for (unsigned int i = 0; i < changed.size(); ++i)
       for (const auto &[o, value] : rows[i])
         y[i] += (small_is_positive ? 1. : value) * observed[o];
-    small->solve(y);
+    solve_with_small(y);
     if (options.group_size == 0)
       {
         for (unsigned int i = 0; i < changed.size(); ++i)
@@ -391,7 +441,11 @@ namespace Ricochet
     for (unsigned int place = 0; place < coefficients.size(); ++place)
       if (coefficients[place] != 0.)
         places.push_back(place);
-    solve_missing_columns(places, factorisation);
+    std::vector<unsigned int> needed(places);
+    if (uses_halves(factorisation))
+      for (unsigned int o = 0; o < values.size(); o += options.group_size)
+        needed.push_back(o);
+    solve_missing_columns(needed, factorisation);
     for (const unsigned int place : places)
       {
         const double               weight = factor * coefficients[place];
@@ -429,7 +483,7 @@ namespace Ricochet
         if (small_is_positive)
           z[i] /= rows[i][0].second;
       }
-    small->solve(z);
+    solve_with_small(z);
     for (unsigned int i = 0; i < changed.size(); ++i)
       coefficients[changed[i]] = z[i];
   }

@@ -5,10 +5,12 @@
 #include <base/types.h>
 #include <solvers/factorisation.h>
 #include <solvers/functionals.h>
+#include <solvers/positive_system.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -90,8 +92,12 @@ namespace Ricochet
     forget_columns();
 
     /// The change C, one row for each direction of this rank.
+    /// @param may_update use the dense factorisation of the last one, see
+    /// PositiveSystem. Without it, the digits do not depend on what came before.
     void
-    set_change(const std::vector<Row> &my_rows, Factorisation &factorisation);
+    set_change(const std::vector<Row> &my_rows,
+               Factorisation          &factorisation,
+               const bool              may_update = false);
 
     /// @return the number of solutions with the factorisation that it took.
     unsigned int
@@ -156,12 +162,32 @@ namespace Ricochet
     solve_missing_columns(const std::vector<unsigned int> &places,
                           Factorisation                   &factorisation);
 
+    /// Whether columns are made of half solutions, which takes half of the work and
+    /// only a part of the factor. They are known only where those of the
+    /// observables are.
+    bool
+    uses_halves(const Factorisation &factorisation) const
+    {
+      return options.is_symmetric && options.group_size > 0 &&
+        !own_observables && factorisation.has_halves();
+    }
+
+    /// Solve for a group of columns by half solutions.
+    void
+    solve_half_columns(const unsigned int               group,
+                       const std::vector<unsigned int> &places,
+                       Factorisation                   &factorisation);
+
     /// Whether C is diagonal and positive, and A symmetric.
     bool
     is_positive() const;
 
     void
-    factorise_small();
+    factorise_small(const bool may_update);
+
+    /// Solve the small system.
+    void
+    solve_with_small(dealii::Vector<double> &vector) const;
 
     const MPI_Comm    communicator;
     const Functionals directions;
@@ -184,6 +210,8 @@ namespace Ricochet
     // itself, if those are kept.
     std::vector<std::vector<double>> columns;
     std::vector<Vector>              whole_columns;
+    // By group.
+    std::map<unsigned int, Factorisation::HalfColumns> half_columns;
 
     // The rows of C of this rank as given last, and of all ranks by place of
     // the direction.
@@ -192,6 +220,7 @@ namespace Ricochet
     std::vector<unsigned int>                         changed;
     std::vector<Row>                                  rows;
     std::unique_ptr<dealii::LAPACKFullMatrix<double>> small;
+    PositiveSystem                                    positive_small;
     bool                                              small_is_positive = false;
     Vector                                            ghosted, work;
     std::vector<double>                               observed;

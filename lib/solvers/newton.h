@@ -111,7 +111,8 @@ namespace Ricochet
     bool
     is_small(const Problem &problem, const double norm) const
     {
-      return norm <= parameters.tolerance + problem.round_off() / scale;
+      return norm <= parameters.tolerance ||
+        norm <= parameters.tolerance + problem.round_off() / scale;
     }
 
     [[noreturn]] void

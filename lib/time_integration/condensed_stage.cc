@@ -44,7 +44,7 @@ namespace Ricochet
                                    [](const double z) { return z != 0.; });
     const std::size_t n_pressed = coefficients.rend() - last;
     const std::size_t n_near =
-      std::min(coefficients.size(), n_pressed + n_pressed / 2 + 64);
+      std::min(coefficients.size(), n_pressed + n_pressed / 8 + 64);
     if (n_near <= flight_values.size())
       return;
     flight_values.resize(n_near);

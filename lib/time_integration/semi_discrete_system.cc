@@ -135,22 +135,16 @@ namespace Ricochet
   SemiDiscreteSystem::solve_mass(const Vector &right_hand_side,
                                  Vector       &acceleration)
   {
-    // A key of its own: no stage has a negative weight of the bulk force.
-    Tangent tangent;
-    tangent.body          = BodyKey{1., -1., 0.};
-    tangent.contact       = 0;
-    tangent.assemble_body = [&](Matrix &matrix) {
-      matrix.copy_from(invertible_mass);
-      matrix.clear_rows(clamped_list, 1.);
-      // Multipliers have no mass; give them an equation.
-      for (const auto i : unknowns.multipliers)
-        matrix.set(i, i, 1.);
-      matrix.compress(VectorOperation::insert);
-    };
-    tangent.complete_open_contact = [](Matrix &) {};
-    tangent.body_terms            = {{1., &invertible_mass}};
-    tangent.row_scaling           = &contact.row_scaling();
-    linear_solver.solve(tangent, right_hand_side, acceleration, false, 1e-14);
+    if (!mass_solver)
+      {
+        // Multipliers have no mass; their equation is their own.
+        auto own = clamped_list;
+        own.insert(own.end(),
+                   unknowns.multipliers.begin(),
+                   unknowns.multipliers.end());
+        mass_solver.emplace(invertible_mass, own);
+      }
+    mass_solver->solve(right_hand_side, acceleration);
   }
 
   State

@@ -7,10 +7,12 @@
 #include <discretization/bulk_operator.h>
 #include <discretization/follower_load.h>
 #include <solvers/linear_solver.h>
+#include <solvers/mass_solver.h>
 #include <solvers/newton.h>
 #include <time_integration/stage.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -248,7 +250,9 @@ namespace Ricochet
     // Of condensed systems: it keeps its vectors.
     NewtonSolver condensed_newton;
     LinearSolver linear_solver;
-    double       residual_seconds = 0., tangent_seconds = 0.;
+    // Made when it is first needed.
+    std::optional<MassSolver> mass_solver;
+    double                    residual_seconds = 0., tangent_seconds = 0.;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, constant_part, force;
     // What the equations leave over in prescribed displacements (N), where

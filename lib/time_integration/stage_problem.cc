@@ -34,18 +34,27 @@ namespace Ricochet
       constant_part.add(stage.contact_weight_old, old_contact_force);
     constant_part.add(-1., stage.load);
     constant_scale = constant_part.l2_norm();
+  }
 
+  double
+  StageProblem::round_off()
+  {
     // The forces that nearly cancel in a residual are what "small" is measured
     // against: inertia, bulk, contact and what is constant. Inertia and bulk
     // forces are small differences of large numbers when the step is short or
     // the body far from where it started, and so is a small gap; their
     // round-off remains, whatever Newton's method does.
-    parts.mass.vmult(parts.work, stage.inertia_origin);
-    bulk_round_off = 4. * std::numeric_limits<double>::epsilon() *
-        (stage.inertia * parts.work.l2_norm() +
-         parts.bulk.stiffness_scale() *
-           displacement_norm(stage.inertia_origin)) +
-      parts.bulk.strain_round_off();
+    if (!bulk_round_off)
+      {
+        parts.mass.vmult(parts.work, stage.inertia_origin);
+        bulk_round_off = 4. * std::numeric_limits<double>::epsilon() *
+            (stage.inertia * parts.work.l2_norm() +
+             parts.bulk.stiffness_scale() *
+               displacement_norm(stage.inertia_origin)) +
+          parts.bulk.strain_round_off();
+      }
+    return *bulk_round_off +
+      stage.contact_weight_new * parts.contact.round_off();
   }
 
   NewtonSolver::Problem
@@ -64,10 +73,7 @@ namespace Ricochet
             [this]() { parts.contact.accept_iterate(); },
             [this]() { return parts.contact.active_set_description(); },
             [this]() { return force_scale; },
-            [this]() {
-              return bulk_round_off +
-                stage.contact_weight_new * parts.contact.round_off();
-            },
+            [this]() { return round_off(); },
             &safe_guess};
   }
 

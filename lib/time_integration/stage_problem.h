@@ -105,6 +105,10 @@ namespace Ricochet
     double
     norm(const Vector &result);
 
+    /// Residual (N) that round-off alone can cause.
+    double
+    round_off();
+
     /// l2 norm of the displacements in a system vector (m): those of multipliers
     /// are pressures.
     double
@@ -114,8 +118,9 @@ namespace Ricochet
     const Stage  &stage;
     const Vector &old_solution, &solution, &safe_guess;
     double        constant_scale = 0., force_scale = 0., contact_scale = 0.;
-    double        bulk_round_off = 0.;
-    unsigned int  iterations     = 0;
+    unsigned int  iterations = 0;
+    // Known when asked for.
+    std::optional<double> bulk_round_off;
     // Which points are active in the tangent without a name, if there is one.
     std::optional<std::uint64_t> factored_active_set;
   };

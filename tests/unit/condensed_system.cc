@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// What a linear body condensed to contact stands on: half solutions, dense systems
+// of sets of places, and accelerations, each against the matrix itself.
+
+#include "meshes.h"
+
+#include <base/exceptions.h>
+#include <discretization/linear_bulk.h>
+#include <solvers/factorisation.h>
+#include <solvers/mass_solver.h>
+#include <solvers/positive_system.h>
+
+#include <boost/test/unit_test.hpp>
+
+using namespace Ricochet;
+using dealii::VectorOperation;
+
+BOOST_AUTO_TEST_SUITE(condensed_system)
+
+namespace
+{
+  const LinearElastic material{1.5, 1.};
+
+  Body<3>
+  cube_body(const CubeAbovePlane<3>                    &cube,
+            const std::set<dealii::types::boundary_id> &clamped)
+  {
+    return {cube.triangulation,
+            2,
+            clamped,
+            {1},
+            MultiplierSpace::none,
+            MPI_COMM_WORLD};
+  }
+
+  /// Each functional looks at a few neighbours, the functionals are far apart.
+  Functionals
+  some_functionals(const unsigned int n,
+                   const unsigned int first,
+                   const unsigned int n_unknowns)
+  {
+    Functionals functionals;
+    for (unsigned int f = 0; f < n; ++f)
+      {
+        for (unsigned int k = 0; k < 4; ++k)
+          functionals.add((first + 97 * f + 3 * k) % n_unknowns,
+                          1. + .3 * f - .7 * k);
+        functionals.end_functional();
+      }
+    return functionals;
+  }
+
+  Vector
+  as_vector(const Functionals &functionals, const unsigned int f, Vector vector)
+  {
+    vector = 0.;
+    for (std::size_t k = functionals.begin[f]; k < functionals.begin[f + 1];
+         ++k)
+      vector(functionals.index[k]) += functionals.value[k];
+    vector.compress(VectorOperation::add);
+    return vector;
+  }
+} // namespace
+
+// l . A^{-1} r is the product of the halves L^{-1} l and L^{-1} r; whole solutions
+// are two halves, and those of a region are right there.
+BOOST_AUTO_TEST_CASE(halves_make_solutions)
+{
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    return;
+  const CubeAbovePlane<3> cube(true, 5);
+  const Body<3>           body = cube_body(cube, {});
+  const LinearBulk<3>     bulk(body, material);
+  Matrix                  matrix;
+  matrix.reinit(body.sparsity_pattern());
+  matrix.add(20., assemble_mass_matrix(body, 1.));
+  bulk.add_tangent(1., body.make_vector(), matrix);
+  const auto factorisation = make_cholesky_factorisation(false);
+  BOOST_REQUIRE(factorisation->factorise(matrix, false));
+  BOOST_REQUIRE(factorisation->has_halves());
+
+  const Functionals left  = some_functionals(5, 11, matrix.m()),
+                    right = some_functionals(7, 1204, matrix.m());
+  const auto left_half    = factorisation->go_forwards(left),
+             right_half   = factorisation->go_forwards(right);
+  BOOST_CHECK_LT(left_half.values.size(), 5 * matrix.m());
+  std::vector<double> products;
+  factorisation->multiply(left_half, right_half, products);
+  Vector solution = body.make_vector(), other(solution);
+  for (unsigned int r = 0; r < right.size(); ++r)
+    {
+      const Vector right_hand_side = as_vector(right, r, solution);
+      factorisation->solve(right_hand_side, solution);
+      for (unsigned int l = 0; l < left.size(); ++l)
+        BOOST_CHECK_SMALL(products[r * left.size() + l] -
+                            as_vector(left, l, other) * solution,
+                          1e-13 * solution.linfty_norm());
+
+      std::vector<double> half;
+      factorisation->go_forwards(right_hand_side, half);
+      factorisation->go_backwards(half, nullptr, other);
+      other -= solution;
+      BOOST_CHECK_SMALL(other.linfty_norm(), 1e-13 * solution.linfty_norm());
+      const auto region = factorisation->region_of(left.index);
+      factorisation->go_backwards(half, &region, other);
+      for (const auto i : left.index)
+        BOOST_CHECK_SMALL(other(i) - solution(i),
+                          1e-13 * solution.linfty_norm());
+    }
+}
+
+// Sets near the one that was factored, with other places and another diagonal, and
+// one that is far from it.
+BOOST_AUTO_TEST_CASE(nearby_sets_are_solved)
+{
+  constexpr unsigned int           n = 80;
+  std::mt19937                     generator(5);
+  std::uniform_real_distribution<> random(-1., 1.);
+  std::vector<std::vector<double>> root(n, std::vector<double>(n)),
+    columns(root);
+  for (auto &column : root)
+    for (double &entry : column)
+      entry = random(generator);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int k = 0; k < n; ++k)
+        columns[i][j] += root[i][k] * root[j][k];
+
+  struct Set
+  {
+    unsigned int first, end, but;
+    double       other_diagonal;
+    bool         is_updated;
+  };
+  PositiveSystem system;
+  for (const Set &set : {Set{10, 70, n, 1., false},
+                         Set{10, 70, n, 1., false},
+                         Set{12, 70, n, 1., true},
+                         Set{10, 72, n, 1., true},
+                         Set{11, 72, 40, 1., true},
+                         Set{10, 70, n, 3., true},
+                         Set{8, 70, 30, 3., true},
+                         Set{10, 70, n, 1., false},
+                         Set{20, 50, n, 1., false},
+                         Set{20, 52, 20, 1., true}})
+    {
+      std::vector<unsigned int> places;
+      std::vector<double>       diagonal;
+      for (unsigned int place = set.first; place < set.end; ++place)
+        if (place != set.but)
+          {
+            places.push_back(place);
+            diagonal.push_back(place == 33 ? set.other_diagonal : 1.);
+          }
+      BOOST_REQUIRE(system.set(places, diagonal, columns, true));
+      BOOST_CHECK_EQUAL(system.is_updated(), set.is_updated);
+      dealii::Vector<double> right_hand_side(places.size());
+      for (double &entry : right_hand_side)
+        entry = random(generator);
+      dealii::Vector<double> solution(right_hand_side);
+      system.solve(solution);
+      for (unsigned int i = 0; i < places.size(); ++i)
+        {
+          double sum = diagonal[i] * solution[i] - right_hand_side[i];
+          for (unsigned int j = 0; j < places.size(); ++j)
+            sum += columns[places[j]][places[i]] * solution[j];
+          BOOST_CHECK_SMALL(sum, 1e-12);
+        }
+    }
+  columns[30][30] = -100.;
+  BOOST_CHECK(!system.set({29, 30}, {1., 1.}, columns, false));
+}
+
+// Also of clamped bodies, on any number of ranks.
+BOOST_AUTO_TEST_CASE(accelerations_have_their_forces)
+{
+  for (const bool is_clamped : {false, true})
+    {
+      const CubeAbovePlane<3> cube(true, 3);
+      const Body<3>           body =
+        cube_body(cube,
+                  is_clamped ? std::set<dealii::types::boundary_id>{2}
+                             : std::set<dealii::types::boundary_id>{});
+      const Matrix mass = assemble_mass_matrix(body, 1.7);
+      const std::vector<MassSolver::Index> clamped(
+        body.clamped_indices().begin(),
+        body.clamped_indices().end());
+      const MassSolver solver(mass, clamped);
+      Vector force = body.make_vector(), acceleration(force), inertia(force);
+      randomise(force, 1., 3);
+      for (const auto i : clamped)
+        force(i) = 0.;
+      force.compress(VectorOperation::insert);
+      solver.solve(force, acceleration);
+      for (const auto i : clamped)
+        BOOST_CHECK_EQUAL(acceleration(i), 0.);
+      mass.vmult(inertia, acceleration);
+      for (const auto i : clamped)
+        inertia(i) = 0.;
+      inertia.compress(VectorOperation::insert);
+      inertia -= force;
+      BOOST_CHECK_SMALL(inertia.linfty_norm(), 1e-14);
+    }
+
+  // Nothing to accelerate with.
+  const CubeAbovePlane<3> cube(true, 1);
+  const Body<3>           body = cube_body(cube, {});
+  Matrix                  none;
+  none.copy_from(assemble_mass_matrix(body, 1.));
+  none *= 0.;
+  Vector force = body.make_vector(), acceleration(force);
+  force        = 1.;
+  BOOST_CHECK_THROW(MassSolver(none, {}).solve(force, acceleration),
+                    NewtonFailure);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
