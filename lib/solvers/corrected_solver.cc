@@ -16,7 +16,7 @@ namespace Ricochet
             factorisations.name(false) == factorisations.name(true))
           break;
         LowRankCorrection::Options options;
-        options.is_symmetric = symmetric && contact.is_symmetric;
+        options.is_symmetric = symmetric && !contact.is_clamped;
         Corrected entry{tangent.body,
                         {},
                         std::make_unique<CorrectedFactorisation>(

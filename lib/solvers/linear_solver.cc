@@ -33,17 +33,18 @@ namespace Ricochet
         "The factorisation CHOLMOD works on one MPI rank only, "
         "not on " +
         std::to_string(n_ranks) + "; choose automatic, KLU or MUMPS.");
-    if (contact.couplings_change)
+    if (contact.couplings_change && !(linear_body && contact.functionals))
       {
         if (type == "corrected")
           throw InputError(
             "Contact between bodies couples unknowns that the bodies do not "
             "couple: choose Linear solver/Type = direct, multigrid or automatic "
-            "instead of corrected.");
+            "instead of corrected, which is for linear bodies on one MPI rank.");
         if (parameters.factorisation == "CHOLMOD")
           throw InputError(
             "CHOLMOD factors symmetric matrices only: with contact between "
-            "bodies choose KLU, MUMPS or automatic.");
+            "bodies that are not linear, or on several MPI ranks, choose KLU, "
+            "MUMPS or automatic.");
         // Factorisations of small bodies are faster, but not by much.
         if (type == "automatic")
           type = dim == 3 && parameters.factorisation == "automatic" &&
@@ -63,7 +64,8 @@ namespace Ricochet
         // Factorisations in three dimensions grow faster than bodies do, and
         // few ranks do not make up for it.
         if (parameters.factorisation == "automatic" && linear_body &&
-            dim == 3 && !contact.has_multipliers &&
+            dim == 3 &&
+            (!contact.has_multipliers || contact.couplings_change) &&
             n_unknowns > (n_ranks > 1 ? 10000 : 50000))
           type = "multigrid";
       }
@@ -141,7 +143,7 @@ namespace Ricochet
       condense,
       "Linear bodies with Type = corrected before planes at rest, with treatments "
       "whose forces are functions of gaps, pressures and slips in points (not active "
-      "sets): Newton's method looks at these alone and the body is solved for twice "
+      "sets), and, on one MPI rank, before each other with any treatment: Newton's method looks at these alone and the body is solved for twice "
       "in each stage of a time step, instead of twice in each iteration. Results are "
       "the same to the tolerance of Newton's method.");
     parameters.leave_subsection();

@@ -83,6 +83,13 @@ namespace Ricochet
           const bool     may_reuse,
           const double   tolerance);
 
+    /// Whether it solves with the whole matrix, with all that contact couples.
+    bool
+    needs_couplings() const
+    {
+      return type != "corrected";
+    }
+
     /// Whether there is a condensed() system.
     bool
     condenses() const;

@@ -103,6 +103,13 @@ namespace Ricochet
     bool
     solves(const Problem &problem, const Vector &solution);
 
+    /// Those of the last solve(), also if it failed.
+    const std::vector<Iteration> &
+    iterations() const
+    {
+      return history;
+    }
+
   private:
     /// The residual at @p point over #scale, which is set.
     double

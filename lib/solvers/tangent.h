@@ -33,6 +33,8 @@ namespace Ricochet
     bool is_nearly_symmetric = false;
     /// It is symmetric.
     bool is_symmetric = false;
+    /// Unknowns are clamped: their rows are cleared, their columns are not.
+    bool is_clamped = false;
     /// It brings unknowns of its own.
     bool has_multipliers = false;
     /// It couples unknowns that the body does not couple, and not always the same.

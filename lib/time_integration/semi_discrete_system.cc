@@ -39,9 +39,11 @@ namespace Ricochet
             }
           structure.functionals->functionals = std::move(free);
         }
+      structure.is_clamped =
+        Utilities::MPI::max(my_clamped.n_elements() > 0 ? 1 : 0,
+                            communicator) == 1;
       // Rows of clamped unknowns are cleared, columns are not.
-      if (Utilities::MPI::max(my_clamped.n_elements() > 0 ? 1 : 0,
-                              communicator) == 1)
+      if (structure.is_clamped)
         structure.is_symmetric = false;
       return structure;
     }
@@ -267,7 +269,13 @@ namespace Ricochet
                 }
               catch (const NewtonFailure &)
                 {
-                  // So will the whole system, which says why.
+                  // So would the whole system, whose iterates are the same but for
+                  // round-off.
+                  constexpr double small = 1e-6;
+                  const auto      &history = condensed_newton.iterations();
+                  if (!history.empty() &&
+                      !(history.back().relative_residual < small))
+                    throw;
                   contact.begin_stage(start, stage.contact_weight_new);
                 }
             }

@@ -181,7 +181,9 @@ namespace Ricochet
         parts.bulk.add_tangent(bulk_weight, solution, matrix);
     };
     tangent.row_scaling        = &parts.contact.row_scaling();
-    const Couplings *couplings = parts.contact.couplings();
+    const Couplings *couplings = parts.linear_solver.needs_couplings()
+      ? parts.contact.couplings()
+      : nullptr;
     if (couplings)
       {
         parts.united_pattern.update(parts.pattern, *couplings);

@@ -589,8 +589,9 @@ class BadBodies(ProgramTest):
         for program in PARTS:
             self.refuse(program,
                         ["CHOLMOD factors symmetric matrices only",
-                         "with contact between bodies choose KLU, MUMPS or "
-                         "automatic"], "Linear solver/Factorisation=CHOLMOD")
+                         "with contact between bodies that are not linear, or on "
+                         "several MPI ranks, choose KLU, MUMPS or automatic"],
+                        "Linear solver/Factorisation=CHOLMOD")
 
     def test_geometry(self):
         self.refuse("stent_artery",

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace Ricochet
 {
@@ -83,6 +84,48 @@ namespace Ricochet
         "' face each other the wrong way: nowhere is the outside "
         "of one before that of the other. Is a boundary id that "
         "of the far side of a body?");
+  }
+
+
+
+  template <int dim>
+  std::vector<std::pair<typename SurfacePair<dim>::Index, double>>
+  SurfacePair<dim>::unknowns() const
+  {
+    std::map<Index, double> distances;
+    const auto              add = [&](const ContactSurface<dim> &surface,
+                         const ContactSurface<dim> &other) {
+      const auto is_own = [](const auto &node) { return node.mean_of.empty(); };
+      dealii::Point<dim> middle;
+      unsigned int       n_nodes = 0;
+      for (const auto &node : other.nodes)
+        if (is_own(node))
+          {
+            ++n_nodes;
+            middle += node.reference_position;
+          }
+      middle /= n_nodes;
+      const auto distance = [&](const auto &node) {
+        return node.reference_position.distance(middle);
+      };
+      double smallest = std::numeric_limits<double>::max();
+      for (const auto &node : surface.nodes)
+        if (is_own(node))
+          smallest = std::min(smallest, distance(node));
+      for (const auto &node : surface.nodes)
+        if (is_own(node))
+          {
+            const double farther = distance(node) - smallest;
+            for (const Index index : node.unknowns)
+              distances.emplace(index, farther);
+            for (const Index index : node.multipliers)
+              if (index != numbers::invalid_dof_index)
+                distances.emplace(index, farther);
+          }
+    };
+    add(slave, master);
+    add(master, slave);
+    return {distances.begin(), distances.end()};
   }
 
 

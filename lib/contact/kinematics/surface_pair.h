@@ -102,6 +102,15 @@ namespace Ricochet
       return is_self;
     }
 
+    /// The displacements of all nodes of both surfaces, and the multipliers of this
+    /// rank's points: all that contact acts on. With each a distance (m) that tells
+    /// in which order contact is expected to spread: how much farther it is from the
+    /// middle of the other surface than the nearest of its own surface. Not sorted;
+    /// none comes twice.
+    std::vector<std::pair<Index, double>>
+    unknowns() const;
+
+
     const std::vector<Point> &
     points() const
     {

@@ -147,6 +147,23 @@ namespace Ricochet
             scaling(index) = stiffness(state);
           }
     scaling.compress(VectorOperation::insert);
+
+    // On several ranks a point acts on unknowns of another one.
+    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+      return;
+    std::map<types::global_dof_index, double> distances;
+    for (const auto &pair : pairs)
+      for (const auto &[index, distance] : pair->unknowns())
+        {
+          const auto known = distances.emplace(index, distance).first;
+          known->second    = std::min(known->second, distance);
+        }
+    for (const auto &[index, distance] : distances)
+      {
+        skin.push_back(index);
+        skin_order.push_back(distance);
+      }
+    skin_force.resize(skin.size());
   }
 
 
@@ -427,6 +444,42 @@ namespace Ricochet
   void
   PairContact<dim>::complete_residual(const Vector &solution, Vector &residual)
   {
+    evaluate(solution);
+    residual.add(weight, force);
+    clear_multipliers(force);
+    if (!skin.empty())
+      point_of_residual = solution;
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::look_at_change(const std::vector<double> &change)
+  {
+    point_of_change = point_of_residual;
+    for (unsigned int f = 0; f < skin.size(); ++f)
+      point_of_change(skin[f]) += change[f];
+    point_of_change.compress(VectorOperation::add);
+    evaluate(point_of_change);
+    clear_multipliers(force);
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::force_change(std::vector<double> &coefficients) const
+  {
+    coefficients = skin_force;
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::evaluate(const Vector &solution)
+  {
     for (const auto &pair : pairs)
       pair->evaluate(solution);
     friction.begin_evaluation(states.size());
@@ -472,8 +525,17 @@ namespace Ricochet
         friction_part.compress(VectorOperation::add);
         force += friction_part;
       }
-    residual.add(weight, force);
-    clear_multipliers(force);
+
+    // Less what open points make of their multipliers.
+    for (unsigned int f = 0; f < skin.size(); ++f)
+      skin_force[f] = weight * force(skin[f]);
+    if (!method.law && !skin.empty())
+      for (const PointState &state : states)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (const auto index = point_of(state).multipliers[c];
+              index != no_index)
+            skin_force[skin_place(index)] -=
+              open_diagonal(state) * solution(index);
   }
 
 
@@ -626,8 +688,14 @@ namespace Ricochet
   void
   PairContact<dim>::complete_tangent(Matrix &tangent) const
   {
+    const auto add = [&](const types::global_dof_index  row,
+                         const unsigned int             n_columns,
+                         const types::global_dof_index *columns,
+                         const double                  *entries) {
+      tangent.add(row, n_columns, columns, entries, /* elide zeros */ true);
+    };
     for (const PointState &state : states)
-      add_tangent(state, tangent);
+      add_tangent(state, add);
     tangent.compress(VectorOperation::add);
   }
 
@@ -635,17 +703,95 @@ namespace Ricochet
 
   template <int dim>
   void
-  PairContact<dim>::complete_open_tangent(Matrix & /*tangent*/) const
+  PairContact<dim>::complete_open_tangent(Matrix &tangent) const
   {
-    AssertThrow(false, ExcMessage("The couplings of bodies come and go."));
+    if (!method.law)
+      for (const PointState &state : states)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (const auto index = point_of(state).multipliers[c];
+              index != no_index)
+            tangent.add(index, index, open_diagonal(state));
+    tangent.compress(VectorOperation::add);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  PairContact<dim>::skin_place(const types::global_dof_index index) const
+  {
+    return std::lower_bound(skin.begin(), skin.end(), index) - skin.begin();
   }
 
 
 
   template <int dim>
   void
-  PairContact<dim>::add_tangent(const PointState &state, Matrix &tangent) const
+  PairContact<dim>::tangent_change(std::vector<FunctionalRow> &change) const
   {
+    const auto add = [&](const types::global_dof_index  row,
+                         const unsigned int             n_columns,
+                         const types::global_dof_index *columns,
+                         const double                  *entries) {
+      FunctionalRow &own = change[skin_place(row)];
+      for (unsigned int k = 0; k < n_columns; ++k)
+        if (entries[k] != 0.)
+          own.emplace_back(skin_place(columns[k]), entries[k]);
+    };
+    for (const PointState &state : states)
+      {
+        // The multiplier of an open point is not to change if it is zero: then it is
+        // no matter what it would push.
+        const auto &multipliers = pair_of(state).multipliers(state.point);
+        if (!method.law && state.status == Status::open &&
+            std::all_of(multipliers.begin(),
+                        multipliers.end(),
+                        [](const double value) { return value == 0.; }))
+          continue;
+        add_tangent(state, add);
+        if (!method.law)
+          for (unsigned int c = 0; c < dim; ++c)
+            if (const auto index = point_of(state).multipliers[c];
+                index != no_index)
+              {
+                const double open = -open_diagonal(state);
+                add(index, 1, &index, &open);
+              }
+      }
+    // Each column once, and none whose parts cancel: those of open points.
+    for (FunctionalRow &row : change)
+      {
+        std::sort(row.begin(), row.end(), [](const auto &a, const auto &b) {
+          return a.first < b.first;
+        });
+        FunctionalRow sums;
+        for (const auto &[column, value] : row)
+          if (!sums.empty() && sums.back().first == column)
+            sums.back().second += value;
+          else
+            sums.emplace_back(column, value);
+        sums.erase(std::remove_if(sums.begin(),
+                                  sums.end(),
+                                  [](const auto &entry) {
+                                    return entry.second == 0.;
+                                  }),
+                   sums.end());
+        row.swap(sums);
+      }
+  }
+
+
+
+  template <int dim>
+  template <typename Add>
+  void
+  PairContact<dim>::add_tangent(const PointState &state, const Add &add) const
+  {
+    const auto add_entry = [&](const types::global_dof_index row,
+                               const types::global_dof_index column,
+                               const double                  entry) {
+      add(row, 1, &column, &entry);
+    };
     const Point       &point      = point_of(state);
     const Pair        &pair       = pair_of(state);
     const unsigned int p          = state.point;
@@ -661,22 +807,21 @@ namespace Ricochet
             const bool is_prescribed = c == 0 ? state.status == Status::open
                                               : state.status != Status::stick;
             if (is_prescribed)
-              tangent.add(point.multipliers[c],
-                          point.multipliers[c],
-                          -weight * point.weight / r);
+              add_entry(point.multipliers[c],
+                        point.multipliers[c],
+                        -weight * point.weight / r);
             if (c > 0 && state.status == Status::slip)
               {
-                tangent.add(point.multipliers[c],
-                            point.multipliers[0],
-                            weight * point.weight *
-                              method.friction.coefficient *
-                              state.direction[c - 1] / r);
+                add_entry(point.multipliers[c],
+                          point.multipliers[0],
+                          weight * point.weight * method.friction.coefficient *
+                            state.direction[c - 1] / r);
                 // How the direction turns with the multipliers.
                 for (unsigned int d = 0; n_tangents > 1 && d < n_tangents; ++d)
-                  tangent.add(point.multipliers[c],
-                              point.multipliers[d + 1],
-                              weight * point.weight * state.ratio / r *
-                                across(state, c - 1, d));
+                  add_entry(point.multipliers[c],
+                            point.multipliers[d + 1],
+                            weight * point.weight * state.ratio / r *
+                              across(state, c - 1, d));
               }
           }
     if (!in_contact)
@@ -733,11 +878,7 @@ namespace Ricochet
               }
             values[b] = factor * entry;
           }
-        tangent.add(rows.unknowns[a],
-                    m,
-                    rows.unknowns.data(),
-                    values.data(),
-                    /* elide zeros */ true);
+        add(rows.unknowns[a], m, rows.unknowns.data(), values.data());
       }
     if (method.law)
       return;
@@ -745,27 +886,27 @@ namespace Ricochet
     // Columns and rows of the multipliers.
     const bool closes = state.status != Status::open;
     if (closes && softness(state) > 0.)
-      tangent.add(point.multipliers[0],
-                  point.multipliers[0],
-                  -factor * softness(state));
+      add_entry(point.multipliers[0],
+                point.multipliers[0],
+                -factor * softness(state));
     const double half =
       method.condition == ClosingCondition::two_step && pass == 0 ? .5 : 1.;
     for (unsigned int a = 0; a < m; ++a)
       {
         const auto i = rows.unknowns[a];
-        tangent.add(i, point.multipliers[0], -factor * rows.normal[a]);
+        add_entry(i, point.multipliers[0], -factor * rows.normal[a]);
         if (closes)
-          tangent.add(point.multipliers[0],
-                      i,
-                      -factor * half * derivatives.gap[a]);
+          add_entry(point.multipliers[0],
+                    i,
+                    -factor * half * derivatives.gap[a]);
         if (has_exact_friction())
           {
             for (unsigned int d = 0; d < n_tangents; ++d)
               {
                 const auto j = point.multipliers[d + 1];
-                tangent.add(i, j, factor * rows.tangential[d][a]);
+                add_entry(i, j, factor * rows.tangential[d][a]);
                 if (state.status == Status::stick)
-                  tangent.add(j, i, -factor * derivatives.slip[d][a]);
+                  add_entry(j, i, -factor * derivatives.slip[d][a]);
                 // How the direction turns with the slip.
                 if (n_tangents > 1 && state.status == Status::slip)
                   {
@@ -773,7 +914,7 @@ namespace Ricochet
                     for (unsigned int e = 0; e < n_tangents; ++e)
                       with_slip_of_a +=
                         across(state, d, e) * derivatives.slip[e][a];
-                    tangent.add(j, i, factor * state.ratio * with_slip_of_a);
+                    add_entry(j, i, factor * state.ratio * with_slip_of_a);
                   }
               }
           }
@@ -789,6 +930,16 @@ namespace Ricochet
     ContactStructure structure;
     structure.has_multipliers  = !method.law;
     structure.couplings_change = true;
+    if (!skin.empty())
+      {
+        structure.functionals.emplace();
+        structure.functionals->order = skin_order;
+        for (const auto index : skin)
+          {
+            structure.functionals->functionals.add(index, 1.);
+            structure.functionals->functionals.end_functional();
+          }
+      }
     return structure;
   }
 

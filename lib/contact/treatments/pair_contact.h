@@ -120,9 +120,20 @@ namespace Ricochet
     void
     complete_tangent(Matrix &tangent) const override;
 
-    /// There is none without contact: couplings come and go.
+    /// What is left without contact are the equations of the multipliers.
     void
     complete_open_tangent(Matrix &tangent) const override;
+
+    /// On one rank with functionals: the unknowns of the surfaces, of which contact is
+    /// any function.
+    void
+    tangent_change(std::vector<FunctionalRow> &change) const override;
+
+    void
+    look_at_change(const std::vector<double> &change) override;
+
+    void
+    force_change(std::vector<double> &coefficients) const override;
 
     ContactStructure
     tangent_structure() const override;
@@ -274,8 +285,26 @@ namespace Ricochet
     void
     add_force(const PointState &state);
 
+    /// @param add gets rows of the tangent: an unknown, and n other ones with values.
+    template <typename Add>
     void
-    add_tangent(const PointState &state, Matrix &tangent) const;
+    add_tangent(const PointState &state, const Add &add) const;
+
+    /// Contact at @p solution: states of points and #force, with the equations of the
+    /// multipliers.
+    void
+    evaluate(const Vector &solution);
+
+    /// Place of an unknown of the surfaces in #skin.
+    unsigned int
+    skin_place(const dealii::types::global_dof_index index) const;
+
+    /// Diagonal of the equation of an open point's multiplier (m/Pa times the area).
+    double
+    open_diagonal(const PointState &state) const
+    {
+      return -weight * point_of(state).weight / stiffness(state);
+    }
 
     /// What this rank's points with @p boundary_id, or all of them, take.
     ContactWork
@@ -340,6 +369,12 @@ namespace Ricochet
     Patterns     facets;
     unsigned int n_frozen = 0, n_returns = 0;
     Couplings    all_couplings;
+    // The unknowns of the surfaces in ascending order, on one rank, the order in which
+    // contact is expected to spread over them, and what contact does to each.
+    std::vector<dealii::types::global_dof_index> skin;
+    std::vector<double>                          skin_order, skin_force;
+    // Where contact was looked at last, but for changes, and where it is looked at.
+    Vector point_of_residual, point_of_change;
     // Work space.
     mutable std::vector<double> values;
   };
