@@ -152,6 +152,9 @@ namespace Ricochet
     tangent = &new_tangent;
     if (!has_smoother)
       return;
+    // As many unknowns of a node as translations among dim (dim + 1) / 2 motions.
+    const unsigned int n_modes = space.rigid_body_modes.size();
+    single.set_body(*tangent, n_modes == 6 ? 3 : n_modes == 3 ? 2 : 1);
     CoarseProducts products(space);
     coarse_body.reinit(space.pattern);
     for (unsigned int k = 0; k < tangent->terms().size(); ++k)
@@ -180,29 +183,32 @@ namespace Ricochet
     Smoother::AdditionalData data;
     data.degree          = 2;
     data.smoothing_range = 8.;
-    data.preconditioner  = std::make_shared<InverseDiagonal>();
-    Vector &inverse      = data.preconditioner->get_vector();
-    inverse              = tangent->diagonal();
-    bool    is_positive  = true;
-    double *values       = inverse.trilinos_vector()[0];
-    for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
+    data.preconditioner =
+      std::make_shared<DiagonalMatrix<SingleTangent::VectorType>>();
+    SingleVector &inverse = data.preconditioner->get_vector();
+    single.initialize_dof_vector(inverse);
+    bool is_positive = true;
+    for (const auto i : inverse.locally_owned_elements())
       {
-        is_positive = is_positive && values[i] > 0. && std::isfinite(values[i]);
-        values[i]   = 1. / values[i];
+        const float value = single.el(i, i);
+        is_positive       = is_positive && value > 0.F && std::isfinite(value);
+        inverse(i)        = 1.F / value;
       }
     if (Utilities::MPI::min(is_positive ? 1 : 0, tangent->communicator) == 0)
       throw NewtonFailure(
         "The diagonal of the tangent matrix is not positive: multigrid cannot "
         "smooth with it.");
-    residual.reinit(inverse);
-    correction.reinit(inverse);
+    for (SingleVector *vector :
+         {&single_right_hand_side, &single_result, &single_residual})
+      single.initialize_dof_vector(*vector);
+    fine.reinit(inverse.locally_owned_elements(), tangent->communicator);
     try
       {
         // By some iterations of conjugate gradients, from the same start each
         // time: so that it does not depend on what came before.
-        smoother.initialize(*tangent, data);
-        const double largest =
-          smoother.estimate_eigenvalues(residual).max_eigenvalue_estimate;
+        smoother.initialize(single, data);
+        const double largest = smoother.estimate_eigenvalues(single_residual)
+                                 .max_eigenvalue_estimate;
         if (!(largest > 0.) || !std::isfinite(largest))
           throw NewtonFailure(
             "The tangent matrix is not positive: multigrid "
@@ -223,6 +229,7 @@ namespace Ricochet
       {
         coarse.copy_from(coarse_body);
         CoarseProducts(space).add_contact(*tangent, coarse);
+        single.set_contact(*tangent);
         initialize_smoother();
       }
 
@@ -243,14 +250,37 @@ namespace Ricochet
         aggregation->vmult(result, vector);
         return;
       }
-    smoother.vmult(result, vector);
-    tangent->vmult(residual, result);
-    residual.sadd(-1., 1., vector);
-    space.prolongation.Tvmult(coarse_residual, residual);
+    // Of a size that single precision can hold, by powers of two.
+    const double norm = vector.linfty_norm();
+    if (!(norm > 0.) || !std::isfinite(norm))
+      {
+        result = vector;
+        return;
+      }
+    const double        size = std::ldexp(1., std::ilogb(norm));
+    const unsigned int  n    = single_residual.locally_owned_size();
+    const double *const from = vector.trilinos_vector()[0];
+    double *const       to   = result.trilinos_vector()[0];
+    double *const       work = fine.trilinos_vector()[0];
+    for (unsigned int i = 0; i < n; ++i)
+      single_right_hand_side.local_element(i) =
+        static_cast<float>(from[i] / size);
+
+    smoother.vmult(single_result, single_right_hand_side);
+    single.vmult(single_residual, single_result);
+    for (unsigned int i = 0; i < n; ++i)
+      work[i] = single_right_hand_side.local_element(i) -
+        single_residual.local_element(i);
+    space.prolongation.Tvmult(coarse_residual, fine);
     aggregation->vmult(coarse_correction, coarse_residual);
-    space.prolongation.vmult(correction, coarse_correction);
-    result += correction;
-    smoother.step(result, vector);
+    space.prolongation.vmult(fine, coarse_correction);
+    // The coarse levels know the tangent as it is.
+    for (unsigned int i = 0; i < n; ++i)
+      single_result.local_element(i) +=
+        static_cast<float>(work[i] / single.factor());
+    smoother.step(single_result, single_right_hand_side);
+    for (unsigned int i = 0; i < n; ++i)
+      to[i] = single_result.local_element(i) * size * single.factor();
   }
 
 

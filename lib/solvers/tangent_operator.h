@@ -63,6 +63,13 @@ namespace Ricochet
       return my_functionals;
     }
 
+    /// Those of this rank.
+    const dealii::IndexSet &
+    clamped_unknowns() const
+    {
+      return clamped;
+    }
+
     /// @p result = T @p vector.
     void
     vmult(Vector &result, const Vector &vector) const;
