@@ -255,7 +255,7 @@ private:
         bulk = std::make_unique<HyperelasticBulk<3>>(body,
                                                      Material<3>(hyperelastic));
       }
-    const Matrix mass = assemble_mass_matrix(body, 1.);
+    const BodyMatrix mass = assemble_mass_matrix(body, 1.);
 
     Vector old_solution = body.make_vector(), new_solution(old_solution),
            force(old_solution);
@@ -314,14 +314,14 @@ private:
                                  const std::function<void()> &call)>;
 
   void
-  measure_factorisation(Matrix       &tangent,
-                        const Matrix &mass,
-                        const Vector &right_hand_side,
-                        Vector       &solution,
-                        const Add    &add) const
+  measure_factorisation(Matrix           &tangent,
+                        const BodyMatrix &mass,
+                        const Vector     &right_hand_side,
+                        Vector           &solution,
+                        const Add        &add) const
   {
     // As in a time step: without inertia the cube could move as it likes.
-    tangent.add(400., mass);
+    mass.add_to(400., tangent);
     const FactorisationChoice choice{"automatic",
                                      3,
                                      static_cast<std::size_t>(tangent.m()),
@@ -345,7 +345,7 @@ private:
   void
   measure_multigrid(const Body<3>      &body,
                     const BulkOperator &bulk,
-                    const Matrix       &mass,
+                    const BodyMatrix   &mass,
                     const Vector       &right_hand_side,
                     Vector             &solution,
                     const Add          &add) const

@@ -40,12 +40,12 @@ namespace Ricochet
 
 
 
-  BlockPattern::BlockPattern(const MatrixSum &matrices,
+  BlockPattern::BlockPattern(const std::vector<const Matrix *> &matrices,
                              const std::vector<types::global_dof_index> &others,
                              const unsigned int                          dim)
     : dim(dim)
   {
-    const Matrix  &first = *matrices.front().matrix;
+    const Matrix  &first = *matrices.front();
     const IndexSet owned = first.locally_owned_range_indices();
     // Ghosts, each node with all of its unknowns.
     std::vector<types::global_dof_index> ghosts;
@@ -56,9 +56,9 @@ namespace Ricochet
     };
     for (const auto unknown : others)
       add_ghost(unknown);
-    for (const MatrixTerm &term : matrices)
+    for (const Matrix *matrix : matrices)
       {
-        const Epetra_CrsMatrix &epetra = term.matrix->trilinos_matrix();
+        const Epetra_CrsMatrix &epetra = matrix->trilinos_matrix();
         for (int c = 0; c < epetra.NumMyCols(); ++c)
           add_ghost(epetra.GCID64(c));
       }
@@ -74,37 +74,62 @@ namespace Ricochet
                 ExcMessage("The unknowns of a node do not stand together."));
 
     const unsigned int                     n = owned.n_elements() / dim;
-    std::vector<std::vector<unsigned int>> columns;
-    for (const MatrixTerm &term : matrices)
-      columns.push_back(
-        local_columns(term.matrix->trilinos_matrix(), *partitioner));
+    std::vector<std::vector<unsigned int>> rows(n);
+    for (const Matrix *matrix : matrices)
+      {
+        const Epetra_CrsMatrix         &epetra = matrix->trilinos_matrix();
+        const std::vector<unsigned int> columns =
+          local_columns(epetra, *partitioner);
+        for (unsigned int r = 0; r < n * dim; ++r)
+          for_each_entry(epetra, r, [&](const int entry_column, double) {
+            const unsigned int node = columns[entry_column] / dim;
+            if (rows[r / dim].empty() || rows[r / dim].back() != node)
+              rows[r / dim].push_back(node);
+          });
+      }
+    set_rows(std::move(rows));
+  }
+
+
+
+  BlockPattern::BlockPattern(
+    std::shared_ptr<const Utilities::MPI::Partitioner> partitioner,
+    std::vector<std::vector<unsigned int>>           &&rows,
+    const unsigned int                                 dim)
+    : dim(dim)
+    , partitioner(std::move(partitioner))
+  {
+    set_rows(std::move(rows));
+  }
+
+
+
+  void
+  BlockPattern::set_rows(std::vector<std::vector<unsigned int>> &&rows)
+  {
+    const unsigned int n = rows.size();
     begin.reserve(n + 1);
     begin.push_back(0);
     ghosts_begin.reserve(n);
-    std::vector<unsigned int> last_row(n + ghost_set.n_elements() / dim,
-                                       numbers::invalid_unsigned_int);
+    std::size_t n_blocks = 0;
     for (unsigned int i = 0; i < n; ++i)
       {
-        for (unsigned int k = 0; k < matrices.size(); ++k)
-          for (unsigned int c = 0; c < dim; ++c)
-            for_each_entry(matrices[k].matrix->trilinos_matrix(),
-                           i * dim + c,
-                           [&](const int entry_column, double) {
-                             const unsigned int j =
-                               columns[k][entry_column] / dim;
-                             if (j > i && last_row[j] != i)
-                               {
-                                 last_row[j] = i;
-                                 column.push_back(j);
-                               }
-                           });
-        const auto row = column.begin() + begin.back();
-        std::sort(row, column.end());
-        ghosts_begin.push_back(std::lower_bound(row, column.end(), n) -
-                               column.begin());
-        begin.push_back(column.size());
+        std::vector<unsigned int> &row = rows[i];
+        std::sort(row.begin(), row.end());
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+        row.erase(row.begin(), std::upper_bound(row.begin(), row.end(), i));
+        n_blocks += row.size();
       }
-    column.shrink_to_fit();
+    column.reserve(n_blocks);
+    for (std::vector<unsigned int> &row : rows)
+      {
+        ghosts_begin.push_back(
+          column.size() +
+          (std::lower_bound(row.begin(), row.end(), n) - row.begin()));
+        column.insert(column.end(), row.begin(), row.end());
+        begin.push_back(column.size());
+        std::vector<unsigned int>().swap(row);
+      }
   }
 
 
@@ -122,10 +147,13 @@ namespace Ricochet
 
 
   template <typename Number>
-  BlockMatrix<Number>::BlockMatrix(std::shared_ptr<const BlockPattern> pattern)
+  BlockMatrix<Number>::BlockMatrix(std::shared_ptr<const BlockPattern> pattern,
+                                   const bool isotropic)
     : places(std::move(pattern))
-    , diagonal(places->n_rows() * places->dim * places->dim, Number(0))
-    , blocks(places->column.size() * places->dim * places->dim, Number(0))
+    , isotropic(isotropic)
+    , size(isotropic ? 1 : places->dim * places->dim)
+    , diagonal(places->n_rows() * std::size_t(size), Number(0))
+    , blocks(places->column.size() * size, Number(0))
   {}
 
 
@@ -134,6 +162,7 @@ namespace Ricochet
   void
   BlockMatrix<Number>::add(const double factor, const Matrix &matrix)
   {
+    Assert(!isotropic, ExcNotImplemented());
     const Epetra_CrsMatrix         &epetra = matrix.trilinos_matrix();
     const unsigned int              dim = places->dim, n = places->n_rows();
     const std::vector<unsigned int> local =
@@ -196,6 +225,80 @@ namespace Ricochet
 
   template <typename Number>
   void
+  BlockMatrix<Number>::add(const double               factor,
+                           const BlockMatrix<double> &matrix)
+  {
+    Assert(!isotropic, ExcNotImplemented());
+    AssertThrow(places == matrix.places, ExcMessage("Other places."));
+    const unsigned int dim = places->dim;
+    const auto         add = [&](const std::vector<double> &from,
+                         std::vector<Number>       &to) {
+      if (matrix.isotropic)
+        for (std::size_t k = 0; k < from.size(); ++k)
+          for (unsigned int c = 0; c < dim; ++c)
+            to[k * size + c * (dim + 1)] += factor * from[k];
+      else
+        for (std::size_t k = 0; k < from.size(); ++k)
+          to[k] += factor * from[k];
+    };
+    add(matrix.diagonal, diagonal);
+    add(matrix.blocks, blocks);
+  }
+
+
+
+  template <typename Number>
+  void
+  BlockMatrix<Number>::add_cell(const std::vector<unsigned int> &unknowns,
+                                const FullMatrix<double>        &cell_matrix)
+  {
+    const unsigned int dim = places->dim, n = places->n_rows();
+    // Where the components of each node of the cell are.
+    std::vector<unsigned int> nodes, rows;
+    for (unsigned int i = 0; i < unknowns.size(); ++i)
+      {
+        const unsigned int node   = unknowns[i] / dim;
+        const auto         place  = std::find(nodes.begin(), nodes.end(), node);
+        const std::size_t  number = place - nodes.begin();
+        if (place == nodes.end())
+          {
+            nodes.push_back(node);
+            rows.resize(nodes.size() * dim);
+          }
+        rows[number * dim + unknowns[i] % dim] = i;
+      }
+    for (unsigned int a = 0; a < nodes.size(); ++a)
+      if (nodes[a] < n)
+        for (unsigned int b = 0; b < nodes.size(); ++b)
+          {
+            if (nodes[b] < nodes[a])
+              continue;
+            Number *block = diagonal.data() + nodes[a] * std::size_t(size);
+            if (a != b)
+              {
+                const std::size_t place = places->find(nodes[a], nodes[b]);
+                AssertThrow(place < places->column.size(),
+                            ExcMessage("A block has no place."));
+                block = blocks.data() + place * size;
+              }
+            // Symmetric to the last digit.
+            const auto entry = [&](const unsigned int c, const unsigned int d) {
+              const unsigned int i = rows[a * dim + c], j = rows[b * dim + d];
+              return .5 * (cell_matrix(i, j) + cell_matrix(j, i));
+            };
+            if (isotropic)
+              *block += entry(0, 0);
+            else
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int d = 0; d < dim; ++d)
+                  block[c * dim + d] += entry(c, d);
+          }
+  }
+
+
+
+  template <typename Number>
+  void
   BlockMatrix<Number>::clear(const VectorType &flags, const Number value)
   {
     const unsigned int dim = places->dim;
@@ -218,50 +321,80 @@ namespace Ricochet
 
 
   template <typename Number>
-  template <int dim>
+  template <int dim, bool is_isotropic>
   void
   BlockMatrix<Number>::multiply(const Number *from, Number *to) const
   {
-    const unsigned int *const column = places->column.data();
-    for (unsigned int i = 0; i < places->n_rows(); ++i)
+    constexpr int             block_size = is_isotropic ? 1 : dim * dim;
+    const unsigned int *const column     = places->column.data();
+    const unsigned int        n          = places->n_rows();
+    std::fill(to, to + std::size_t(n) * dim, Number(0));
+    const auto add =
+      [](const Number *block, const Number *vector, Number *result) {
+        for (int c = 0; c < dim; ++c)
+          if (is_isotropic)
+            result[c] += block[0] * vector[c];
+          else
+            {
+              Number product = block[c * dim] * vector[0];
+              for (int d = 1; d < dim; ++d)
+                product += block[c * dim + d] * vector[d];
+              result[c] += product;
+            }
+      };
+    // What is to the left of the diagonal.
+    const auto add_transposed =
+      [](const Number *block, const Number *vector, Number *result) {
+        for (int d = 0; d < dim; ++d)
+          if (is_isotropic)
+            result[d] += block[0] * vector[d];
+          else
+            {
+              Number product = block[d] * vector[0];
+              for (int c = 1; c < dim; ++c)
+                product += block[c * dim + d] * vector[c];
+              result[d] += product;
+            }
+      };
+    for (unsigned int i = 0; i < n; ++i)
       {
         Number own[dim], sum[dim];
         for (int c = 0; c < dim; ++c)
-          own[c] = from[i * dim + c];
-        const auto add =
-          [](const Number *block, const Number *vector, Number *result) {
-            for (int c = 0; c < dim; ++c)
-              {
-                Number product = block[c * dim] * vector[0];
-                for (int d = 1; d < dim; ++d)
-                  product += block[c * dim + d] * vector[d];
-                result[c] += product;
-              }
-          };
-        for (int c = 0; c < dim; ++c)
-          sum[c] = to[i * dim + c];
-        add(diagonal.data() + i * dim * dim, own, sum);
-        std::size_t       k   = places->begin[i];
-        const std::size_t mid = places->ghosts_begin[i];
-        for (; k < mid; ++k)
           {
-            const Number *block = blocks.data() + k * dim * dim;
-            const Number *other = from + column[k] * dim;
-            Number       *below = to + column[k] * dim;
-            add(block, other, sum);
-            // The block to the left of the diagonal is its transpose.
-            for (int d = 0; d < dim; ++d)
-              {
-                Number product = block[d] * own[0];
-                for (int c = 1; c < dim; ++c)
-                  product += block[c * dim + d] * own[c];
-                below[d] += product;
-              }
+            own[c] = from[std::size_t(i) * dim + c];
+            sum[c] = to[std::size_t(i) * dim + c];
           }
-        for (; k < places->begin[i + 1]; ++k)
-          add(blocks.data() + k * dim * dim, from + column[k] * dim, sum);
+        add(diagonal.data() + std::size_t(i) * block_size, own, sum);
+        std::size_t   k     = places->begin[i];
+        const Number *block = blocks.data() + k * block_size;
+        for (; k < places->ghosts_begin[i]; ++k, block += block_size)
+          {
+            add(block, from + std::size_t(column[k]) * dim, sum);
+            add_transposed(block, own, to + std::size_t(column[k]) * dim);
+          }
+        for (; k < places->begin[i + 1]; ++k, block += block_size)
+          add(block, from + std::size_t(column[k]) * dim, sum);
         for (int c = 0; c < dim; ++c)
-          to[i * dim + c] = sum[c];
+          to[std::size_t(i) * dim + c] = sum[c];
+      }
+  }
+
+
+
+  template <typename Number>
+  void
+  BlockMatrix<Number>::vmult(const Number *from, Number *to) const
+  {
+    switch (places->dim)
+      {
+        case 1:
+          return multiply<1, false>(from, to);
+        case 2:
+          return isotropic ? multiply<2, true>(from, to)
+                           : multiply<2, false>(from, to);
+        default:
+          return isotropic ? multiply<3, true>(from, to)
+                           : multiply<3, false>(from, to);
       }
   }
 
@@ -272,25 +405,63 @@ namespace Ricochet
   BlockMatrix<Number>::vmult(VectorType &result, const VectorType &vector) const
   {
     vector.update_ghost_values();
-    result = Number(0);
-    if (places->dim == 3)
-      multiply<3>(vector.begin(), result.begin());
-    else if (places->dim == 2)
-      multiply<2>(vector.begin(), result.begin());
-    else
-      multiply<1>(vector.begin(), result.begin());
+    vmult(vector.begin(), result.begin());
     vector.zero_out_ghost_values();
   }
 
 
 
   template <typename Number>
-  Number
-  BlockMatrix<Number>::diagonal_entry(const types::global_dof_index i) const
+  void
+  BlockMatrix<Number>::for_each_row(const RowAction &action) const
   {
-    const unsigned int local = places->partitioner->global_to_local(i);
-    const unsigned int c     = local % places->dim;
-    return diagonal[local * places->dim + c];
+    // The blocks to the left of the diagonal, by row.
+    const unsigned int       dim = places->dim, n = places->n_rows();
+    std::vector<std::size_t> left_begin(n + 2, 0);
+    const auto               for_each_left = [&](const auto &call) {
+      for (unsigned int i = 0; i < n; ++i)
+        for (std::size_t k = places->begin[i]; k < places->ghosts_begin[i]; ++k)
+          call(i, places->column[k], k);
+    };
+    for_each_left([&](unsigned int, const unsigned int j, std::size_t) {
+      ++left_begin[j + 2];
+    });
+    for (unsigned int i = 0; i < n; ++i)
+      left_begin[i + 2] += left_begin[i + 1];
+    std::vector<unsigned int> left_row(left_begin[n + 1]);
+    std::vector<std::size_t>  left_place(left_begin[n + 1]);
+    for_each_left(
+      [&](const unsigned int i, const unsigned int j, const std::size_t k) {
+        left_row[left_begin[j + 1]]     = i;
+        left_place[left_begin[j + 1]++] = k;
+      });
+
+    std::vector<unsigned int> columns;
+    std::vector<double>       values;
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          columns.clear();
+          values.clear();
+          const auto take = [&](const Number      *block,
+                                const unsigned int j,
+                                const unsigned int step,
+                                const unsigned int begin) {
+            for (unsigned int d = 0; d < dim; ++d)
+              if (!isotropic || c == d)
+                {
+                  columns.push_back(j * dim + d);
+                  values.push_back(isotropic ? block[0]
+                                             : block[begin + d * step]);
+                }
+          };
+          for (std::size_t l = left_begin[i]; l < left_begin[i + 1]; ++l)
+            take(blocks.data() + left_place[l] * size, left_row[l], dim, c);
+          take(diagonal.data() + i * std::size_t(size), i, 1, c * dim);
+          for (std::size_t k = places->begin[i]; k < places->begin[i + 1]; ++k)
+            take(blocks.data() + k * size, places->column[k], 1, c * dim);
+          action(i * dim + c, columns, values);
+        }
   }
 
 

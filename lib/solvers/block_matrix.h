@@ -5,8 +5,10 @@
 #include <base/types.h>
 
 #include <deal.II/base/partitioner.h>
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -20,14 +22,24 @@ namespace Ricochet
   struct BlockPattern
   {
     /**
-     * @param matrices whose entries are to find a place, all with the same rows;
-     * rows of a rank are contiguous, and a multiple of @p dim.
+     * For the entries of some matrices.
+     *
+     * @param matrices all with the same rows; those of a rank are contiguous, and a
+     * multiple of @p dim.
      * @param others unknowns of other ranks that are to be known besides.
      * Collective.
      */
-    BlockPattern(const MatrixSum                                    &matrices,
+    BlockPattern(const std::vector<const Matrix *>                  &matrices,
                  const std::vector<dealii::types::global_dof_index> &others,
                  const unsigned int                                  dim);
+
+    /// @param rows for each own node the numbers of those that it couples to, in
+    /// any order; what is not to the right of the diagonal is left out. They are
+    /// used up.
+    BlockPattern(
+      std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner,
+      std::vector<std::vector<unsigned int>>                   &&rows,
+      const unsigned int                                         dim);
 
     /// Of the place of a block, or that of its end where there is none.
     std::size_t
@@ -39,7 +51,7 @@ namespace Ricochet
       return begin.size() - 1;
     }
 
-    unsigned int dim;
+    const unsigned int dim;
     /// Of the unknowns; ghosts are those of whole nodes.
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     /// The blocks to the right of the diagonal of row i begin[i] <= k < begin[i+1]
@@ -48,6 +60,10 @@ namespace Ricochet
     /// it in another row, or in one of another rank.
     std::vector<std::size_t>  begin, ghosts_begin;
     std::vector<unsigned int> column;
+
+  private:
+    void
+    set_rows(std::vector<std::vector<unsigned int>> &&rows);
   };
 
   /**
@@ -63,12 +79,26 @@ namespace Ricochet
     using VectorType = dealii::LinearAlgebra::distributed::Vector<Number>;
 
     /// Zero.
-    explicit BlockMatrix(std::shared_ptr<const BlockPattern> pattern);
+    /// @param isotropic blocks are multiples of the identity, of which one number is
+    /// stored, as those of a mass matrix.
+    explicit BlockMatrix(std::shared_ptr<const BlockPattern> pattern,
+                         const bool                          isotropic = false);
 
     /// Add @p factor times the symmetric part of @p matrix (but between ranks, where
     /// each has its own rows). Its entries have a place in the pattern.
+    /// @pre it is not isotropic; so below.
     void
     add(const double factor, const Matrix &matrix);
+
+    /// Add @p factor times @p matrix, on the same pattern.
+    void
+    add(const double factor, const BlockMatrix<double> &matrix);
+
+    /// Add the matrix of a cell, symmetric, whose rows are the unknowns with the
+    /// numbers @p unknowns on this rank. Each rank adds all cells that touch its nodes.
+    void
+    add_cell(const std::vector<unsigned int>  &unknowns,
+             const dealii::FullMatrix<double> &cell_matrix);
 
     /// The rows and columns of the unknowns whose @p flags (with ghosts) are not zero
     /// become zero, with @p diagonal on the diagonal.
@@ -79,14 +109,32 @@ namespace Ricochet
     void
     vmult(VectorType &result, const VectorType &vector) const;
 
-    /// Entry in row and column @p i of this rank.
-    Number
-    diagonal_entry(const dealii::types::global_dof_index i) const;
+    /// The same with numbers of this rank; @p from has its ghosts behind its own.
+    void
+    vmult(const Number *from, Number *to) const;
 
-    const BlockPattern &
+    /// Entry in row and column @p i, a number of this rank.
+    Number
+    diagonal_entry(const unsigned int i) const
+    {
+      const unsigned int dim = places->dim;
+      return isotropic ? diagonal[i / dim] : diagonal[i * dim + i % dim];
+    }
+
+    /// The columns of a row, as numbers of this rank, and the values there.
+    using RowAction =
+      std::function<void(const unsigned int               row,
+                         const std::vector<unsigned int> &columns,
+                         const std::vector<double>       &values)>;
+
+    /// Call @p action for all rows of this rank, the unknowns' one after the other.
+    void
+    for_each_row(const RowAction &action) const;
+
+    const std::shared_ptr<const BlockPattern> &
     pattern() const
     {
-      return *places;
+      return places;
     }
 
     /// Bytes of the matrix on this rank.
@@ -94,12 +142,18 @@ namespace Ricochet
     memory_consumption() const;
 
   private:
-    template <int dim>
+    template <typename>
+    friend class BlockMatrix;
+
+    template <int dim, bool is_isotropic>
     void
     multiply(const Number *from, Number *to) const;
 
     std::shared_ptr<const BlockPattern> places;
-    // Row by row, dim * dim entries each: on the diagonal, and at #places->column.
+    const bool                          isotropic;
+    // Entries of a block.
+    const unsigned int size;
+    // Row by row, #size entries each: on the diagonal, and at #places->column.
     std::vector<Number> diagonal, blocks;
   };
 } // namespace Ricochet

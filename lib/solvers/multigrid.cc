@@ -29,28 +29,24 @@ namespace Ricochet
 
     /// @p coarse += P^T @p matrix P.
     void
-    add(const Matrix &matrix, Matrix &coarse)
+    add(const BodyMatrix &matrix, Matrix &coarse)
     {
-      const Epetra_CrsMatrix   &epetra = matrix.trilinos_matrix();
-      std::vector<unsigned int> relevant(epetra.NumMyCols());
-      for (unsigned int c = 0; c < relevant.size(); ++c)
-        relevant[c] = space.relevant.index_within_set(epetra.GCID64(c));
-      for (int r = 0; r < epetra.NumMyRows(); ++r)
-        {
-          int     n_entries = 0;
-          double *values    = nullptr;
-          int    *indices   = nullptr;
-          epetra.ExtractMyRowView(r, n_entries, values, indices);
-          for (int e = 0; e < n_entries; ++e)
-            add_to_row(relevant[indices[e]], values[e]);
+      const IndexSet owned = matrix.locally_owned_range_indices();
+      matrix.for_each_row(
+        [&](const unsigned int                          r,
+            const std::vector<types::global_dof_index> &entry_columns,
+            const std::vector<double>                  &entry_values) {
+          for (unsigned int e = 0; e < entry_columns.size(); ++e)
+            add_to_row(space.relevant.index_within_set(entry_columns[e]),
+                       entry_values[e]);
           const unsigned int row =
-            space.relevant.index_within_set(epetra.GRID64(r));
+            space.relevant.index_within_set(owned.nth_index_in_set(r));
           const Functionals &parents = space.parents;
           for (std::size_t k = parents.begin[row]; k < parents.begin[row + 1];
                ++k)
             flush_row(parents.index[k], parents.value[k], coarse);
           clear_row();
-        }
+        });
       coarse.compress(VectorOperation::add);
     }
 
@@ -236,7 +232,9 @@ namespace Ricochet
     auto list = aggregation_parameters(space, modes);
     seed_aggregation(Utilities::MPI::this_mpi_process(tangent->communicator));
     aggregation = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-    aggregation->initialize(has_smoother ? coarse : *tangent->terms()[0].matrix,
+    aggregation->initialize(has_smoother
+                              ? coarse
+                              : *tangent->terms()[0].matrix->entries(),
                             list);
   }
 

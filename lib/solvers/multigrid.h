@@ -87,7 +87,7 @@ namespace Ricochet
     SingleTangent          single;
     Smoother               smoother;
     // Between coarse unknowns: constant terms, the body, and all of the tangent.
-    std::map<const Matrix *, Matrix>                           constant_terms;
+    std::map<const BodyMatrix *, Matrix>                       constant_terms;
     Matrix                                                     coarse_body;
     Matrix                                                     coarse;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> aggregation;

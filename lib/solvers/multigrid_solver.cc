@@ -17,7 +17,7 @@ namespace Ricochet
     /// Give @p contact_matrix the part of the pattern of @p matrix that couples
     /// the unknowns @p rows of all ranks.
     void
-    reinit_contact_matrix(const Matrix                               &matrix,
+    reinit_contact_matrix(const BodyMatrix                           &matrix,
                           const std::vector<types::global_dof_index> &rows,
                           Matrix &contact_matrix)
     {
@@ -28,23 +28,18 @@ namespace Ricochet
         std::sort(sorted.begin(), sorted.end());
         contact.add_indices(sorted.begin(), sorted.end());
       }
-      // Not by deal.II's iterators, which copy each row.
-      const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
-      DynamicSparsityPattern  pattern(owned.size(), owned.size(), owned);
-      for (const auto row : contact &owned)
-        {
-          int  n_entries = 0;
-          int *indices   = nullptr;
-          epetra.Graph().ExtractMyRowView(
-            epetra.LRID(static_cast<TrilinosWrappers::types::int_type>(row)),
-            n_entries,
-            indices);
-          for (int k = 0; k < n_entries; ++k)
-            if (const types::global_dof_index column =
-                  epetra.GCID64(indices[k]);
-                contact.is_element(column))
-              pattern.add(row, column);
-        }
+      contact.compress();
+      DynamicSparsityPattern pattern(owned.size(), owned.size(), owned);
+      matrix.for_each_row(
+        [&](const unsigned int                          r,
+            const std::vector<types::global_dof_index> &columns,
+            const std::vector<double> &) {
+          const types::global_dof_index row = owned.nth_index_in_set(r);
+          if (contact.is_element(row))
+            for (const types::global_dof_index column : columns)
+              if (contact.is_element(column))
+                pattern.add(row, column);
+        });
       contact_matrix.reinit(owned, pattern, matrix.get_mpi_communicator());
     }
   } // namespace
@@ -81,7 +76,7 @@ namespace Ricochet
                                           communicator);
     if (!is_sum)
       {
-        assemble(tangent, matrix);
+        assemble(tangent, *matrix.entries());
         current->set_terms({{1., &matrix}});
         return;
       }
@@ -93,10 +88,12 @@ namespace Ricochet
         MatrixSum terms = tangent.body_terms;
         if (tangent.complete_contact)
           {
-            if (matrix.m() == 0)
-              reinit_contact_matrix(*terms[0].matrix, contact.rows, matrix);
-            matrix = 0.;
-            tangent.complete_open_contact(matrix);
+            if (matrix.entries()->m() == 0)
+              reinit_contact_matrix(*terms[0].matrix,
+                                    contact.rows,
+                                    *matrix.entries());
+            *matrix.entries() = 0.;
+            tangent.complete_open_contact(*matrix.entries());
             terms.push_back({1., &matrix});
           }
         current->set_terms(terms);

@@ -61,7 +61,7 @@ namespace Ricochet
     // of what contact does through its functionals; otherwise one matrix.
     const bool is_sum;
     // Open contact, or all of it.
-    Matrix                           matrix;
+    BodyMatrix                       matrix{Matrix()};
     std::optional<BodyKey>           body;
     std::unique_ptr<TangentOperator> current;
     // Smooths with this very tangent, even when it has changed since the setup: a

@@ -14,25 +14,34 @@ namespace Ricochet
   SingleTangent::set_body(const TangentOperator &tangent,
                           const unsigned int     dim)
   {
-    // A body that changes has the same pattern, but terms come and go.
     body.reset();
-    pattern = std::make_shared<BlockPattern>(tangent.terms(),
-                                             tangent.functionals().index,
-                                             dim);
-    body    = std::make_unique<BlockMatrix<float>>(pattern);
+    // Blocks have a place for whatever couples in the body.
+    pattern.reset();
+    std::vector<const Matrix *> matrices;
+    for (const MatrixTerm &term : tangent.terms())
+      if (term.matrix->blocks())
+        pattern = term.matrix->blocks()->pattern();
+      else
+        matrices.push_back(term.matrix->entries());
+    if (!pattern)
+      pattern = std::make_shared<BlockPattern>(matrices,
+                                               tangent.functionals().index,
+                                               dim);
+    body = std::make_unique<BlockMatrix<float>>(pattern);
 
     // The body's own stiffness decides, which is there without contact.
     double largest = 0.;
     for (const MatrixTerm &term : tangent.terms())
-      {
-        const Epetra_CrsMatrix &matrix = term.matrix->trilinos_matrix();
-        largest = std::max(largest, std::abs(term.weight) * matrix.NormInf());
-      }
+      largest =
+        std::max(largest, std::abs(term.weight) * term.matrix->linfty_norm());
     scaling = std::isfinite(largest) && largest > 0.
       ? std::ldexp(1., -std::ilogb(largest))
       : 1.;
     for (const MatrixTerm &term : tangent.terms())
-      body->add(scaling * term.weight, *term.matrix);
+      if (term.matrix->blocks())
+        body->add(scaling * term.weight, *term.matrix->blocks());
+      else
+        body->add(scaling * term.weight, *term.matrix->entries());
 
     VectorType flags;
     initialize_dof_vector(flags);

@@ -38,7 +38,7 @@ namespace Ricochet
     void
     initialize_dof_vector(VectorType &vector) const
     {
-      vector.reinit(body->pattern().partitioner);
+      vector.reinit(pattern->partitioner);
     }
 
     /// By what the tangent was multiplied.

@@ -60,10 +60,7 @@ namespace Ricochet
     body_diagonal = 0.;
     for (const MatrixTerm &term : sum)
       {
-        const int error = term.matrix->trilinos_matrix().ExtractDiagonalCopy(
-          *product.trilinos_vector()(0));
-        AssertThrow(error == 0, ExcTrilinosError(error));
-        body_diagonal.add(term.weight, product);
+        term.matrix->add_diagonal(term.weight, body_diagonal);
       }
   }
 

@@ -3,6 +3,7 @@
 #define ricochet_solvers_tangent_operator_h
 
 #include <base/types.h>
+#include <solvers/body_matrix.h>
 #include <solvers/functionals.h>
 
 #include <deal.II/base/index_set.h>
