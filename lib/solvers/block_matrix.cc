@@ -2,6 +2,7 @@
 #include <solvers/block_matrix.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Ricochet
 {
@@ -320,63 +321,226 @@ namespace Ricochet
 
 
 
-  template <typename Number>
-  template <int dim, bool is_isotropic>
-  void
-  BlockMatrix<Number>::multiply(const Number *from, Number *to) const
+  namespace
   {
-    constexpr int             block_size = is_isotropic ? 1 : dim * dim;
-    const unsigned int *const column     = places->column.data();
-    const unsigned int        n          = places->n_rows();
+    /// @p result += @p block times @p vector.
+    template <int dim, typename Number>
+    inline void
+    add_block(const Number *block, const Number *vector, Number *result)
+    {
+      for (int c = 0; c < dim; ++c)
+        {
+          Number product = block[c * dim] * vector[0];
+          for (int d = 1; d < dim; ++d)
+            product += block[c * dim + d] * vector[d];
+          result[c] += product;
+        }
+    }
+
+    /// The same with the transposed block.
+    template <int dim, typename Number>
+    inline void
+    add_transposed_block(const Number *block,
+                         const Number *vector,
+                         Number       *result)
+    {
+      for (int d = 0; d < dim; ++d)
+        {
+          Number product = block[d] * vector[0];
+          for (int c = 1; c < dim; ++c)
+            product += block[c * dim + d] * vector[c];
+          result[d] += product;
+        }
+    }
+
+    /// The same with a multiple of the identity.
+    template <int dim, typename Number>
+    inline void
+    add_multiple(const Number factor, const Number *vector, Number *result)
+    {
+      for (int c = 0; c < dim; ++c)
+        result[c] += factor * vector[c];
+    }
+  } // namespace
+
+
+
+  template <typename Number>
+  template <int dim, typename AddDiagonal, typename Add, typename AddTransposed>
+  void
+  BlockMatrix<Number>::sweep(const AddDiagonal   &add_diagonal,
+                             const Add           &add,
+                             const AddTransposed &add_transposed,
+                             const Number        *from,
+                             Number              *to) const
+  {
+    const unsigned int *const column = places->column.data();
+    const unsigned int        n      = places->n_rows();
     std::fill(to, to + std::size_t(n) * dim, Number(0));
-    const auto add =
-      [](const Number *block, const Number *vector, Number *result) {
-        for (int c = 0; c < dim; ++c)
-          if (is_isotropic)
-            result[c] += block[0] * vector[c];
-          else
-            {
-              Number product = block[c * dim] * vector[0];
-              for (int d = 1; d < dim; ++d)
-                product += block[c * dim + d] * vector[d];
-              result[c] += product;
-            }
-      };
-    // What is to the left of the diagonal.
-    const auto add_transposed =
-      [](const Number *block, const Number *vector, Number *result) {
-        for (int d = 0; d < dim; ++d)
-          if (is_isotropic)
-            result[d] += block[0] * vector[d];
-          else
-            {
-              Number product = block[d] * vector[0];
-              for (int c = 1; c < dim; ++c)
-                product += block[c * dim + d] * vector[c];
-              result[d] += product;
-            }
-      };
     for (unsigned int i = 0; i < n; ++i)
       {
+        // In registers, whatever else the vectors share.
         Number own[dim], sum[dim];
         for (int c = 0; c < dim; ++c)
           {
             own[c] = from[std::size_t(i) * dim + c];
             sum[c] = to[std::size_t(i) * dim + c];
           }
-        add(diagonal.data() + std::size_t(i) * block_size, own, sum);
-        std::size_t   k     = places->begin[i];
-        const Number *block = blocks.data() + k * block_size;
-        for (; k < places->ghosts_begin[i]; ++k, block += block_size)
+        add_diagonal(i, own, sum);
+        std::size_t k = places->begin[i];
+        for (; k < places->ghosts_begin[i]; ++k)
           {
-            add(block, from + std::size_t(column[k]) * dim, sum);
-            add_transposed(block, own, to + std::size_t(column[k]) * dim);
+            add(k, from + std::size_t(column[k]) * dim, sum);
+            add_transposed(k, own, to + std::size_t(column[k]) * dim);
           }
-        for (; k < places->begin[i + 1]; ++k, block += block_size)
-          add(block, from + std::size_t(column[k]) * dim, sum);
+        for (; k < places->begin[i + 1]; ++k)
+          add(k, from + std::size_t(column[k]) * dim, sum);
         for (int c = 0; c < dim; ++c)
           to[std::size_t(i) * dim + c] = sum[c];
       }
+  }
+
+
+
+  template <typename Number>
+  template <int dim, bool is_isotropic>
+  void
+  BlockMatrix<Number>::multiply(const Number *from, Number *to) const
+  {
+    const Number *const on_diagonal = diagonal.data();
+    const Number *const right       = blocks.data();
+    if constexpr (is_isotropic)
+      {
+        const auto add =
+          [right](const std::size_t k, const Number *vector, Number *result) {
+            add_multiple<dim>(right[k], vector, result);
+          };
+        sweep<dim>(
+          [on_diagonal](const std::size_t i,
+                        const Number     *vector,
+                        Number           *result) {
+            add_multiple<dim>(on_diagonal[i], vector, result);
+          },
+          add,
+          add,
+          from,
+          to);
+      }
+    else
+      sweep<dim>(
+        [on_diagonal](const std::size_t i,
+                      const Number     *vector,
+                      Number           *result) {
+          add_block<dim>(on_diagonal + i * (dim * dim), vector, result);
+        },
+        [right](const std::size_t k, const Number *vector, Number *result) {
+          add_block<dim>(right + k * (dim * dim), vector, result);
+        },
+        [right](const std::size_t k, const Number *vector, Number *result) {
+          add_transposed_block<dim>(right + k * (dim * dim), vector, result);
+        },
+        from,
+        to);
+  }
+
+
+
+  template <typename Number>
+  template <int dim>
+  void
+  BlockMatrix<Number>::multiply_sum(const Number       factor,
+                                    const Number       isotropic_factor,
+                                    const BlockMatrix &other,
+                                    const Number      *from,
+                                    Number            *to) const
+  {
+    // The block of the sum, which the compiler keeps in registers.
+    const auto sum_of = [factor, isotropic_factor](const Number *block,
+                                                   const Number  multiple,
+                                                   Number       *sum) {
+      for (int e = 0; e < dim * dim; ++e)
+        sum[e] = factor * block[e];
+      for (int c = 0; c < dim; ++c)
+        sum[c * (dim + 1)] += isotropic_factor * multiple;
+    };
+    const Number *const right          = blocks.data();
+    const Number *const right_multiple = other.blocks.data();
+    sweep<dim>(
+      [&](const std::size_t i, const Number *vector, Number *result) {
+        Number sum[dim * dim];
+        sum_of(diagonal.data() + i * (dim * dim), other.diagonal[i], sum);
+        add_block<dim>(sum, vector, result);
+      },
+      [&](const std::size_t k, const Number *vector, Number *result) {
+        Number sum[dim * dim];
+        sum_of(right + k * (dim * dim), right_multiple[k], sum);
+        add_block<dim>(sum, vector, result);
+      },
+      [&](const std::size_t k, const Number *vector, Number *result) {
+        Number sum[dim * dim];
+        sum_of(right + k * (dim * dim), right_multiple[k], sum);
+        add_transposed_block<dim>(sum, vector, result);
+      },
+      from,
+      to);
+  }
+
+
+
+  template <typename Number>
+  void
+  BlockMatrix<Number>::vmult_sum(const double       factor,
+                                 const double       isotropic_factor,
+                                 const BlockMatrix &other,
+                                 const Number      *from,
+                                 Number            *to) const
+  {
+    Assert(!isotropic && other.isotropic && places == other.places,
+           ExcNotImplemented());
+    switch (places->dim)
+      {
+        case 1:
+          return multiply_sum<1>(factor, isotropic_factor, other, from, to);
+        case 2:
+          return multiply_sum<2>(factor, isotropic_factor, other, from, to);
+        default:
+          return multiply_sum<3>(factor, isotropic_factor, other, from, to);
+      }
+  }
+
+
+
+  template <typename Number>
+  double
+  BlockMatrix<Number>::linfty_norm() const
+  {
+    const unsigned int  dim = places->dim, n = places->n_rows();
+    std::vector<double> sums(std::size_t(n) * dim, 0.);
+    const auto          add = [&](const Number      *block,
+                         const unsigned int i,
+                         const unsigned int j,
+                         const bool         also_left) {
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!isotropic || c == d)
+            {
+              const double value =
+                std::abs(isotropic ? block[0] : block[c * dim + d]);
+              sums[i * dim + c] += value;
+              if (also_left)
+                sums[j * dim + d] += value;
+            }
+    };
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        add(diagonal.data() + i * std::size_t(size), i, i, false);
+        for (std::size_t k = places->begin[i]; k < places->begin[i + 1]; ++k)
+          add(blocks.data() + k * size,
+              i,
+              places->column[k],
+              k < places->ghosts_begin[i]);
+      }
+    return sums.empty() ? 0. : *std::max_element(sums.begin(), sums.end());
   }
 
 

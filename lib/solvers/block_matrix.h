@@ -113,6 +113,19 @@ namespace Ricochet
     void
     vmult(const Number *from, Number *to) const;
 
+    /// The same for @p factor times this plus @p isotropic_factor times @p isotropic,
+    /// which is so and on the same pattern: both in one sweep. @pre this is not.
+    void
+    vmult_sum(const double       factor,
+              const double       isotropic_factor,
+              const BlockMatrix &isotropic,
+              const Number      *from,
+              Number            *to) const;
+
+    /// The largest sum of absolute values in a row of this rank.
+    double
+    linfty_norm() const;
+
     /// Entry in row and column @p i, a number of this rank.
     Number
     diagonal_entry(const unsigned int i) const
@@ -131,6 +144,12 @@ namespace Ricochet
     void
     for_each_row(const RowAction &action) const;
 
+    bool
+    is_isotropic() const
+    {
+      return isotropic;
+    }
+
     const std::shared_ptr<const BlockPattern> &
     pattern() const
     {
@@ -145,9 +164,30 @@ namespace Ricochet
     template <typename>
     friend class BlockMatrix;
 
+    /// Call @p add(k, j, from, to) for each block k (those on the diagonal first) in
+    /// column j, and @p add_transposed for what is to the left of the diagonal.
+    template <int dim,
+              typename AddDiagonal,
+              typename Add,
+              typename AddTransposed>
+    void
+    sweep(const AddDiagonal   &add_diagonal,
+          const Add           &add,
+          const AddTransposed &add_transposed,
+          const Number        *from,
+          Number              *to) const;
+
     template <int dim, bool is_isotropic>
     void
     multiply(const Number *from, Number *to) const;
+
+    template <int dim>
+    void
+    multiply_sum(const Number       factor,
+                 const Number       isotropic_factor,
+                 const BlockMatrix &isotropic,
+                 const Number      *from,
+                 Number            *to) const;
 
     std::shared_ptr<const BlockPattern> places;
     const bool                          isotropic;

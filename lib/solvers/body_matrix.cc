@@ -26,13 +26,41 @@ namespace Ricochet
   {
     if (by_entries)
       return by_entries->vmult(result, vector);
+    with_ghosts(vector, [&](const double *from) {
+      by_blocks->vmult(from, result.trilinos_vector()[0]);
+    });
+  }
+
+
+
+  void
+  BodyMatrix::vmult_sum(const MatrixTerm &full,
+                        const MatrixTerm &isotropic,
+                        Vector           &result,
+                        const Vector     &vector)
+  {
+    full.matrix->with_ghosts(vector, [&](const double *from) {
+      full.matrix->blocks()->vmult_sum(full.weight,
+                                       isotropic.weight,
+                                       *isotropic.matrix->blocks(),
+                                       from,
+                                       result.trilinos_vector()[0]);
+    });
+  }
+
+
+
+  void
+  BodyMatrix::with_ghosts(
+    const Vector                                    &vector,
+    const std::function<void(const double *values)> &action) const
+  {
     const double *from = vector.trilinos_vector()[0];
-    double       *to   = result.trilinos_vector()[0];
     if (ghosted.size() == 0)
-      return by_blocks->vmult(from, to);
+      return action(from);
     std::copy(from, from + ghosted.locally_owned_size(), ghosted.begin());
     ghosted.update_ghost_values();
-    by_blocks->vmult(ghosted.begin(), to);
+    action(ghosted.begin());
     ghosted.zero_out_ghost_values();
   }
 
@@ -148,15 +176,7 @@ namespace Ricochet
   {
     if (by_entries)
       return by_entries->linfty_norm();
-    double largest = 0.;
-    by_blocks->for_each_row([&](unsigned int,
-                                const std::vector<unsigned int> &,
-                                const std::vector<double> &values) {
-      double sum = 0.;
-      for (const double value : values)
-        sum += std::abs(value);
-      largest = std::max(largest, sum);
-    });
+    const double largest = by_blocks->linfty_norm();
     return Utilities::MPI::max(largest, get_mpi_communicator());
   }
 

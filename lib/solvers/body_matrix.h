@@ -39,6 +39,14 @@ namespace Ricochet
     void
     vmult(Vector &result, const Vector &vector) const;
 
+    /// @p result = the sum of two terms times @p vector, in one sweep. @pre both are
+    /// stored by blocks on the same pattern, the second one's isotropic.
+    static void
+    vmult_sum(const MatrixTerm &full,
+              const MatrixTerm &isotropic,
+              Vector           &result,
+              const Vector     &vector);
+
     /// @p matrix += @p factor times this; it has the entries.
     void
     add_to(const double factor, Matrix &matrix) const;
@@ -98,6 +106,11 @@ namespace Ricochet
     memory_consumption() const;
 
   private:
+    /// Call @p action with the entries of @p vector, its ghosts behind its own.
+    void
+    with_ghosts(const Vector                                    &vector,
+                const std::function<void(const double *values)> &action) const;
+
     std::unique_ptr<Matrix>              by_entries;
     std::unique_ptr<BlockMatrix<double>> by_blocks;
     // With ghosts, on several ranks.

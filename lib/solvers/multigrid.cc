@@ -225,8 +225,7 @@ namespace Ricochet
       {
         coarse.copy_from(coarse_body);
         CoarseProducts(space).add_contact(*tangent, coarse);
-        single.set_contact(*tangent);
-        initialize_smoother();
+        update_smoother();
       }
 
     auto list = aggregation_parameters(space, modes);
@@ -236,6 +235,17 @@ namespace Ricochet
                               ? coarse
                               : *tangent->terms()[0].matrix->entries(),
                             list);
+  }
+
+
+
+  void
+  Multigrid::update_smoother()
+  {
+    if (!has_smoother)
+      return;
+    single.set_contact(*tangent);
+    initialize_smoother();
   }
 
 

@@ -50,6 +50,12 @@ namespace Ricochet
     void
     setup();
 
+    /// Set up for contact as it is now but for the coarse levels, which stay those of
+    /// the last setup().
+    /// @throws NewtonFailure as setup() does.
+    void
+    update_smoother();
+
     /**
      * Solve with the tangent of set_body(), as it is now.
      *

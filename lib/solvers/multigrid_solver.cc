@@ -125,7 +125,8 @@ namespace Ricochet
         update_tangent(tangent,
                        right_hand_side.locally_owned_elements(),
                        right_hand_side.get_mpi_communicator());
-        name = new_name;
+        name                = new_name;
+        smoother_is_current = false;
       }
     const auto set_up = [&]() {
       const Stopwatch stopwatch(spent.factorising);
@@ -133,28 +134,33 @@ namespace Ricochet
       if (!is_sum)
         multigrid.set_body(*current, 0);
       multigrid.setup();
-      set_up_name = new_name;
+      set_up_name         = new_name;
+      smoother_is_current = true;
     };
     const auto iterate = [&]() {
       const Stopwatch stopwatch(spent.substituting);
       return multigrid.solve(right_hand_side, solution, tolerance);
     };
-    // A tangent with a name gets a preconditioner of its own. Others share one
-    // within a stage, but never beyond: so results do not depend on what came
-    // before the stage.
-    if (stage_begins)
-      set_up_in_stage = false;
-    stage_begins        = false;
-    const bool has_name = new_name.body && new_name.contact;
-    const bool is_first = !has_name && !set_up_in_stage;
-    if (has_name ? !(set_up_name == new_name) : is_first)
+    // Tangents share a preconditioner within a stage, but for the smoother of a sum,
+    // which is always its own; never beyond, so that results do not depend on what came
+    // before the stage. A tangent with a name may find the one that was made for it.
+    const bool is_first = stage_begins || !set_up_in_stage ||
+      (is_sum ? !(set_up_name.body == new_name.body)
+              : new_name.body && new_name.contact);
+    stage_begins = false;
+    if (is_first && !(set_up_name == new_name))
       set_up();
-    if (is_first)
-      set_up_in_stage = true;
+    else if (is_sum && !smoother_is_current)
+      {
+        const Stopwatch stopwatch(spent.factorising);
+        multigrid.update_smoother();
+        smoother_is_current = true;
+      }
+    set_up_in_stage  = true;
     int n_iterations = iterate();
     if (is_first)
       budget.begin(n_iterations, tolerance);
-    else if (!has_name && budget.is_exceeded(n_iterations, tolerance))
+    else if (budget.is_exceeded(n_iterations, tolerance))
       {
         // The next solution of this stage will have a better one.
         set_up();

@@ -90,11 +90,13 @@ namespace Ricochet
     const MPI_Comm communicator;
 
   private:
-    const dealii::IndexSet     owned;
-    const dealii::IndexSet     clamped;
-    const Functionals          my_functionals;
-    bool                       some_clamped = false;
-    MatrixSum                  sum;
+    const dealii::IndexSet owned;
+    const dealii::IndexSet clamped;
+    const Functionals      my_functionals;
+    bool                   some_clamped = false;
+    MatrixSum              sum;
+    // Two of the terms that are taken together; none if there is no second.
+    std::size_t                block_term = 0, isotropic_term = 0;
     std::vector<FunctionalRow> rows;
     bool                       some_change = false;
     // F, with a row for each functional of all ranks.

@@ -301,9 +301,10 @@ BOOST_AUTO_TEST_CASE(multigrid_needs_few_iterations)
                                {1},
                                MultiplierSpace::none,
                                MPI_COMM_WORLD);
-            const LinearBulk<3>     bulk(body, material);
-            const BodyMatrix        mass = assemble_mass_matrix(body, 1.);
-            dealii::Tensor<1, 3>    normal({.4, .3, 1.});
+            const LinearBulk<3> bulk(body, {material}, MatrixStorage::blocks);
+            const BodyMatrix    mass =
+              assemble_mass_matrix(body, {1.}, MatrixStorage::blocks);
+            dealii::Tensor<1, 3> normal({.4, .3, 1.});
             normal /= normal.norm();
             ContactParameters parameters;
             parameters.treatment = "penalty";
