@@ -19,6 +19,8 @@
 // - product: the matrix and two vectors;
 // - factorisation: the factor, once, as large as what it leaves on the heap;
 // - back-substitution: the factor, twice, and two vectors;
+// - product by blocks (of a linear body, stiffness and mass, as large bodies store
+//   them): the matrices and two vectors;
 // - multigrid cycle: four products on the finest level, without the others; set-up: one.
 //
 //     kernels benchmarks/throughput.prm --output-dir DIR
@@ -61,6 +63,7 @@ namespace
                                                 "matrix-vector product",
                                                 "factorisation",
                                                 "back-substitution",
+                                                "product by blocks",
                                                 "multigrid cycle",
                                                 "multigrid set-up"};
 
@@ -201,6 +204,18 @@ public:
 
 
   void
+  validate() const
+  {
+    for (const std::string kernel :
+         {"product by blocks", "multigrid cycle", "multigrid set-up"})
+      if (degree == 1 && measures(kernel))
+        throw InputError("Kernels/Names: '" + kernel +
+                         "' is for displacements of degree 2.");
+  }
+
+
+
+  void
   run(RunFolder &folder)
   {
     folder.begin();
@@ -303,8 +318,9 @@ private:
     if (measures("factorisation") || measures("back-substitution"))
       measure_factorisation(tangent, mass, new_solution, force, add);
     if (is_linear &&
-        (measures("multigrid cycle") || measures("multigrid set-up")))
-      measure_multigrid(body, *bulk, mass, new_solution, force, add);
+        (measures("product by blocks") || measures("multigrid cycle") ||
+         measures("multigrid set-up")))
+      measure_multigrid(body, law, new_solution, force, add);
   }
 
 
@@ -342,14 +358,17 @@ private:
 
 
 
+  /// The body as it is stored for multigrid.
   void
-  measure_multigrid(const Body<3>      &body,
-                    const BulkOperator &bulk,
-                    const BodyMatrix   &mass,
-                    const Vector       &right_hand_side,
-                    Vector             &solution,
-                    const Add          &add) const
+  measure_multigrid(const Body<3>       &body,
+                    const LinearElastic &law,
+                    const Vector        &right_hand_side,
+                    Vector              &solution,
+                    const Add           &add) const
   {
+    const LinearBulk<3> bulk(body, {law}, MatrixStorage::blocks);
+    const BodyMatrix    mass =
+      assemble_mass_matrix(body, {1.}, MatrixStorage::blocks);
     TangentOperator tangent(body.owned_indices(),
                             body.clamped_indices(),
                             Functionals(),
@@ -360,13 +379,22 @@ private:
     Multigrid multigrid(body.coarse_space(), true);
     multigrid.set_body(tangent, terms.size());
     multigrid.setup();
-    double bytes = 16. * tangent.m();
+    double bytes = 0.;
     for (const MatrixTerm &term : terms)
-      bytes += bytes_of(*term.matrix);
-    add("multigrid cycle", 4. * bytes, [&]() {
+      bytes += term.matrix->memory_consumption();
+    bytes = Utilities::MPI::sum(bytes, MPI_COMM_WORLD) + 16. * tangent.m();
+    const double single_bytes =
+      Utilities::MPI::sum(static_cast<double>(
+                            multigrid.memory_of_finest_level()),
+                          MPI_COMM_WORLD) +
+      8. * tangent.m();
+    add("product by blocks", bytes, [&]() {
+      tangent.vmult(solution, right_hand_side);
+    });
+    add("multigrid cycle", 4. * single_bytes, [&]() {
       multigrid.vmult(solution, right_hand_side);
     });
-    add("multigrid set-up", bytes, [&]() { multigrid.setup(); });
+    add("multigrid set-up", single_bytes, [&]() { multigrid.setup(); });
   }
 
 
@@ -404,6 +432,6 @@ main(int argc, char **argv)
     {"kernels",
      "Unknowns a second of the parts of a time step, beside the bandwidth of memory.",
      [&](ParameterHandler &parameters) { kernels.add_parameters(parameters); },
-     []() {},
+     [&]() { kernels.validate(); },
      [&](RunFolder &folder) { kernels.run(folder); }});
 }

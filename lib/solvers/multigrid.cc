@@ -309,8 +309,10 @@ namespace Ricochet
                                           *this);
         else
           {
-            const SolverGMRES<Vector>::AdditionalData data(50, true);
-            SolverGMRES<Vector>(control, data)
+            // Flexible: what it builds its solution from is what the cycles gave, with
+            // their rounding in single precision.
+            const SolverFGMRES<Vector>::AdditionalData data(40);
+            SolverFGMRES<Vector>(control, data)
               .solve(*tangent, solution, right_hand_side, *this);
           }
       }

@@ -67,6 +67,13 @@ namespace Ricochet
           Vector       &solution,
           const double  tolerance) const;
 
+    /// Bytes of the matrix of the finest level on this rank.
+    std::size_t
+    memory_of_finest_level() const
+    {
+      return single.memory_consumption();
+    }
+
     /// A cycle: the preconditioner.
     void
     vmult(Vector &result, const Vector &vector) const;

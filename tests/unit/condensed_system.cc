@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(halves_make_solutions)
   const LinearBulk<3>     bulk(body, material);
   Matrix                  matrix;
   matrix.reinit(body.sparsity_pattern());
-  matrix.add(20., assemble_mass_matrix(body, 1.));
+  assemble_mass_matrix(body, 1.).add_to(20., matrix);
   bulk.add_tangent(1., body.make_vector(), matrix);
   const auto factorisation = make_cholesky_factorisation(false);
   BOOST_REQUIRE(factorisation->factorise(matrix, false));
