@@ -18,11 +18,13 @@ namespace Ricochet
   /// Distributed sparse matrix on the same unknowns.
   using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
+  class BodyMatrix;
+
   /// A matrix, and its factor in a sum.
   struct MatrixTerm
   {
-    double        weight;
-    const Matrix *matrix;
+    double            weight;
+    const BodyMatrix *matrix;
   };
 
   using MatrixSum = std::vector<MatrixTerm>;

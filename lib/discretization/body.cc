@@ -191,7 +191,6 @@ namespace Ricochet
     contact_displacements =
       owned_system_indices(boundary_dofs(displacement_dofs, contact_ids));
 
-    make_sparsity_patterns();
     return_freed_memory();
   }
 
@@ -364,8 +363,9 @@ namespace Ricochet
 
   template <int dim>
   void
-  Body<dim>::make_sparsity_patterns()
+  Body<dim>::make_sparsity_patterns() const
   {
+    has_patterns = true;
     DynamicSparsityPattern all(owned.size(), owned.size(), relevant);
     DynamicSparsityPattern by_component(owned.size(), owned.size(), relevant);
     std::vector<types::global_dof_index> cell_dofs(
@@ -424,6 +424,64 @@ namespace Ricochet
                                                relevant);
     pattern.reinit(owned, all, communicator);
     component_pattern.reinit(owned, by_component, communicator);
+  }
+
+  template <int dim>
+  const TrilinosWrappers::SparsityPattern &
+  Body<dim>::sparsity_pattern() const
+  {
+    if (!has_patterns)
+      make_sparsity_patterns();
+    return pattern;
+  }
+
+  template <int dim>
+  const TrilinosWrappers::SparsityPattern &
+  Body<dim>::component_sparsity_pattern() const
+  {
+    if (!has_patterns)
+      make_sparsity_patterns();
+    return component_pattern;
+  }
+
+  template <int dim>
+  const std::shared_ptr<const BlockPattern> &
+  Body<dim>::block_pattern() const
+  {
+    if (blocks)
+      return blocks;
+    AssertThrow(!has_multipliers(),
+                ExcMessage("Multipliers have no place in blocks."));
+    const auto partitioner =
+      std::make_shared<Utilities::MPI::Partitioner>(owned,
+                                                    relevant,
+                                                    communicator);
+    // From all cells that touch own nodes, also those of other ranks.
+    std::vector<std::vector<unsigned int>> rows(owned.n_elements() / dim);
+    std::vector<types::global_dof_index>   cell_dofs(
+      displacement_element->n_dofs_per_cell());
+    std::vector<unsigned int> nodes;
+    for (const auto &cell : displacement_dofs.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          cell->get_dof_indices(cell_dofs);
+          nodes.clear();
+          for (unsigned int i = 0; i < cell_dofs.size(); ++i)
+            if (displacement_element->system_to_component_index(i).first == 0)
+              nodes.push_back(partitioner->global_to_local(cell_dofs[i]) / dim);
+          for (const unsigned int a : nodes)
+            for (const unsigned int b : nodes)
+              if (a < rows.size() && a < b)
+                {
+                  auto      &row = rows[a];
+                  const auto place =
+                    std::lower_bound(row.begin(), row.end(), b);
+                  if (place == row.end() || *place != b)
+                    row.insert(place, b);
+                }
+        }
+    blocks = std::make_shared<BlockPattern>(partitioner, std::move(rows), dim);
+    return blocks;
   }
 
   template <int dim>

@@ -3,6 +3,7 @@
 #define ricochet_discretization_body_h
 
 #include <base/types.h>
+#include <solvers/block_matrix.h>
 #include <solvers/coarse_space.h>
 
 #include <deal.II/base/function.h>
@@ -119,20 +120,19 @@ namespace Ricochet
     CoarseSpace
     coarse_space(const bool of_own_degree = false) const;
 
-    /// The sparsity pattern of all tangents.
+    /// The sparsity pattern of all tangents. This and the other patterns are made when
+    /// they are first asked for, by all ranks.
     const dealii::TrilinosWrappers::SparsityPattern &
-    sparsity_pattern() const
-    {
-      return pattern;
-    }
+    sparsity_pattern() const;
 
     /// The part of it that couples equal components only, and multipliers with
     /// themselves only: that of mass matrices.
     const dealii::TrilinosWrappers::SparsityPattern &
-    component_sparsity_pattern() const
-    {
-      return component_pattern;
-    }
+    component_sparsity_pattern() const;
+
+    /// The same by blocks between nodes, for matrices of bodies without multipliers.
+    const std::shared_ptr<const BlockPattern> &
+    block_pattern() const;
 
     const dealii::DoFHandler<dim> &
     dof_handler() const
@@ -255,7 +255,7 @@ namespace Ricochet
     number_multipliers();
 
     void
-    make_sparsity_patterns();
+    make_sparsity_patterns() const;
 
     std::unique_ptr<dealii::FESystem<dim>>       displacement_element;
     std::unique_ptr<dealii::FESystem<dim>>       multiplier_element;
@@ -277,7 +277,10 @@ namespace Ricochet
 
     dealii::IndexSet owned, relevant, clamped, contact_displacements,
       owned_multipliers;
-    dealii::TrilinosWrappers::SparsityPattern pattern, component_pattern;
+    mutable bool                                      has_patterns = false;
+    mutable dealii::TrilinosWrappers::SparsityPattern pattern,
+      component_pattern;
+    mutable std::shared_ptr<const BlockPattern> blocks;
   };
 } // namespace Ricochet
 

@@ -15,12 +15,12 @@ namespace Ricochet
     /// The boundary's mass matrix, weighted with the @p density of each of the
     /// @p springs (Pa/m, or Pa s/m).
     template <int dim>
-    void
+    BodyMatrix
     assemble(const Body<dim>                         &body,
              const std::vector<BoundarySprings<dim>> &springs,
-             double BoundarySprings<dim>::*density,
-             Matrix                       &matrix)
+             double BoundarySprings<dim>::*density)
     {
+      Matrix                    matrix;
       const FiniteElement<dim> &element = body.dof_handler().get_fe();
       FEFaceValues<dim>         values(body.mapping(),
                                element,
@@ -59,6 +59,7 @@ namespace Ricochet
                   matrix.add(indices, cell_matrix, /* elide zeros */ true);
                 }
       matrix.compress(VectorOperation::add);
+      return BodyMatrix(std::move(matrix));
     }
   } // namespace
 
@@ -80,9 +81,9 @@ namespace Ricochet
     , work(body.make_vector())
     , product(body.make_vector())
   {
-    assemble(body, springs, &BoundarySprings<dim>::stiffness, stiffness);
+    stiffness = assemble(body, springs, &BoundarySprings<dim>::stiffness);
     if (has_damping)
-      assemble(body, springs, &BoundarySprings<dim>::damping, damping);
+      damping = assemble(body, springs, &BoundarySprings<dim>::damping);
     scale = stiffness.linfty_norm();
   }
 
@@ -106,7 +107,7 @@ namespace Ricochet
                                   Matrix       &tangent) const
   {
     bulk->add_tangent(factor, solution, tangent);
-    tangent.add(factor, stiffness);
+    stiffness.add_to(factor, tangent);
   }
 
 
@@ -141,9 +142,9 @@ namespace Ricochet
                                        Matrix       &tangent) const
   {
     bulk->add_step_tangent(old_solution, new_solution, time_step, tangent);
-    tangent.add(.5, stiffness);
+    stiffness.add_to(.5, tangent);
     if (has_damping)
-      tangent.add(1. / time_step, damping);
+      damping.add_to(1. / time_step, tangent);
   }
 
 

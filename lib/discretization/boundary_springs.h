@@ -4,6 +4,7 @@
 
 #include <discretization/body.h>
 #include <discretization/bulk_operator.h>
+#include <solvers/body_matrix.h>
 
 #include <memory>
 #include <vector>
@@ -105,7 +106,7 @@ namespace Ricochet
     const std::unique_ptr<BulkOperator> bulk;
     const std::vector<unsigned int>     part_of_unknown;
     const MPI_Comm                      communicator;
-    Matrix                              stiffness, damping;
+    BodyMatrix                          stiffness, damping;
     double                              scale = 0.;
     bool                                has_damping;
     mutable Vector                      work, product;

@@ -15,16 +15,18 @@ namespace Ricochet
 
   namespace
   {
-    /// The cell loop of all constant matrices. @p integrand gets the FEValues
-    /// and a quadrature point and adds to the cell matrix.
+    /// The cell loop of all constant matrices, stored in one way or the other.
+    /// @p integrand gets the FEValues and a quadrature point and adds to the cell
+    /// matrix.
     template <int dim>
-    void
+    BodyMatrix
     assemble(const Body<dim>                                 &body,
+             const MatrixStorage                              storage,
+             const bool                                       isotropic,
              const UpdateFlags                                flags,
              const std::function<void(const FEValues<dim> &,
                                       const unsigned int,
-                                      FullMatrix<double> &)> &integrand,
-             Matrix                                          &matrix)
+                                      FullMatrix<double> &)> &integrand)
     {
       FEValues<dim>                        fe_values(body.mapping(),
                               body.dof_handler().get_fe(),
@@ -33,8 +35,19 @@ namespace Ricochet
       const unsigned int                   n = fe_values.dofs_per_cell;
       FullMatrix<double>                   cell_matrix(n, n);
       std::vector<types::global_dof_index> indices(n);
+      std::vector<unsigned int>            numbers(n);
+      Matrix                               matrix;
+      std::unique_ptr<BlockMatrix<double>> blocks;
+      if (storage == MatrixStorage::blocks)
+        blocks = std::make_unique<BlockMatrix<double>>(body.block_pattern(),
+                                                       isotropic);
+      else
+        matrix.reinit(isotropic ? body.component_sparsity_pattern()
+                                : body.sparsity_pattern());
+      // Entries of other ranks are sent there; blocks have to be found here, from all
+      // cells that touch own nodes.
       for (const auto &cell : body.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
+        if (blocks ? !cell->is_artificial() : cell->is_locally_owned())
           {
             fe_values.reinit(cell);
             cell_matrix = 0.;
@@ -43,10 +56,21 @@ namespace Ricochet
             cell->get_dof_indices(indices);
             for (types::global_dof_index &index : indices)
               index = body.system_index(index);
-            // Zeros are not in every pattern.
-            matrix.add(indices, cell_matrix, /* elide_zero_values */ true);
+            if (blocks)
+              {
+                const auto &partitioner = *body.block_pattern()->partitioner;
+                for (unsigned int i = 0; i < n; ++i)
+                  numbers[i] = partitioner.global_to_local(indices[i]);
+                blocks->add_cell(numbers, cell_matrix);
+              }
+            else
+              // Zeros are not in every pattern.
+              matrix.add(indices, cell_matrix, /* elide_zero_values */ true);
           }
+      if (blocks)
+        return BodyMatrix(std::move(blocks));
       matrix.compress(VectorOperation::add);
+      return BodyMatrix(std::move(matrix));
     }
 
     /// The number of the part at which @p fe_values are, of @p n_parts.
@@ -59,17 +83,18 @@ namespace Ricochet
 
     /// The matrix of stress(strain(u)) : strain(v), with the law of each part.
     template <int dim>
-    void
+    BodyMatrix
     assemble_strain_matrix(const Body<dim>                  &body,
                            const std::vector<LinearElastic> &laws,
-                           Matrix                           &matrix)
+                           const MatrixStorage               storage)
     {
-      matrix.reinit(body.sparsity_pattern());
       const FEValuesExtractors::Vector     displacement(0);
       std::vector<SymmetricTensor<2, dim>> strains(
         body.dof_handler().get_fe().n_dofs_per_cell());
-      assemble<dim>(
+      return assemble<dim>(
         body,
+        storage,
+        /* isotropic = */ false,
         update_gradients,
         [&](const FEValues<dim> &fe_values,
             const unsigned int   q,
@@ -83,8 +108,7 @@ namespace Ricochet
               for (const unsigned int i : fe_values.dof_indices())
                 cell_matrix(i, j) += stress * strains[i] * fe_values.JxW(q);
             }
-        },
-        matrix);
+        });
     }
   } // namespace
 
@@ -92,7 +116,8 @@ namespace Ricochet
 
   template <int dim>
   LinearBulk<dim>::LinearBulk(const Body<dim>                  &body,
-                              const std::vector<Material<dim>> &materials)
+                              const std::vector<Material<dim>> &materials,
+                              const MatrixStorage               storage)
     : has_viscosity(std::any_of(materials.begin(),
                                 materials.end(),
                                 [](const Material<dim> &material) {
@@ -157,10 +182,10 @@ namespace Ricochet
           {0.,
            material.viscosity.is_active() ? .5 * material.viscosity.eta : 0.});
       }
-    assemble_strain_matrix(body, laws, stiffness);
-    scale = stiffness.linfty_norm();
+    stiffness = assemble_strain_matrix(body, laws, storage);
+    scale     = stiffness.linfty_norm();
     if (has_viscosity)
-      assemble_strain_matrix(body, viscosities, viscosity_matrix);
+      viscosity_matrix = assemble_strain_matrix(body, viscosities, storage);
   }
 
 
@@ -210,7 +235,7 @@ namespace Ricochet
                                Matrix &tangent) const
   {
     for (const MatrixTerm &term : tangent_terms(factor))
-      tangent.add(term.weight, *term.matrix);
+      term.matrix->add_to(term.weight, tangent);
   }
 
 
@@ -254,7 +279,7 @@ namespace Ricochet
                                     Matrix      &tangent) const
   {
     for (const MatrixTerm &term : step_tangent_terms(time_step))
-      tangent.add(term.weight, *term.matrix);
+      term.matrix->add_to(term.weight, tangent);
   }
 
 
@@ -339,16 +364,17 @@ namespace Ricochet
 
 
   template <int dim>
-  Matrix
+  BodyMatrix
   assemble_mass_matrix(const Body<dim>           &body,
-                       const std::vector<double> &densities)
+                       const std::vector<double> &densities,
+                       const MatrixStorage        storage)
   {
     // Components do not couple.
     const FiniteElement<dim> &element = body.dof_handler().get_fe();
-    Matrix                    matrix;
-    matrix.reinit(body.component_sparsity_pattern());
-    assemble<dim>(
+    return assemble<dim>(
       body,
+      storage,
+      /* isotropic = */ true,
       update_values,
       [&](const FEValues<dim> &fe_values,
           const unsigned int   q,
@@ -360,19 +386,23 @@ namespace Ricochet
                 element.system_to_component_index(j).first)
               cell_matrix(i, j) += density * fe_values.shape_value(i, q) *
                 fe_values.shape_value(j, q) * fe_values.JxW(q);
-      },
-      matrix);
-    return matrix;
+      });
   }
 
 
   template class LinearBulk<1>;
   template class LinearBulk<2>;
   template class LinearBulk<3>;
-  template Matrix
-  assemble_mass_matrix(const Body<1> &, const std::vector<double> &);
-  template Matrix
-  assemble_mass_matrix(const Body<2> &, const std::vector<double> &);
-  template Matrix
-  assemble_mass_matrix(const Body<3> &, const std::vector<double> &);
+  template BodyMatrix
+  assemble_mass_matrix(const Body<1> &,
+                       const std::vector<double> &,
+                       const MatrixStorage);
+  template BodyMatrix
+  assemble_mass_matrix(const Body<2> &,
+                       const std::vector<double> &,
+                       const MatrixStorage);
+  template BodyMatrix
+  assemble_mass_matrix(const Body<3> &,
+                       const std::vector<double> &,
+                       const MatrixStorage);
 } // namespace Ricochet

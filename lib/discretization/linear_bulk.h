@@ -5,6 +5,7 @@
 #include <discretization/body.h>
 #include <discretization/bulk_operator.h>
 #include <materials/material.h>
+#include <solvers/body_matrix.h>
 
 #include <list>
 
@@ -22,7 +23,8 @@ namespace Ricochet
     /// @param materials of the parts of the body, linear elastic, with linear
     /// viscosity or none.
     LinearBulk(const Body<dim>                  &body,
-               const std::vector<Material<dim>> &materials);
+               const std::vector<Material<dim>> &materials,
+               const MatrixStorage storage = MatrixStorage::entries);
 
     /// @param viscosity none or linear.
     LinearBulk(const Body<dim>     &body,
@@ -97,8 +99,8 @@ namespace Ricochet
     // multipliers.
     unsigned int              n_parts = 1;
     std::vector<unsigned int> group;
-    Matrix                    stiffness;
-    Matrix                    viscosity_matrix;
+    BodyMatrix                stiffness;
+    BodyMatrix                viscosity_matrix;
     double                    scale = 0.;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, product;
@@ -112,15 +114,16 @@ namespace Ricochet
   };
 
   /// Consistent mass matrix (kg) of @p body with the constant @p densities of its
-  /// parts (kg/m^dim), on Body::component_sparsity_pattern().
+  /// parts (kg/m^dim), on Body::component_sparsity_pattern() or its blocks.
   template <int dim>
-  Matrix
+  BodyMatrix
   assemble_mass_matrix(const Body<dim>           &body,
-                       const std::vector<double> &densities);
+                       const std::vector<double> &densities,
+                       const MatrixStorage storage = MatrixStorage::entries);
 
   /// The same with one density.
   template <int dim>
-  Matrix
+  BodyMatrix
   assemble_mass_matrix(const Body<dim> &body, const double density)
   {
     return assemble_mass_matrix(body, std::vector<double>(1, density));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <output/mean_rotation.h>
+#include <solvers/body_matrix.h>
 
 #include <deal.II/base/function_lib.h>
 #include <deal.II/base/mpi.h>
@@ -15,7 +16,7 @@ namespace Ricochet
 
   template <int dim>
   MeanRotation<dim>::MeanRotation(const Body<dim>   &body,
-                                  const Matrix      &mass,
+                                  const BodyMatrix  &mass,
                                   const unsigned int n_parts,
                                   const unsigned int begin,
                                   const unsigned int end)

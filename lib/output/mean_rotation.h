@@ -22,7 +22,7 @@ namespace Ricochet
      * see Body::part(). Collective.
      */
     MeanRotation(const Body<dim>   &body,
-                 const Matrix      &mass,
+                 const BodyMatrix  &mass,
                  const unsigned int n_parts,
                  const unsigned int begin,
                  const unsigned int end);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <output/momenta.h>
+#include <solvers/body_matrix.h>
 
 namespace Ricochet
 {
@@ -7,7 +8,7 @@ namespace Ricochet
 
   template <int dim>
   Momenta<dim>::Momenta(const Body<dim>   &body,
-                        const Matrix      &mass,
+                        const BodyMatrix  &mass,
                         const bool         small_strains,
                         const unsigned int n_parts,
                         const unsigned int begin,

@@ -24,7 +24,7 @@ namespace Ricochet
      * once.
      */
     Momenta(const Body<dim>   &body,
-            const Matrix      &mass,
+            const BodyMatrix  &mass,
             const bool         small_strains,
             const unsigned int n_parts = 1,
             const unsigned int begin   = 0,
@@ -40,7 +40,7 @@ namespace Ricochet
 
   private:
     const MPI_Comm                   communicator;
-    const Matrix                    &mass;
+    const BodyMatrix                &mass;
     const bool                       small_strains;
     const std::vector<PartNode<dim>> nodes;
     mutable Vector                   momentum;

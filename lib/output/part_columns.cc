@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <output/part_columns.h>
+#include <solvers/body_matrix.h>
 
 #include <algorithm>
 #include <numeric>
@@ -38,7 +39,7 @@ namespace Ricochet
   template <int dim>
   PartColumns<dim>::PartColumns(const Body<dim>                &body,
                                 const BulkOperator             &bulk,
-                                const Matrix                   &mass,
+                                const BodyMatrix               &mass,
                                 const bool                      small_strains,
                                 const std::vector<std::string> &names,
                                 std::vector<unsigned int>       given_parts)

@@ -29,7 +29,7 @@ namespace Ricochet
     /// is one. All must outlive the object.
     PartColumns(const Body<dim>                &body,
                 const BulkOperator             &bulk,
-                const Matrix                   &mass,
+                const BodyMatrix               &mass,
                 const bool                      small_strains,
                 const std::vector<std::string> &names,
                 std::vector<unsigned int>       first_part = {});
@@ -65,7 +65,7 @@ namespace Ricochet
 
   private:
     const BulkOperator             &bulk;
-    const Matrix                   &mass;
+    const BodyMatrix               &mass;
     const MPI_Comm                  communicator;
     const std::vector<std::string>  names;
     const std::vector<unsigned int> first_part;

@@ -263,7 +263,7 @@ namespace Ricochet
     template <int dim>
     Vector
     weight_of(const Body<dim>      &body,
-              const Matrix         &mass,
+              const BodyMatrix     &mass,
               const Tensor<1, dim> &gravity)
     {
       Vector weight = body.make_vector();
@@ -304,24 +304,55 @@ namespace Ricochet
     template <int dim>
     std::unique_ptr<BulkOperator>
     make_body_bulk(const Body<dim>                  &body,
-                   const std::vector<Material<dim>> &materials)
+                   const std::vector<Material<dim>> &materials,
+                   const MatrixStorage               storage)
     {
       // Each cell has a material.
       body.parts_of_unknowns(materials.size());
       if constexpr (dim > 1)
         if (!materials[0].linear)
           return std::make_unique<HyperelasticBulk<dim>>(body, materials);
-      return std::make_unique<LinearBulk<dim>>(body, materials);
+      return std::make_unique<LinearBulk<dim>>(body, materials, storage);
+    }
+
+    /// Large linear bodies are never factored: their matrices need not have entries.
+    template <int dim>
+    MatrixStorage
+    storage_of(const ImpactParameters &parameters,
+               const Body<dim>        &body,
+               const ImpactSetup<dim> &setup)
+    {
+      const std::vector<Material<dim>> materials = materials_of(setup);
+      const std::vector<Contact>       contacts =
+        contacts_of(parameters.contact, setup);
+      const bool is_linear =
+        std::all_of(materials.begin(),
+                    materials.end(),
+                    [](const auto &material) { return bool(material.linear); });
+      const bool between_bodies =
+        std::any_of(contacts.begin(), contacts.end(), [](const auto &contact) {
+          return contact.is_between_bodies();
+        });
+      return is_linear && !between_bodies && !body.has_multipliers() &&
+          setup.degree > 1 &&
+          LinearSolver::chooses_multigrid(parameters.linear_solver,
+                                          dim,
+                                          body.owned_indices().size(),
+                                          Utilities::MPI::n_mpi_processes(
+                                            body.communicator))
+        ? MatrixStorage::blocks
+        : MatrixStorage::entries;
     }
 
     template <int dim>
     std::unique_ptr<BulkOperator>
     make_bulk(const Body<dim>        &body,
               const ImpactSetup<dim> &setup,
-              const std::string      &scheme)
+              const std::string      &scheme,
+              const MatrixStorage     storage)
     {
       const std::vector<Material<dim>> materials = materials_of(setup);
-      auto                             bulk = make_body_bulk(body, materials);
+      auto bulk = make_body_bulk(body, materials, storage);
       if (setup.springs.empty())
         return bulk;
       for (const BoundarySprings<dim> &spring : setup.springs)
@@ -501,7 +532,7 @@ namespace Ricochet
     template <int dim>
     SemiDiscreteSystem::Load
     make_load(const Body<dim>        &body,
-              const Matrix           &mass,
+              const BodyMatrix       &mass,
               const Vector           &weight,
               const ImpactSetup<dim> &setup)
     {
@@ -569,11 +600,20 @@ namespace Ricochet
            held_components(setup),
            setup.geometry.get(),
            ids_with_multipliers(contacts_of(parameters.contact, setup)))
-    , bulk(make_bulk(body, setup, parameters.scheme.name))
-    , consistent_mass(assemble_mass_matrix(body, densities_of(setup)))
+    , bulk(make_bulk(body,
+                     setup,
+                     parameters.scheme.name,
+                     storage_of(parameters, body, setup)))
+    , consistent_mass(
+        assemble_mass_matrix(body,
+                             densities_of(setup),
+                             parameters.redistributed_mass()
+                               ? MatrixStorage::entries
+                               : storage_of(parameters, body, setup)))
     , redistributed_mass(
         parameters.redistributed_mass()
-          ? std::make_unique<Matrix>(redistribute_mass(body, consistent_mass))
+          ? std::make_unique<BodyMatrix>(
+              redistribute_mass(body, *consistent_mass.entries()))
           : nullptr)
     , contacts(contacts_of(parameters.contact, setup))
     , obstacles(obstacles_of(contacts))
@@ -592,7 +632,9 @@ namespace Ricochet
               body.clamped_indices(),
               body.multiplier_indices(),
               dim,
-              &body.sparsity_pattern(),
+              [this]() -> const TrilinosWrappers::SparsityPattern & {
+                return body.sparsity_pattern();
+              },
               [this]() { return body.canonical_positions(); },
               [this]() {
                 // Where contact couples other unknowns in each step.

@@ -123,9 +123,9 @@ namespace Ricochet
 
     const Body<dim>                     body;
     const std::unique_ptr<BulkOperator> bulk;
-    const Matrix                        consistent_mass;
+    const BodyMatrix                    consistent_mass;
     /// Null with the consistent mass.
-    const std::unique_ptr<const Matrix> redistributed_mass;
+    const std::unique_ptr<const BodyMatrix> redistributed_mass;
     /// All contacts, in the order of ContactSum.
     const std::vector<Contact> contacts;
     /// The obstacles of all of them; of several contacts by ContactSum::id_of().

@@ -61,12 +61,9 @@ namespace Ricochet
           : n_unknowns > 5000 && factorisations.name(true) == "CHOLMOD";
         type = gains || parameters.factorisation == "CHOLMOD" ? "corrected"
                                                               : "direct";
-        // Factorisations in three dimensions grow faster than bodies do, and
-        // few ranks do not make up for it.
-        if (parameters.factorisation == "automatic" && linear_body &&
-            dim == 3 &&
+        if (linear_body &&
             (!contact.has_multipliers || contact.couplings_change) &&
-            n_unknowns > (n_ranks > 1 ? 10000 : 50000))
+            chooses_multigrid(parameters, dim, n_unknowns, n_ranks))
           type = "multigrid";
       }
     if (type == "multigrid" && contact.has_multipliers &&
@@ -101,6 +98,22 @@ namespace Ricochet
         ways.push_back(
           std::make_unique<DirectSolver>(factorisations, parameters.n_kept));
       }
+  }
+
+
+
+  bool
+  LinearSolver::chooses_multigrid(const Parameters  &parameters,
+                                  const unsigned int dim,
+                                  const std::size_t  n_unknowns,
+                                  const unsigned int n_ranks)
+  {
+    // Factorisations in three dimensions grow faster than bodies do, and few ranks do
+    // not make up for it.
+    return parameters.type == "multigrid" ||
+      (parameters.type == "automatic" &&
+       parameters.factorisation == "automatic" && dim == 3 &&
+       n_unknowns > (n_ranks > 1 ? 10000 : 50000));
   }
 
 

@@ -90,6 +90,14 @@ namespace Ricochet
       return type != "corrected";
     }
 
+    /// Whether a linear body without multipliers, before rigid obstacles, is solved
+    /// for by multigrid.
+    static bool
+    chooses_multigrid(const Parameters  &parameters,
+                      const unsigned int dim,
+                      const std::size_t  n_unknowns,
+                      const unsigned int n_ranks);
+
     /// Whether there is a condensed() system.
     bool
     condenses() const;

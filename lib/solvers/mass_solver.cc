@@ -9,17 +9,17 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  MassSolver::MassSolver(const Matrix &mass, const std::vector<Index> &own)
+  MassSolver::MassSolver(const BodyMatrix &mass, const std::vector<Index> &own)
     : mass(mass)
     , own(own)
     , inverse_diagonal(mass.locally_owned_range_indices(),
                        mass.get_mpi_communicator())
   {
+    mass.add_diagonal(1., inverse_diagonal);
     for (const auto i : own)
       inverse_diagonal(i) = 1.;
     for (const auto i : inverse_diagonal.locally_owned_elements())
-      if (inverse_diagonal(i) == 0.)
-        inverse_diagonal(i) = 1. / mass.diag_element(i);
+      inverse_diagonal(i) = 1. / inverse_diagonal(i);
     inverse_diagonal.compress(VectorOperation::insert);
   }
 

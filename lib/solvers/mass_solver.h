@@ -3,6 +3,7 @@
 #define ricochet_solvers_mass_solver_h
 
 #include <base/types.h>
+#include <solvers/body_matrix.h>
 
 #include <vector>
 
@@ -24,7 +25,7 @@ namespace Ricochet
      * @param own unknowns of this rank with the equation a = f: clamped ones, whose
      * forces have to be zero, and those without mass that couple to no other.
      */
-    MassSolver(const Matrix &mass, const std::vector<Index> &own);
+    MassSolver(const BodyMatrix &mass, const std::vector<Index> &own);
 
     /// @p acceleration = M^{-1} @p force, to round-off. @throws NewtonFailure
     void
@@ -35,7 +36,7 @@ namespace Ricochet
     vmult(Vector &force, const Vector &acceleration) const;
 
   private:
-    const Matrix            &mass;
+    const BodyMatrix        &mass;
     const std::vector<Index> own;
     Vector                   inverse_diagonal;
   };

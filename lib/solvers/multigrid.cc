@@ -29,28 +29,24 @@ namespace Ricochet
 
     /// @p coarse += P^T @p matrix P.
     void
-    add(const Matrix &matrix, Matrix &coarse)
+    add(const BodyMatrix &matrix, Matrix &coarse)
     {
-      const Epetra_CrsMatrix   &epetra = matrix.trilinos_matrix();
-      std::vector<unsigned int> relevant(epetra.NumMyCols());
-      for (unsigned int c = 0; c < relevant.size(); ++c)
-        relevant[c] = space.relevant.index_within_set(epetra.GCID64(c));
-      for (int r = 0; r < epetra.NumMyRows(); ++r)
-        {
-          int     n_entries = 0;
-          double *values    = nullptr;
-          int    *indices   = nullptr;
-          epetra.ExtractMyRowView(r, n_entries, values, indices);
-          for (int e = 0; e < n_entries; ++e)
-            add_to_row(relevant[indices[e]], values[e]);
+      const IndexSet owned = matrix.locally_owned_range_indices();
+      matrix.for_each_row(
+        [&](const unsigned int                          r,
+            const std::vector<types::global_dof_index> &entry_columns,
+            const std::vector<double>                  &entry_values) {
+          for (unsigned int e = 0; e < entry_columns.size(); ++e)
+            add_to_row(space.relevant.index_within_set(entry_columns[e]),
+                       entry_values[e]);
           const unsigned int row =
-            space.relevant.index_within_set(epetra.GRID64(r));
+            space.relevant.index_within_set(owned.nth_index_in_set(r));
           const Functionals &parents = space.parents;
           for (std::size_t k = parents.begin[row]; k < parents.begin[row + 1];
                ++k)
             flush_row(parents.index[k], parents.value[k], coarse);
           clear_row();
-        }
+        });
       coarse.compress(VectorOperation::add);
     }
 
@@ -152,6 +148,9 @@ namespace Ricochet
     tangent = &new_tangent;
     if (!has_smoother)
       return;
+    // As many unknowns of a node as translations among dim (dim + 1) / 2 motions.
+    const unsigned int n_modes = space.rigid_body_modes.size();
+    single.set_body(*tangent, n_modes == 6 ? 3 : n_modes == 3 ? 2 : 1);
     CoarseProducts products(space);
     coarse_body.reinit(space.pattern);
     for (unsigned int k = 0; k < tangent->terms().size(); ++k)
@@ -180,29 +179,32 @@ namespace Ricochet
     Smoother::AdditionalData data;
     data.degree          = 2;
     data.smoothing_range = 8.;
-    data.preconditioner  = std::make_shared<InverseDiagonal>();
-    Vector &inverse      = data.preconditioner->get_vector();
-    inverse              = tangent->diagonal();
-    bool    is_positive  = true;
-    double *values       = inverse.trilinos_vector()[0];
-    for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
+    data.preconditioner =
+      std::make_shared<DiagonalMatrix<SingleTangent::VectorType>>();
+    SingleVector &inverse = data.preconditioner->get_vector();
+    single.initialize_dof_vector(inverse);
+    bool is_positive = true;
+    for (const auto i : inverse.locally_owned_elements())
       {
-        is_positive = is_positive && values[i] > 0. && std::isfinite(values[i]);
-        values[i]   = 1. / values[i];
+        const float value = single.el(i, i);
+        is_positive       = is_positive && value > 0.F && std::isfinite(value);
+        inverse(i)        = 1.F / value;
       }
     if (Utilities::MPI::min(is_positive ? 1 : 0, tangent->communicator) == 0)
       throw NewtonFailure(
         "The diagonal of the tangent matrix is not positive: multigrid cannot "
         "smooth with it.");
-    residual.reinit(inverse);
-    correction.reinit(inverse);
+    for (SingleVector *vector :
+         {&single_right_hand_side, &single_result, &single_residual})
+      single.initialize_dof_vector(*vector);
+    fine.reinit(inverse.locally_owned_elements(), tangent->communicator);
     try
       {
         // By some iterations of conjugate gradients, from the same start each
         // time: so that it does not depend on what came before.
-        smoother.initialize(*tangent, data);
-        const double largest =
-          smoother.estimate_eigenvalues(residual).max_eigenvalue_estimate;
+        smoother.initialize(single, data);
+        const double largest = smoother.estimate_eigenvalues(single_residual)
+                                 .max_eigenvalue_estimate;
         if (!(largest > 0.) || !std::isfinite(largest))
           throw NewtonFailure(
             "The tangent matrix is not positive: multigrid "
@@ -223,14 +225,27 @@ namespace Ricochet
       {
         coarse.copy_from(coarse_body);
         CoarseProducts(space).add_contact(*tangent, coarse);
-        initialize_smoother();
+        update_smoother();
       }
 
     auto list = aggregation_parameters(space, modes);
     seed_aggregation(Utilities::MPI::this_mpi_process(tangent->communicator));
     aggregation = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-    aggregation->initialize(has_smoother ? coarse : *tangent->terms()[0].matrix,
+    aggregation->initialize(has_smoother
+                              ? coarse
+                              : *tangent->terms()[0].matrix->entries(),
                             list);
+  }
+
+
+
+  void
+  Multigrid::update_smoother()
+  {
+    if (!has_smoother)
+      return;
+    single.set_contact(*tangent);
+    initialize_smoother();
   }
 
 
@@ -243,14 +258,37 @@ namespace Ricochet
         aggregation->vmult(result, vector);
         return;
       }
-    smoother.vmult(result, vector);
-    tangent->vmult(residual, result);
-    residual.sadd(-1., 1., vector);
-    space.prolongation.Tvmult(coarse_residual, residual);
+    // Of a size that single precision can hold, by powers of two.
+    const double norm = vector.linfty_norm();
+    if (!(norm > 0.) || !std::isfinite(norm))
+      {
+        result = vector;
+        return;
+      }
+    const double        size = std::ldexp(1., std::ilogb(norm));
+    const unsigned int  n    = single_residual.locally_owned_size();
+    const double *const from = vector.trilinos_vector()[0];
+    double *const       to   = result.trilinos_vector()[0];
+    double *const       work = fine.trilinos_vector()[0];
+    for (unsigned int i = 0; i < n; ++i)
+      single_right_hand_side.local_element(i) =
+        static_cast<float>(from[i] / size);
+
+    smoother.vmult(single_result, single_right_hand_side);
+    single.vmult(single_residual, single_result);
+    for (unsigned int i = 0; i < n; ++i)
+      work[i] = single_right_hand_side.local_element(i) -
+        single_residual.local_element(i);
+    space.prolongation.Tvmult(coarse_residual, fine);
     aggregation->vmult(coarse_correction, coarse_residual);
-    space.prolongation.vmult(correction, coarse_correction);
-    result += correction;
-    smoother.step(result, vector);
+    space.prolongation.vmult(fine, coarse_correction);
+    // The coarse levels know the tangent as it is.
+    for (unsigned int i = 0; i < n; ++i)
+      single_result.local_element(i) +=
+        static_cast<float>(work[i] / single.factor());
+    smoother.step(single_result, single_right_hand_side);
+    for (unsigned int i = 0; i < n; ++i)
+      to[i] = single_result.local_element(i) * size * single.factor();
   }
 
 
@@ -271,8 +309,10 @@ namespace Ricochet
                                           *this);
         else
           {
-            const SolverGMRES<Vector>::AdditionalData data(50, true);
-            SolverGMRES<Vector>(control, data)
+            // Flexible: what it builds its solution from is what the cycles gave, with
+            // their rounding in single precision.
+            const SolverFGMRES<Vector>::AdditionalData data(40);
+            SolverFGMRES<Vector>(control, data)
               .solve(*tangent, solution, right_hand_side, *this);
           }
       }

@@ -4,7 +4,7 @@
 
 #include <base/types.h>
 #include <solvers/coarse_space.h>
-#include <solvers/tangent_operator.h>
+#include <solvers/single_tangent.h>
 
 #include <deal.II/lac/diagonal_matrix.h>
 #include <deal.II/lac/precondition.h>
@@ -22,6 +22,11 @@ namespace Ricochet
    * polynomials as smoothers), and from there by aggregation, with Trilinos' ML
    * and the rigid body modes as what the coarse levels must be able to
    * represent.
+   *
+   * On the level of the body's own elements a cycle works in single precision, with
+   * half of a symmetric matrix of blocks: a preconditioner need not be exact, and
+   * what a cycle takes is the time to read the matrix. All around it, and the coarse
+   * levels, are in double precision.
    */
   class Multigrid
   {
@@ -45,6 +50,12 @@ namespace Ricochet
     void
     setup();
 
+    /// Set up for contact as it is now but for the coarse levels, which stay those of
+    /// the last setup().
+    /// @throws NewtonFailure as setup() does.
+    void
+    update_smoother();
+
     /**
      * Solve with the tangent of set_body(), as it is now.
      *
@@ -56,18 +67,23 @@ namespace Ricochet
           Vector       &solution,
           const double  tolerance) const;
 
+    /// Bytes of the matrix of the finest level on this rank.
+    std::size_t
+    memory_of_finest_level() const
+    {
+      return single.memory_consumption();
+    }
+
     /// A cycle: the preconditioner.
     void
     vmult(Vector &result, const Vector &vector) const;
 
   private:
-    // A class of its own: for a DiagonalMatrix, deal.II's smoother would read the
-    // entries of the tangent itself.
-    class InverseDiagonal : public dealii::DiagonalMatrix<Vector>
-    {};
-
+    using SingleVector = SingleTangent::VectorType;
     using Smoother =
-      dealii::PreconditionChebyshev<TangentOperator, Vector, InverseDiagonal>;
+      dealii::PreconditionChebyshev<SingleTangent,
+                                    SingleVector,
+                                    dealii::DiagonalMatrix<SingleVector>>;
 
     class CoarseProducts;
 
@@ -81,13 +97,15 @@ namespace Ricochet
     const bool             has_smoother;
     std::vector<double>    modes;
     const TangentOperator *tangent = nullptr;
+    SingleTangent          single;
     Smoother               smoother;
     // Between coarse unknowns: constant terms, the body, and all of the tangent.
-    std::map<const Matrix *, Matrix>                           constant_terms;
+    std::map<const BodyMatrix *, Matrix>                       constant_terms;
     Matrix                                                     coarse_body;
     Matrix                                                     coarse;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> aggregation;
-    mutable Vector residual, correction, coarse_residual, coarse_correction;
+    mutable SingleVector single_right_hand_side, single_result, single_residual;
+    mutable Vector       fine, coarse_residual, coarse_correction;
   };
 } // namespace Ricochet
 

@@ -17,7 +17,7 @@ namespace Ricochet
     /// Give @p contact_matrix the part of the pattern of @p matrix that couples
     /// the unknowns @p rows of all ranks.
     void
-    reinit_contact_matrix(const Matrix                               &matrix,
+    reinit_contact_matrix(const BodyMatrix                           &matrix,
                           const std::vector<types::global_dof_index> &rows,
                           Matrix &contact_matrix)
     {
@@ -28,23 +28,18 @@ namespace Ricochet
         std::sort(sorted.begin(), sorted.end());
         contact.add_indices(sorted.begin(), sorted.end());
       }
-      // Not by deal.II's iterators, which copy each row.
-      const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
-      DynamicSparsityPattern  pattern(owned.size(), owned.size(), owned);
-      for (const auto row : contact &owned)
-        {
-          int  n_entries = 0;
-          int *indices   = nullptr;
-          epetra.Graph().ExtractMyRowView(
-            epetra.LRID(static_cast<TrilinosWrappers::types::int_type>(row)),
-            n_entries,
-            indices);
-          for (int k = 0; k < n_entries; ++k)
-            if (const types::global_dof_index column =
-                  epetra.GCID64(indices[k]);
-                contact.is_element(column))
-              pattern.add(row, column);
-        }
+      contact.compress();
+      DynamicSparsityPattern pattern(owned.size(), owned.size(), owned);
+      matrix.for_each_row(
+        [&](const unsigned int                          r,
+            const std::vector<types::global_dof_index> &columns,
+            const std::vector<double> &) {
+          const types::global_dof_index row = owned.nth_index_in_set(r);
+          if (contact.is_element(row))
+            for (const types::global_dof_index column : columns)
+              if (contact.is_element(column))
+                pattern.add(row, column);
+        });
       contact_matrix.reinit(owned, pattern, matrix.get_mpi_communicator());
     }
   } // namespace
@@ -81,7 +76,7 @@ namespace Ricochet
                                           communicator);
     if (!is_sum)
       {
-        assemble(tangent, matrix);
+        assemble(tangent, *matrix.entries());
         current->set_terms({{1., &matrix}});
         return;
       }
@@ -93,10 +88,12 @@ namespace Ricochet
         MatrixSum terms = tangent.body_terms;
         if (tangent.complete_contact)
           {
-            if (matrix.m() == 0)
-              reinit_contact_matrix(*terms[0].matrix, contact.rows, matrix);
-            matrix = 0.;
-            tangent.complete_open_contact(matrix);
+            if (matrix.entries()->m() == 0)
+              reinit_contact_matrix(*terms[0].matrix,
+                                    contact.rows,
+                                    *matrix.entries());
+            *matrix.entries() = 0.;
+            tangent.complete_open_contact(*matrix.entries());
             terms.push_back({1., &matrix});
           }
         current->set_terms(terms);
@@ -128,7 +125,8 @@ namespace Ricochet
         update_tangent(tangent,
                        right_hand_side.locally_owned_elements(),
                        right_hand_side.get_mpi_communicator());
-        name = new_name;
+        name                = new_name;
+        smoother_is_current = false;
       }
     const auto set_up = [&]() {
       const Stopwatch stopwatch(spent.factorising);
@@ -136,28 +134,33 @@ namespace Ricochet
       if (!is_sum)
         multigrid.set_body(*current, 0);
       multigrid.setup();
-      set_up_name = new_name;
+      set_up_name         = new_name;
+      smoother_is_current = true;
     };
     const auto iterate = [&]() {
       const Stopwatch stopwatch(spent.substituting);
       return multigrid.solve(right_hand_side, solution, tolerance);
     };
-    // A tangent with a name gets a preconditioner of its own. Others share one
-    // within a stage, but never beyond: so results do not depend on what came
-    // before the stage.
-    if (stage_begins)
-      set_up_in_stage = false;
-    stage_begins        = false;
-    const bool has_name = new_name.body && new_name.contact;
-    const bool is_first = !has_name && !set_up_in_stage;
-    if (has_name ? !(set_up_name == new_name) : is_first)
+    // Tangents share a preconditioner within a stage, but for the smoother of a sum,
+    // which is always its own; never beyond, so that results do not depend on what came
+    // before the stage. A tangent with a name may find the one that was made for it.
+    const bool is_first = stage_begins || !set_up_in_stage ||
+      (is_sum ? !(set_up_name.body == new_name.body)
+              : new_name.body && new_name.contact);
+    stage_begins = false;
+    if (is_first && !(set_up_name == new_name))
       set_up();
-    if (is_first)
-      set_up_in_stage = true;
+    else if (is_sum && !smoother_is_current)
+      {
+        const Stopwatch stopwatch(spent.factorising);
+        multigrid.update_smoother();
+        smoother_is_current = true;
+      }
+    set_up_in_stage  = true;
     int n_iterations = iterate();
     if (is_first)
       budget.begin(n_iterations, tolerance);
-    else if (!has_name && budget.is_exceeded(n_iterations, tolerance))
+    else if (budget.is_exceeded(n_iterations, tolerance))
       {
         // The next solution of this stage will have a better one.
         set_up();

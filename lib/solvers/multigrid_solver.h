@@ -61,15 +61,17 @@ namespace Ricochet
     // of what contact does through its functionals; otherwise one matrix.
     const bool is_sum;
     // Open contact, or all of it.
-    Matrix                           matrix;
+    BodyMatrix                       matrix{Matrix()};
     std::optional<BodyKey>           body;
     std::unique_ptr<TangentOperator> current;
     // Smooths with this very tangent, even when it has changed since the setup: a
     // large body has no room for another one.
     Multigrid multigrid;
-    Name      name, set_up_name;
-    // For tangents without a name: whether there was a set-up for them in this
-    // stage, and the iterations that it needed.
+    // Of the tangent, and of the one that the coarse levels are for.
+    Name name, set_up_name;
+    bool smoother_is_current = false;
+    // Whether there was a first system in this stage, and the iterations that it
+    // needed.
     bool            set_up_in_stage = false;
     IterationBudget budget;
   };

@@ -56,14 +56,24 @@ namespace Ricochet
   void
   TangentOperator::set_terms(const MatrixSum &terms)
   {
-    sum           = terms;
-    body_diagonal = 0.;
+    sum = terms;
+    // Stiffness and mass, for example, take one sweep.
+    const auto find = [&](const bool isotropic) {
+      return std::find_if(sum.begin(),
+                          sum.end(),
+                          [&](const MatrixTerm &term) {
+                            return term.matrix->blocks() &&
+                              term.matrix->blocks()->is_isotropic() ==
+                              isotropic;
+                          }) -
+        sum.begin();
+    };
+    block_term     = find(false);
+    isotropic_term = block_term < sum.size() ? find(true) : sum.size();
+    body_diagonal  = 0.;
     for (const MatrixTerm &term : sum)
       {
-        const int error = term.matrix->trilinos_matrix().ExtractDiagonalCopy(
-          *product.trilinos_vector()(0));
-        AssertThrow(error == 0, ExcTrilinosError(error));
-        body_diagonal.add(term.weight, product);
+        term.matrix->add_diagonal(term.weight, body_diagonal);
       }
   }
 
@@ -94,17 +104,28 @@ namespace Ricochet
         free.compress(VectorOperation::insert);
         argument = &free;
       }
+    bool is_empty = true;
+    if (isotropic_term < sum.size())
+      {
+        BodyMatrix::vmult_sum(sum[block_term],
+                              sum[isotropic_term],
+                              result,
+                              *argument);
+        is_empty = false;
+      }
     for (unsigned int k = 0; k < sum.size(); ++k)
-      if (k == 0)
-        {
-          sum[k].matrix->vmult(result, *argument);
+      {
+        if (isotropic_term < sum.size() &&
+            (k == block_term || k == isotropic_term))
+          continue;
+        Vector &target = is_empty ? result : product;
+        sum[k].matrix->vmult(target, *argument);
+        if (is_empty)
           result *= sum[k].weight;
-        }
-      else
-        {
-          sum[k].matrix->vmult(product, *argument);
+        else
           result.add(sum[k].weight, product);
-        }
+        is_empty = false;
+      }
     if (some_change)
       {
         functional_matrix.vmult(observed, *argument);

@@ -3,6 +3,7 @@
 #define ricochet_solvers_tangent_operator_h
 
 #include <base/types.h>
+#include <solvers/body_matrix.h>
 #include <solvers/functionals.h>
 
 #include <deal.II/base/index_set.h>
@@ -63,6 +64,13 @@ namespace Ricochet
       return my_functionals;
     }
 
+    /// Those of this rank.
+    const dealii::IndexSet &
+    clamped_unknowns() const
+    {
+      return clamped;
+    }
+
     /// @p result = T @p vector.
     void
     vmult(Vector &result, const Vector &vector) const;
@@ -82,11 +90,13 @@ namespace Ricochet
     const MPI_Comm communicator;
 
   private:
-    const dealii::IndexSet     owned;
-    const dealii::IndexSet     clamped;
-    const Functionals          my_functionals;
-    bool                       some_clamped = false;
-    MatrixSum                  sum;
+    const dealii::IndexSet owned;
+    const dealii::IndexSet clamped;
+    const Functionals      my_functionals;
+    bool                   some_clamped = false;
+    MatrixSum              sum;
+    // Two of the terms that are taken together; none if there is no second.
+    std::size_t                block_term = 0, isotropic_term = 0;
     std::vector<FunctionalRow> rows;
     bool                       some_change = false;
     // F, with a row for each functional of all ranks.

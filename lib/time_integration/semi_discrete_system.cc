@@ -50,8 +50,8 @@ namespace Ricochet
   } // namespace
 
   SemiDiscreteSystem::SemiDiscreteSystem(
-    const Matrix                   &mass,
-    const Matrix                   &invertible_mass,
+    const BodyMatrix               &mass,
+    const BodyMatrix               &invertible_mass,
     const BulkOperator             &bulk,
     ContactOperator                &contact,
     const Unknowns                 &unknowns,
@@ -226,7 +226,7 @@ namespace Ricochet
                           clamped_list,
                           static_cast<unsigned int>(
                             unknowns.multipliers.n_elements()),
-                          *unknowns.pattern,
+                          unknowns.pattern,
                           residual_seconds,
                           tangent_seconds,
                           united_pattern,

@@ -6,6 +6,7 @@
 #include <contact/contact_operator.h>
 #include <discretization/bulk_operator.h>
 #include <discretization/follower_load.h>
+#include <solvers/body_matrix.h>
 #include <solvers/linear_solver.h>
 #include <solvers/mass_solver.h>
 #include <solvers/newton.h>
@@ -72,8 +73,9 @@ namespace Ricochet
       dealii::IndexSet multipliers;
       /// Dimension of the body.
       unsigned int dim = 0;
-      /// Sparsity pattern of the tangents.
-      const dealii::TrilinosWrappers::SparsityPattern *pattern = nullptr;
+      /// Sparsity pattern of the tangents, made when it is asked for. Collective.
+      std::function<const dealii::TrilinosWrappers::SparsityPattern &()>
+        pattern;
       /// Body::canonical_positions(), for checkpoints.
       std::function<std::vector<dealii::types::global_dof_index>()>
         canonical_positions;
@@ -94,8 +96,8 @@ namespace Ricochet
    * @param follower a load that depends on where the body is, with schemes whose
    * forces are those of a step, and bodies that are not linear; null for none.
    */
-    SemiDiscreteSystem(const Matrix                   &mass,
-                       const Matrix                   &invertible_mass,
+    SemiDiscreteSystem(const BodyMatrix               &mass,
+                       const BodyMatrix               &invertible_mass,
                        const BulkOperator             &bulk,
                        ContactOperator                &contact,
                        const Unknowns                 &unknowns,
@@ -181,7 +183,7 @@ namespace Ricochet
     kinetic_energy(const Vector &velocity) const;
 
     /// Mass matrix of the equation of motion (kg).
-    const Matrix &
+    const BodyMatrix &
     mass_matrix() const
     {
       return mass;
@@ -241,8 +243,8 @@ namespace Ricochet
     void
     take_shares(State &state) const;
 
-    const Matrix &mass;
-    const Matrix &invertible_mass;
+    const BodyMatrix &mass;
+    const BodyMatrix &invertible_mass;
     std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type> clamped_list;
     const Load                                                     load;
     const FollowerLoad                                            *follower;

@@ -158,11 +158,12 @@ namespace Ricochet
         tangent.body_terms.push_back({stage.inertia, &parts.mass});
       }
     const auto assemble_body = [this, bulk_weight](Matrix &matrix) {
-      if (matrix.n_nonzero_elements() == parts.pattern.n_nonzero_elements())
+      const auto &pattern = parts.pattern();
+      if (matrix.n_nonzero_elements() == pattern.n_nonzero_elements())
         matrix = 0.;
       else
-        matrix.reinit(parts.pattern);
-      matrix.add(stage.inertia, parts.mass);
+        matrix.reinit(pattern);
+      parts.mass.add_to(stage.inertia, matrix);
       if (stage.bulk_step_force)
         {
           parts.bulk.add_step_tangent(old_solution,
@@ -186,7 +187,7 @@ namespace Ricochet
       : nullptr;
     if (couplings)
       {
-        parts.united_pattern.update(parts.pattern, *couplings);
+        parts.united_pattern.update(parts.pattern(), *couplings);
         tangent.pattern = couplings->version;
       }
     tangent.assemble_body =

@@ -5,6 +5,7 @@
 #include <contact/contact_operator.h>
 #include <discretization/bulk_operator.h>
 #include <discretization/follower_load.h>
+#include <solvers/body_matrix.h>
 #include <solvers/linear_solver.h>
 #include <solvers/newton.h>
 #include <time_integration/condensed_stage.h>
@@ -25,7 +26,7 @@ namespace Ricochet
     /// What stays the same for all stages. All of it must outlive the problem.
     struct Parts
     {
-      const Matrix       &mass;
+      const BodyMatrix   &mass;
       const BulkOperator &bulk;
       ContactOperator    &contact;
       LinearSolver       &linear_solver;
@@ -35,7 +36,8 @@ namespace Ricochet
       /// Of this rank; they are the last of its unknowns.
       unsigned int n_multipliers = 0;
       /// Of the tangents.
-      const dealii::TrilinosWrappers::SparsityPattern &pattern;
+      const std::function<const dealii::TrilinosWrappers::SparsityPattern &()>
+        &pattern;
       /// s, summed up.
       double &residual_seconds, &tangent_seconds;
       /// Where contact couples what the body does not.

@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(halves_make_solutions)
   const LinearBulk<3>     bulk(body, material);
   Matrix                  matrix;
   matrix.reinit(body.sparsity_pattern());
-  matrix.add(20., assemble_mass_matrix(body, 1.));
+  assemble_mass_matrix(body, 1.).add_to(20., matrix);
   bulk.add_tangent(1., body.make_vector(), matrix);
   const auto factorisation = make_cholesky_factorisation(false);
   BOOST_REQUIRE(factorisation->factorise(matrix, false));
@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(accelerations_have_their_forces)
         cube_body(cube,
                   is_clamped ? std::set<dealii::types::boundary_id>{2}
                              : std::set<dealii::types::boundary_id>{});
-      const Matrix mass = assemble_mass_matrix(body, 1.7);
+      const BodyMatrix mass = assemble_mass_matrix(body, 1.7);
       const std::vector<MassSolver::Index> clamped(
         body.clamped_indices().begin(),
         body.clamped_indices().end());
@@ -205,12 +205,10 @@ BOOST_AUTO_TEST_CASE(accelerations_have_their_forces)
 
   // Nothing to accelerate with.
   const CubeAbovePlane<3> cube(true, 1);
-  const Body<3>           body = cube_body(cube, {});
-  Matrix                  none;
-  none.copy_from(assemble_mass_matrix(body, 1.));
-  none *= 0.;
-  Vector force = body.make_vector(), acceleration(force);
-  force        = 1.;
+  const Body<3>           body  = cube_body(cube, {});
+  const BodyMatrix        none  = assemble_mass_matrix(body, 0.);
+  Vector                  force = body.make_vector(), acceleration(force);
+  force                         = 1.;
   BOOST_CHECK_THROW(MassSolver(none, {}).solve(force, acceleration),
                     NewtonFailure);
 }

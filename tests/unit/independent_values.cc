@@ -712,7 +712,7 @@ BOOST_AUTO_TEST_CASE(matrices_of_one_element)
 {
   const Block<1>      block(Point<1>(1.), Point<1>(3.), {1});
   const auto          body = block.body({1});
-  const Matrix        mass = assemble_mass_matrix(body, 9.);
+  const BodyMatrix    mass = assemble_mass_matrix(body, 9.);
   const LinearBulk<1> bulk(body, LinearElastic{1., 2.});
   const Vector        unit =
     interpolated<1>(body, {[](const Point<1> &x) { return .5 * (x[0] - 1.); }});
@@ -776,10 +776,10 @@ BOOST_AUTO_TEST_CASE(momenta_of_a_rectangle)
 // mass is 4.
 BOOST_AUTO_TEST_CASE(momenta_of_a_box)
 {
-  const Block<3> block({0., 0., 1.}, {1., 2., 2.}, {1, 2, 1});
-  const auto     body = block.body({4});
-  const Matrix   mass = assemble_mass_matrix(body, 2.);
-  const Vector   velocity =
+  const Block<3>   block({0., 0., 1.}, {1., 2., 2.}, {1, 2, 1});
+  const auto       body = block.body({4});
+  const BodyMatrix mass = assemble_mass_matrix(body, 2.);
+  const Vector     velocity =
     interpolated<3>(body,
                     {[](const Point<3> &) { return 0.; },
                      [](const Point<3> &x) { return -1.5 * x[2]; },
@@ -798,7 +798,7 @@ BOOST_AUTO_TEST_CASE(rotation_of_a_box)
   // rotation that was given, however large.
   const Block<3>        block({0., 0., 1.}, {1., 2., 2.}, {1, 2, 1});
   const auto            body = block.body({4});
-  const Matrix          mass = assemble_mass_matrix(body, 2.);
+  const BodyMatrix      mass = assemble_mass_matrix(body, 2.);
   const MeanRotation<3> rotation(body, mass, 1, 0, 1);
   Tensor<1, 3>          axis({2., -1., 2.});
   axis /= axis.norm();
@@ -834,7 +834,7 @@ BOOST_AUTO_TEST_CASE(rotation_of_a_box)
 
   const Block<2>        plate({0., 0.}, {2., 1.}, {2, 1});
   const auto            flat      = plate.body({3});
-  const Matrix          flat_mass = assemble_mass_matrix(flat, 3.);
+  const BodyMatrix      flat_mass = assemble_mass_matrix(flat, 3.);
   const MeanRotation<2> flat_rotation(flat, flat_mass, 1, 0, 1);
   for (const double angle : {-3., -.5, 0., 1.})
     BOOST_CHECK_SMALL(flat_rotation.vector(

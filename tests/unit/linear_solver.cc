@@ -102,7 +102,7 @@ namespace
                                       body,
                                       material,
                                       cube.plane(treatment.displacement / 1.5));
-    const Matrix                mass    = assemble_mass_matrix(body, 1.);
+    const BodyMatrix            mass    = assemble_mass_matrix(body, 1.);
     const LinearBulk<dim>       linear_bulk(body, material);
     const Material<dim>         nonlinear(std::make_shared<Hyperelastic<dim>>(
       std::make_shared<HyperelasticLawImplementation<CiarletGeymonat>>(
@@ -158,7 +158,7 @@ namespace
           if (matrix.m() == 0)
             matrix.reinit(body.sparsity_pattern());
           matrix = 0.;
-          matrix.add(3., mass);
+          mass.add_to(3., matrix);
           bulk.add_step_tangent(old_solution, solution, .1, matrix);
           matrix.clear_rows(clamped, 1.);
         };
@@ -301,9 +301,10 @@ BOOST_AUTO_TEST_CASE(multigrid_needs_few_iterations)
                                {1},
                                MultiplierSpace::none,
                                MPI_COMM_WORLD);
-            const LinearBulk<3>     bulk(body, material);
-            const Matrix            mass = assemble_mass_matrix(body, 1.);
-            dealii::Tensor<1, 3>    normal({.4, .3, 1.});
+            const LinearBulk<3> bulk(body, {material}, MatrixStorage::blocks);
+            const BodyMatrix    mass =
+              assemble_mass_matrix(body, {1.}, MatrixStorage::blocks);
+            dealii::Tensor<1, 3> normal({.4, .3, 1.});
             normal /= normal.norm();
             ContactParameters parameters;
             parameters.treatment = "penalty";

@@ -32,10 +32,10 @@ namespace
                          MultiplierSpace::none,
                          MPI_COMM_WORLD);
     const double              density = 3.;
-    const Matrix              mass    = assemble_mass_matrix(body, density);
-    const Matrix              redistributed = redistribute_mass(body, mass);
+    const BodyMatrix          mass    = assemble_mass_matrix(body, density);
+    const Matrix redistributed = redistribute_mass(body, *mass.entries());
 
-    const auto before = mass_moments(body, mass).at(0);
+    const auto before = mass_moments(body, *mass.entries()).at(0);
     const auto after  = mass_moments(body, redistributed).at(0);
     BOOST_CHECK_SMALL(before[0] - density, 1e-12);
     BOOST_CHECK_SMALL(before[1] - density / 2., 1e-12);
@@ -137,8 +137,9 @@ BOOST_AUTO_TEST_CASE(moments_are_those_of_each_body)
   mesh.copy_triangulation(both);
   touch_at_the_origin(mesh);
   const Body<1> body(mesh, 1, {}, {1}, MultiplierSpace::none, MPI_COMM_WORLD);
-  const Matrix  mass       = assemble_mass_matrix(body, 1.);
-  const auto redistributed = mass_moments(body, redistribute_mass(body, mass));
+  const BodyMatrix mass = assemble_mass_matrix(body, 1.);
+  const auto       redistributed =
+    mass_moments(body, redistribute_mass(body, *mass.entries()));
   BOOST_REQUIRE_EQUAL(redistributed.size(), 2);
   // Mass, integral of x and of x^2.
   const bool   first_is_short = redistributed[0][0] < 1.5;
@@ -170,22 +171,22 @@ BOOST_AUTO_TEST_CASE(graded_meshes_are_taken)
                                                     dealii::Point<1>(length));
   touch_at_the_origin(mesh);
   const Body<1> body(mesh, 1, {}, {1}, MultiplierSpace::none, MPI_COMM_WORLD);
-  const Matrix  mass = assemble_mass_matrix(body, 1.);
-  BOOST_CHECK_NO_THROW(redistribute_mass(body, mass));
+  const BodyMatrix mass = assemble_mass_matrix(body, 1.);
+  BOOST_CHECK_NO_THROW(redistribute_mass(body, *mass.entries()));
 }
 
 BOOST_AUTO_TEST_CASE(too_coarse_meshes_are_refused)
 {
   const auto check_refused = [](auto cube, const unsigned int degree) {
-    constexpr int   dim = decltype(cube.triangulation)::dimension;
-    const Body<dim> body(cube.triangulation,
+    constexpr int    dim = decltype(cube.triangulation)::dimension;
+    const Body<dim>  body(cube.triangulation,
                          degree,
                          {},
                          {1},
                          MultiplierSpace::none,
                          MPI_COMM_WORLD);
-    const Matrix    mass = assemble_mass_matrix(body, 1.);
-    BOOST_CHECK_THROW(redistribute_mass(body, mass), InputError);
+    const BodyMatrix mass = assemble_mass_matrix(body, 1.);
+    BOOST_CHECK_THROW(redistribute_mass(body, *mass.entries()), InputError);
   };
   // One element: a single node is left, which cannot keep three moments. (Two
   // ranks cannot share one element.)

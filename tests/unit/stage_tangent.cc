@@ -408,13 +408,16 @@ BOOST_AUTO_TEST_CASE(inverted_elements_next_to_clamped_unknowns)
                                            body,
                                            nullptr,
                                            Obstacles());
-      const Matrix                 mass    = assemble_mass_matrix(body, 1.);
+      const BodyMatrix             mass    = assemble_mass_matrix(body, 1.);
       SemiDiscreteSystem::Unknowns unknowns;
       unknowns.massless    = dealii::IndexSet(mass.m());
       unknowns.multipliers = dealii::IndexSet(mass.m());
       unknowns.clamped     = body.clamped_indices();
       unknowns.dim         = 2;
-      unknowns.pattern     = &body.sparsity_pattern();
+      unknowns.pattern =
+        [&body]() -> const dealii::TrilinosWrappers::SparsityPattern & {
+        return body.sparsity_pattern();
+      };
       const SemiDiscreteSystem system(mass,
                                       mass,
                                       bulk,

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Matrices of bodies by blocks between nodes do what the same matrices by entries do, in
+// double precision to round-off and in single precision to its own.
+
+#include "meshes.h"
+
+#include <discretization/linear_bulk.h>
+#include <solvers/single_tangent.h>
+
+#include <boost/test/unit_test.hpp>
+
+using namespace Ricochet;
+using dealii::VectorOperation;
+
+BOOST_AUTO_TEST_SUITE(block_matrix)
+
+namespace
+{
+  const LinearElastic material{1.5, 1.};
+
+  /// The l2 norm of the difference, relative to that of @p exact.
+  double
+  difference(const Vector &found, const Vector &exact)
+  {
+    Vector error(found);
+    error -= exact;
+    return error.l2_norm() / exact.l2_norm();
+  }
+
+  /// A body with stiffness and mass stored in both ways.
+  template <int dim>
+  struct StoredTwice
+  {
+    StoredTwice(const bool simplices, const unsigned int degree)
+      : cube(simplices, 3)
+      , body(cube.triangulation,
+             degree,
+             {2},
+             {1},
+             MultiplierSpace::none,
+             MPI_COMM_WORLD)
+      , entries(body, {material})
+      , blocks(body, {material}, MatrixStorage::blocks)
+      , mass_by_entries(assemble_mass_matrix(body, {2.}))
+      , mass_by_blocks(assemble_mass_matrix(body, {2.}, MatrixStorage::blocks))
+    {}
+
+    /// 3 K + 5 M, in one way or the other.
+    MatrixSum
+    terms(const MatrixStorage storage) const
+    {
+      const bool by_blocks = storage == MatrixStorage::blocks;
+      MatrixSum  sum       = (by_blocks ? blocks : entries).tangent_terms(3.);
+      sum.push_back({5., by_blocks ? &mass_by_blocks : &mass_by_entries});
+      return sum;
+    }
+
+    TangentOperator
+    tangent() const
+    {
+      return {body.owned_indices(),
+              body.clamped_indices(),
+              Functionals(),
+              MPI_COMM_WORLD};
+    }
+
+    const CubeAbovePlane<dim> cube;
+    const Body<dim>           body;
+    const LinearBulk<dim>     entries, blocks;
+    const BodyMatrix          mass_by_entries, mass_by_blocks;
+  };
+
+  template <int dim>
+  void
+  check_storage(const bool simplices, const unsigned int degree)
+  {
+    const StoredTwice<dim> twice(simplices, degree);
+    Vector vector = twice.body.make_vector(), exact(vector), found(vector);
+    randomise(vector, 1., 1);
+
+    const MatrixSum by_entries = twice.terms(MatrixStorage::entries),
+                    by_blocks  = twice.terms(MatrixStorage::blocks);
+    for (unsigned int k = 0; k < by_entries.size(); ++k)
+      {
+        const BodyMatrix &entries = *by_entries[k].matrix,
+                         &blocks  = *by_blocks[k].matrix;
+        BOOST_REQUIRE(entries.entries() && blocks.blocks());
+        entries.vmult(exact, vector);
+        blocks.vmult(found, vector);
+        BOOST_CHECK_SMALL(difference(found, exact), 1e-14);
+        BOOST_CHECK_CLOSE_FRACTION(blocks.linfty_norm(),
+                                   entries.linfty_norm(),
+                                   1e-13);
+        BOOST_CHECK_EQUAL(blocks.m(), entries.m());
+
+        // As a matrix with entries.
+        Matrix copy;
+        blocks.copy_to(copy);
+        copy.vmult(found, vector);
+        BOOST_CHECK_SMALL(difference(found, exact), 1e-14);
+        blocks.add_to(-1., copy);
+        BOOST_CHECK_SMALL(copy.linfty_norm(), 1e-13);
+
+        exact = 1.;
+        found = 1.;
+        entries.add_diagonal(2., exact);
+        blocks.add_diagonal(2., found);
+        BOOST_CHECK_SMALL(difference(found, exact), 1e-14);
+      }
+    twice.entries.force(vector, exact);
+    twice.blocks.force(vector, found);
+    BOOST_CHECK_SMALL(difference(found, exact), 1e-13);
+
+    // The sum, in one sweep, with clamped unknowns; and in single precision, from
+    // either.
+    TangentOperator exact_tangent = twice.tangent(), tangent = twice.tangent();
+    exact_tangent.set_terms(by_entries);
+    tangent.set_terms(by_blocks);
+    for (TangentOperator *one : {&exact_tangent, &tangent})
+      one->set_change({});
+    exact_tangent.vmult(exact, vector);
+    tangent.vmult(found, vector);
+    BOOST_CHECK_SMALL(difference(found, exact), 1e-14);
+    for (const TangentOperator *one : {&exact_tangent, &tangent})
+      {
+        SingleTangent single;
+        single.set_body(*one, dim);
+        single.set_contact(*one);
+        SingleTangent::VectorType argument, result;
+        single.initialize_dof_vector(argument);
+        single.initialize_dof_vector(result);
+        for (const auto i : twice.body.owned_indices())
+          argument(i) = static_cast<float>(vector(i));
+        single.vmult(result, argument);
+        for (const auto i : twice.body.owned_indices())
+          found(i) = result(i) / single.factor();
+        found.compress(VectorOperation::insert);
+        BOOST_CHECK_SMALL(difference(found, exact), 1e-6);
+        // Not by chance: single it is.
+        BOOST_CHECK_GT(difference(found, exact), 1e-10);
+      }
+  }
+} // namespace
+
+
+
+BOOST_AUTO_TEST_CASE(blocks_do_what_entries_do)
+{
+  for (const bool simplices : {false, true})
+    for (const unsigned int degree : {1, 2})
+      {
+        check_storage<2>(simplices, degree);
+        check_storage<3>(simplices, degree);
+      }
+}
+
+BOOST_AUTO_TEST_CASE(blocks_take_less_memory)
+{
+  // Couplings between ranks are stored on both.
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    return;
+  const StoredTwice<3> twice(true, 2);
+  const auto bytes = [&](const MatrixStorage storage, const unsigned int term) {
+    return static_cast<double>(
+      twice.terms(storage)[term].matrix->memory_consumption());
+  };
+  BOOST_CHECK_LT(bytes(MatrixStorage::blocks, 0),
+                 .4 * bytes(MatrixStorage::entries, 0));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
