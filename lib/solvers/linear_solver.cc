@@ -20,7 +20,7 @@ namespace Ricochet
                              const std::size_t                   n_unknowns,
                              const unsigned int                  n_ranks)
     : linear_body(linear_body)
-    , may_condense(parameters.condense && linear_body)
+    , may_condense(parameters.condense)
     , factorisations{parameters.factorisation, dim, n_unknowns, n_ranks}
     , type(parameters.type)
   {
@@ -188,7 +188,7 @@ namespace Ricochet
   bool
   LinearSolver::condenses() const
   {
-    return may_condense && ways.front()->condenses();
+    return may_condense && way_to_condense().condenses();
   }
 
 
@@ -196,7 +196,16 @@ namespace Ricochet
   CondensedSystem &
   LinearSolver::condensed(const Tangent &tangent)
   {
-    return ways.front()->condensed(tangent);
+    return way_to_condense().condensed(tangent);
+  }
+
+
+
+  TangentSolver &
+  LinearSolver::way_to_condense() const
+  {
+    // Those of "corrected": for linear bodies, then for others.
+    return *(linear_body || ways.size() < 2 ? ways[0] : ways[1]);
   }
 
 
