@@ -269,6 +269,27 @@ namespace Ricochet
 
   template <int dim>
   void
+  HyperelasticBulk<dim>::import_ghosts(const Vector &old_solution,
+                                       const Vector &new_solution) const
+  {
+    const Epetra_BlockMap &map = ghosted_old.trilinos_vector().Map();
+    if (!import)
+      import =
+        std::make_unique<Epetra_Import>(map,
+                                        old_solution.trilinos_vector().Map());
+    const auto fill = [&](const Vector &from, Vector &to) {
+      const int error =
+        to.trilinos_vector().Import(from.trilinos_vector(), *import, Insert);
+      AssertThrow(error == 0, ExcTrilinosError(error));
+    };
+    fill(old_solution, ghosted_old);
+    fill(new_solution, ghosted_new);
+  }
+
+
+
+  template <int dim>
+  void
   HyperelasticBulk<dim>::gather(const unsigned int batch) const
   {
     constexpr unsigned int n_lanes    = Lanes::size();
@@ -366,8 +387,7 @@ namespace Ricochet
                                         const Vector         &new_solution,
                                         Vector               &force) const
   {
-    ghosted_old    = old_solution;
-    ghosted_new    = new_solution;
+    import_ghosts(old_solution, new_solution);
     force          = 0.;
     double *values = force.trilinos_vector()[0];
 
@@ -431,8 +451,7 @@ namespace Ricochet
                                     const Vector         &new_solution,
                                     Matrix               &tangent) const
   {
-    ghosted_old         = old_solution;
-    ghosted_new         = new_solution;
+    import_ghosts(old_solution, new_solution);
     int      *row_begin = nullptr, *columns = nullptr;
     double   *values = nullptr;
     const int error =
@@ -534,8 +553,7 @@ namespace Ricochet
                                    const Vector  &old_solution,
                                    const Vector  &new_solution) const
   {
-    ghosted_old = old_solution;
-    ghosted_new = new_solution;
+    import_ghosts(old_solution, new_solution);
     std::vector<double> my_sums(materials.size(), 0.), sums(materials.size());
     Gradient            old_f, difference_f;
     for (unsigned int batch = 0; batch < n_batches; ++batch)

@@ -8,7 +8,10 @@
 
 #include <deal.II/base/aligned_vector.h>
 
+#include <Epetra_Import.h>
+
 #include <array>
+#include <memory>
 
 namespace Ricochet
 {
@@ -130,6 +133,10 @@ namespace Ricochet
               const Vector  &old_solution,
               const Vector  &new_solution) const;
 
+    /// Fill the ghosted vectors.
+    void
+    import_ghosts(const Vector &old_solution, const Vector &new_solution) const;
+
     /// #cell_old and #cell_change of a batch, from the ghosted vectors.
     void
     gather(const unsigned int batch) const;
@@ -179,11 +186,12 @@ namespace Ricochet
 
     // Work space, so that nothing is allocated in a time step: displacements of a batch
     // relative to the first node, and their changes.
-    mutable Vector                       ghosted_old, ghosted_new;
-    mutable dealii::AlignedVector<Lanes> cell_old, cell_change;
-    mutable dealii::AlignedVector<Lanes> cell_vector, cell_matrix;
-    mutable dealii::AlignedVector<Lanes> test_strains, trial_strains;
-    mutable dealii::AlignedVector<Lanes> stress_columns;
+    mutable Vector                         ghosted_old, ghosted_new;
+    mutable std::unique_ptr<Epetra_Import> import;
+    mutable dealii::AlignedVector<Lanes>   cell_old, cell_change;
+    mutable dealii::AlignedVector<Lanes>   cell_vector, cell_matrix;
+    mutable dealii::AlignedVector<Lanes>   test_strains, trial_strains;
+    mutable dealii::AlignedVector<Lanes>   stress_columns;
 
     // The worst element of the last loop: det F and cell.
     mutable double       smallest_determinant = 1.;

@@ -33,17 +33,27 @@ namespace Ricochet
     next(const Vector &residual, Vector &step);
 
   private:
-    /// The products with the residual changes kept, on all ranks.
+    // In single precision: what is forgotten by that, the next residual shows.
+    using Column = std::vector<float>;
+
+    /// The products of @p values with the changes kept, on all ranks.
     std::vector<double>
-    products(const Vector &vector) const;
+    products(const double *values) const;
+
+    /// @p values += sum of @p factors times @p columns
+    void
+    add(const std::vector<double> &factors,
+        const std::vector<Column> &columns,
+        double                    *values) const;
 
     const unsigned int n_kept;
     // Orthonormal changes of the residual, and the steps of the force that make them.
-    std::vector<Vector> changes, steps;
+    std::vector<Column> changes, steps;
     unsigned int        n_changes = 0;
     // Of the last call.
-    bool   has_last = false;
-    Vector last_residual, last_step;
+    bool                has_last = false;
+    std::vector<double> last_residual, last_step;
+    MPI_Comm            communicator = MPI_COMM_SELF;
   };
 } // namespace Ricochet
 

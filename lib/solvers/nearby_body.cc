@@ -42,7 +42,8 @@ namespace Ricochet
     ++spent.n_factorisations;
     halves.assign(functionals.size(), {});
     columns.assign(functionals.size(), {});
-    factor = nullptr;
+    region_places = 0;
+    factor        = nullptr;
     if (!factorisation->factorise(matrix, false))
       throw NewtonFailure("The tangent of the body cannot be factored.");
     factor = factorisation->triangular_factor();
@@ -100,9 +101,33 @@ namespace Ricochet
   void
   NearbyBody::observe(std::vector<double> &values)
   {
-    const Stopwatch stopwatch(spent.substituting);
-    for (unsigned int place = 0; place < values.size(); ++place)
-      values[place] = factor->product(half_at(place), half);
+    const Stopwatch    stopwatch(spent.substituting);
+    const unsigned int n = values.size();
+    if (region_places != n)
+      {
+        std::vector<types::global_dof_index> unknowns;
+        for (unsigned int place = 0; place < n; ++place)
+          {
+            const unsigned int f = functional_at[place];
+            unknowns.insert(unknowns.end(),
+                            functionals.index.begin() + functionals.begin[f],
+                            functionals.index.begin() +
+                              functionals.begin[f + 1]);
+          }
+        region        = factor->region_of(unknowns);
+        region_places = n;
+      }
+    factor->go_backwards(half, region, partial_solution);
+    for (unsigned int place = 0; place < n; ++place)
+      {
+        const unsigned int f   = functional_at[place];
+        double             sum = 0.;
+        for (std::size_t k = functionals.begin[f]; k < functionals.begin[f + 1];
+             ++k)
+          sum += functionals.value[k] *
+            partial_solution[factor->place_of(functionals.index[k])];
+        values[place] = sum;
+      }
   }
 
 

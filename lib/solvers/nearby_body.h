@@ -93,6 +93,10 @@ namespace Ricochet
     std::vector<std::vector<double>>    columns;
     // Of the right hand side; work space that is zero between calls.
     std::vector<double> half, dense;
+    // What observe() needs of the factor for so many places, and what it finds there.
+    std::vector<int>    region;
+    unsigned int        region_places = 0;
+    std::vector<double> partial_solution;
   };
 } // namespace Ricochet
 

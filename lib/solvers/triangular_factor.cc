@@ -6,6 +6,25 @@
 
 namespace Ricochet
 {
+  namespace
+  {
+    // Two at once, wherever they lie.
+    using DoublePair __attribute__((vector_size(16), aligned(8), may_alias)) =
+      double;
+    using FloatPair __attribute__((vector_size(8), aligned(4), may_alias)) =
+      float;
+
+    DoublePair
+    pair(const float *values)
+    {
+      return __builtin_convertvector(*reinterpret_cast<const FloatPair *>(
+                                       values),
+                                     DoublePair);
+    }
+  } // namespace
+
+
+
   TriangularFactor::TriangularFactor(const Columns &columns)
     : place(columns.n)
     , block_of(columns.n)
@@ -32,6 +51,7 @@ namespace Ricochet
                     rows.size(),
                     rows.size() + n_below,
                     values.size(),
+                    0,
                     -1};
         rows.insert(rows.end(), below, below + n_below);
         for (int column = first; column < end; ++column)
@@ -56,8 +76,15 @@ namespace Ricochet
         };
         for (int row = first + 1; row < end; ++row)
           add_row(row, row - first);
+        block.below = values.size();
         for (int k = 0; k < n_below; ++k)
-          add_row(end + k, end - first);
+          {
+            add_row(end + k, end - first);
+            if (block.width % 2 == 1)
+              values.push_back(0.f);
+          }
+        if (own_values.size() < std::size_t(block.width) + 1)
+          own_values.resize(block.width + 1);
         blocks.push_back(block);
         first = end;
       }
@@ -72,7 +99,7 @@ namespace Ricochet
   void
   TriangularFactor::eliminate(const Block &block, double *half) const
   {
-    const float *value = values.data() + block.first_value;
+    const float *value = values.data() + block.triangle;
     double      *own   = half + block.first;
     const int    width = block.width;
     for (int i = 1; i < width; ++i)
@@ -83,14 +110,73 @@ namespace Ricochet
         own[i] -= sum;
         value += i;
       }
-    for (std::size_t k = block.begin; k < block.end; ++k)
+    double *copy = own_values.data();
+    std::copy(own, own + width, copy);
+    copy[width]      = 0.;
+    const int stride = width + width % 2;
+    value            = values.data() + block.below;
+    for (std::size_t k = block.begin; k < block.end; ++k, value += stride)
       {
-        double sum = 0.;
-        for (int c = 0; c < width; ++c)
-          sum += value[c] * own[c];
-        half[rows[k]] -= sum;
-        value += width;
+        DoublePair sum{};
+        for (int c = 0; c < stride; c += 2)
+          sum += pair(value + c) * *reinterpret_cast<DoublePair *>(copy + c);
+        half[rows[k]] -= sum[0] + sum[1];
       }
+  }
+
+
+
+  void
+  TriangularFactor::substitute(const Block &block, double *half) const
+  {
+    const int    width  = block.width;
+    const int    stride = width + width % 2;
+    double      *own    = half + block.first;
+    double      *copy   = own_values.data();
+    const float *value  = values.data() + block.below;
+    std::copy(own, own + width, copy);
+    copy[width]   = 0.;
+    std::size_t k = block.begin;
+    for (; k + 1 < block.end; k += 2, value += 2 * stride)
+      {
+        const double one = half[rows[k]], other = half[rows[k + 1]];
+        for (int c = 0; c < stride; c += 2)
+          *reinterpret_cast<DoublePair *>(copy + c) -=
+            pair(value + c) * one + pair(value + stride + c) * other;
+      }
+    if (k < block.end)
+      for (int c = 0; c < width; ++c)
+        copy[c] -= value[c] * half[rows[k]];
+    const float *triangle = values.data() + block.triangle;
+    for (int i = width - 1; i > 0; --i)
+      {
+        const float *row = triangle + i * (i - 1) / 2;
+        for (int c = 0; c < i; ++c)
+          copy[c] -= row[c] * copy[i];
+      }
+    std::copy(copy, copy + width, own);
+  }
+
+
+
+  void
+  TriangularFactor::mark(int block, std::vector<int> &region) const
+  {
+    for (; block >= 0 && is_needed[block] == 0; block = blocks[block].parent)
+      {
+        is_needed[block] = 1;
+        region.push_back(block);
+      }
+  }
+
+
+
+  void
+  TriangularFactor::finish(std::vector<int> &region) const
+  {
+    std::sort(region.begin(), region.end());
+    for (const int block : region)
+      is_needed[block] = 0;
   }
 
 
@@ -115,14 +201,9 @@ namespace Ricochet
     for (const Start &entry : start)
       {
         dense[entry.place] += entry.value;
-        for (int b = block_of[entry.place]; b >= 0 && is_needed[b] == 0;
-             b     = blocks[b].parent)
-          {
-                is_needed[b] = 1;
-                half.blocks.push_back(b);
-          }
+        mark(block_of[entry.place], half.blocks);
       }
-    std::sort(half.blocks.begin(), half.blocks.end());
+    finish(half.blocks);
     for (const int b : half.blocks)
       {
         const Block &block = blocks[b];
@@ -131,7 +212,6 @@ namespace Ricochet
                            dense.begin() + block.first,
                            dense.begin() + block.first + block.width);
         std::fill_n(dense.begin() + block.first, block.width, 0.);
-        is_needed[b] = 0;
       }
     return half;
   }
@@ -145,27 +225,24 @@ namespace Ricochet
     for (unsigned int i = 0; i < n(); ++i)
       half[i] *= inverse_diagonal[i];
     for (auto block = blocks.rbegin(); block != blocks.rend(); ++block)
-      {
-        const int    width = block->width;
-        double      *own   = half.data() + block->first;
-        const float *value = values.data() + block->first_value;
-        const float *below = value + width * (width - 1) / 2;
-        for (std::size_t k = block->begin; k < block->end; ++k)
-          {
-            const double other = half[rows[k]];
-            for (int c = 0; c < width; ++c)
-              own[c] -= below[c] * other;
-            below += width;
-          }
-        for (int i = width - 1; i > 0; --i)
-          {
-            const float *row = value + i * (i - 1) / 2;
-            for (int c = 0; c < i; ++c)
-              own[c] -= row[c] * own[i];
-          }
-      }
+      substitute(*block, half.data());
     for (unsigned int i = 0; i < n(); ++i)
       solution[i] = half[place[i]];
+  }
+
+
+
+  void
+  TriangularFactor::go_backwards(const std::vector<double> &half,
+                                 const std::vector<int>    &region,
+                                 std::vector<double>       &solution) const
+  {
+    solution.resize(n());
+    for (const int b : region)
+      for (int k = blocks[b].first; k < blocks[b].first + blocks[b].width; ++k)
+        solution[k] = inverse_diagonal[k] * half[k];
+    for (auto b = region.rbegin(); b != region.rend(); ++b)
+      substitute(blocks[*b], solution.data());
   }
 
 

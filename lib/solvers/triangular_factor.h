@@ -74,6 +74,32 @@ namespace Ricochet
     double
     product(const Half &one, const std::vector<double> &other) const;
 
+    /// The blocks on the ways of some unknowns to the last one.
+    template <typename Index>
+    std::vector<int>
+    region_of(const std::vector<Index> &unknowns) const
+    {
+      std::vector<int> region;
+      for (const Index unknown : unknowns)
+        mark(block_of[place[unknown]], region);
+      finish(region);
+      return region;
+    }
+
+    /// P^T L^{-T} D^{-1} @p half where @p region is; elsewhere nothing of meaning.
+    void
+    go_backwards(const std::vector<double> &half,
+                 const std::vector<int>    &region,
+                 std::vector<double>       &solution) const;
+
+    /// Place of an unknown in the last go_backwards() with a region.
+    template <typename Index>
+    int
+    place_of(const Index unknown) const
+    {
+      return place[unknown];
+    }
+
     /// @p other += @p factor @p half
     void
     add(const double         factor,
@@ -90,9 +116,9 @@ namespace Ricochet
       int first, width;
       /// Rows below among #rows.
       std::size_t begin, end;
-      /// Of the strict lower triangle in #values, row by row, and then of the rows
-      /// below.
-      std::size_t first_value;
+      /// Of the strict lower triangle in #values, row by row, and of the rows below,
+      /// each with an even number of values, the last one zero if need be.
+      std::size_t triangle, below;
       /// The one of the first row below; -1: none.
       int parent;
     };
@@ -110,6 +136,18 @@ namespace Ricochet
     void
     eliminate(const Block &block, double *half) const;
 
+    /// Take what is known below it out of @p block of @p half, and solve.
+    void
+    substitute(const Block &block, double *half) const;
+
+    /// Add @p block and those after it to @p region, if they are not in it.
+    void
+    mark(int block, std::vector<int> &region) const;
+
+    /// Put @p region in order, and unmark it.
+    void
+    finish(std::vector<int> &region) const;
+
     std::vector<int>    place, block_of;
     std::vector<Block>  blocks;
     std::vector<int>    rows;
@@ -117,6 +155,8 @@ namespace Ricochet
     std::vector<double> inverse_diagonal;
     // Work space: zero between calls.
     mutable std::vector<double> dense;
+    // The unknowns of a block, with one more.
+    mutable std::vector<double> own_values;
     mutable std::vector<char>   is_needed;
   };
 } // namespace Ricochet
