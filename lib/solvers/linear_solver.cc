@@ -139,11 +139,13 @@ namespace Ricochet
     parameters.add_parameter(
       "Condense to contact",
       condense,
-      "Linear bodies with Type = corrected before planes at rest, with treatments "
-      "whose forces are functions of gaps, pressures and slips in points (not active "
-      "sets): Newton's method looks at these alone and the body is solved for twice "
-      "in each stage of a time step, instead of twice in each iteration. Results are "
-      "the same to the tolerance of Newton's method.");
+      "With Type = corrected before planes at rest, with treatments whose forces are "
+      "functions of gaps, pressures and slips in points (not active sets): Newton's "
+      "method looks at these alone. A linear body is solved for twice in each stage of "
+      "a time step, instead of twice in each iteration; for one that is not linear, "
+      "the tangent at the last state serves in all iterations of a step, which are more "
+      "and much cheaper, and Newton's method takes over where they are too slow. "
+      "Results are the same to the tolerance of Newton's method.");
     parameters.leave_subsection();
   }
 
