@@ -31,6 +31,13 @@ namespace Ricochet
       : parameters(parameters)
     {}
 
+    /// Not where a new tangent is asked for in each iteration.
+    bool
+    is_allowed() const
+    {
+      return parameters.reuse_tangent_below > 0.;
+    }
+
     /**
      * Solve @p problem, from @p solution to @p solution, to the tolerance of Newton's
      * method; the first iterate should be where T was made, as that is.

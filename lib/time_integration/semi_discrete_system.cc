@@ -290,7 +290,8 @@ namespace Ricochet
       contact.begin_stage(start, stage.contact_weight_new);
       do
         {
-          if (linear_solver.condenses())
+          if (linear_solver.condenses() &&
+              (bulk.is_linear() || quasi_newton.is_allowed()))
             {
               try
                 {
