@@ -42,9 +42,9 @@ namespace Ricochet
     /// direction i and component (k, l), F_ik gradient_l (+ F_il gradient_k).
     template <int dim>
     void
-    node_strains(const Tensor<2, dim> &f,
-                 const Tensor<1, dim> &gradient,
-                 double               *strains)
+    node_strains(const Tensor<2, dim, Lanes> &f,
+                 const Tensor<1, dim, Lanes> &gradient,
+                 Lanes                       *strains)
     {
       constexpr auto indices = component_indices<dim>();
       for (unsigned int i = 0; i < dim; ++i)
@@ -87,9 +87,16 @@ namespace Ricochet
     n_points = quadrature.size();
     n_nodes  = element.n_dofs_per_cell() / dim;
 
-    const auto &map = ghosted_new.trilinos_vector().Map();
-    std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
-    std::vector<double>                  cell_diameters;
+    const unsigned int n   = dim * n_nodes;
+    const auto        &map = ghosted_new.trilinos_vector().Map();
+    struct Cell
+    {
+      typename DoFHandler<dim>::active_cell_iterator iterator;
+      unsigned int                                   part;
+      std::vector<int>                               ghosted, owned;
+    };
+    std::vector<Cell>                    cells;
+    std::vector<types::global_dof_index> indices(n);
     for (const auto &cell : body.dof_handler().active_cell_iterators())
       {
         if (cell->is_artificial())
@@ -106,36 +113,80 @@ namespace Ricochet
         if (!touches_owned_rows && !cell->is_locally_owned())
           continue;
 
-        ++n_cells;
-        cell_is_owned.push_back(cell->is_locally_owned());
-        cell_part.push_back(body.part(cell, materials.size()));
-        cell_centers.push_back(cell->center());
-        cell_diameters.push_back(cell->diameter());
+        Cell own{cell, body.part(cell, materials.size()), {}, {}};
         for (unsigned int a = 0; a < n_nodes; ++a)
           for (unsigned int c = 0; c < dim; ++c)
             {
               const auto index =
                 indices[element.component_to_system_index(c, a)];
-              ghosted_index.push_back(
+              own.ghosted.push_back(
                 map.LID(static_cast<TrilinosWrappers::types::int_type>(index)));
-              owned_index.push_back(
+              own.owned.push_back(
                 body.owned_indices().is_element(index)
                   ? static_cast<int>(
                       body.owned_indices().index_within_set(index))
                   : -1);
             }
-        fe_values.reinit(cell);
-        for (unsigned int q = 0; q < n_points; ++q)
+        cells.push_back(std::move(own));
+      }
+    // A batch has one material.
+    std::stable_sort(cells.begin(),
+                     cells.end(),
+                     [](const Cell &a, const Cell &b) {
+                       return a.part < b.part;
+                     });
+    for (const Cell &cell : cells)
+      cell_centers.push_back(cell.iterator->center());
+
+    constexpr unsigned int n_lanes = Lanes::size();
+    for (unsigned int first = 0; first < cells.size(); ++n_batches)
+      {
+        unsigned int end = first + 1;
+        while (end < cells.size() && end < first + n_lanes &&
+               cells[end].part == cells[first].part)
+          ++end;
+        batch_part.push_back(cells[first].part);
+        auto &numbers = batch_cells.emplace_back();
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          numbers[lane] = std::min(first + lane, end - 1);
+        for (unsigned int k = 0; k < n; ++k)
+          for (unsigned int lane = 0; lane < n_lanes; ++lane)
+            {
+              const Cell &cell = cells[numbers[lane]];
+              ghosted_index.push_back(cell.ghosted[k]);
+              owned_index.push_back(first + lane < end ? cell.owned[k] : -1);
+            }
+        const std::size_t first_point = jxw.size();
+        jxw.resize(first_point + n_points);
+        owned_jxw.resize(first_point + n_points);
+        shape_gradients.resize((first_point + n_points) * n_nodes);
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
           {
-            jxw.push_back(fe_values.JxW(q));
-            for (unsigned int a = 0; a < n_nodes; ++a)
-              shape_gradients.push_back(
-                fe_values.shape_grad(element.component_to_system_index(0, a),
-                                     q));
+            const Cell &cell = cells[numbers[lane]];
+            fe_values.reinit(cell.iterator);
+            for (unsigned int q = 0; q < n_points; ++q)
+              {
+                const std::size_t point = first_point + q;
+                jxw[point][lane] = first + lane < end ? fe_values.JxW(q) : 0.;
+                owned_jxw[point][lane] =
+                  cell.iterator->is_locally_owned() ? jxw[point][lane] : 0.;
+                for (unsigned int a = 0; a < n_nodes; ++a)
+                  {
+                    const Tensor<1, dim> gradient =
+                      fe_values.shape_grad(element.component_to_system_index(0,
+                                                                             a),
+                                           q);
+                    for (unsigned int d = 0; d < dim; ++d)
+                      shape_gradients[point * n_nodes + a][d][lane] =
+                        gradient[d];
+                  }
+              }
           }
+        first = end;
       }
 
-    const unsigned int n = dim * n_nodes;
+    cell_old.resize(n);
+    cell_change.resize(n);
     cell_vector.resize(n);
     cell_matrix.resize(n * n);
     test_strains.resize(n * n_components<dim>);
@@ -154,10 +205,10 @@ namespace Ricochet
     // diameter.
     double              square = 0.;
     std::vector<double> diameter(body.owned_indices().n_elements(), 0.);
-    for (unsigned int k = 0; k < owned_index.size(); ++k)
-      if (owned_index[k] >= 0)
-        diameter[owned_index[k]] =
-          std::max(diameter[owned_index[k]], cell_diameters[k / n]);
+    for (const Cell &cell : cells)
+      for (const int row : cell.owned)
+        if (row >= 0)
+          diameter[row] = std::max(diameter[row], cell.iterator->diameter());
     const auto &epetra = matrix.trilinos_matrix();
     for (int row = 0; row < epetra.NumMyRows(); ++row)
       {
@@ -187,31 +238,83 @@ namespace Ricochet
     const int error = epetra.ExtractCrsDataPointers(row_begin, columns, values);
     AssertThrow(error == 0, ExcTrilinosError(error));
 
-    const unsigned int n   = dim * n_nodes;
-    const auto        &map = ghosted_new.trilinos_vector().Map();
-    std::vector<int>   local_column(n);
-    matrix_entry.reserve(n_cells * n * n);
-    for (unsigned int cell = 0; cell < n_cells; ++cell)
-      {
-        for (unsigned int i = 0; i < n; ++i)
-          local_column[i] = epetra.LCID(map.GID(ghosted_index[cell * n + i]));
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
+    constexpr unsigned int n_lanes = Lanes::size();
+    const unsigned int     n       = dim * n_nodes;
+    const auto            &map     = ghosted_new.trilinos_vector().Map();
+    matrix_entry.reserve(n_batches * n * n * n_lanes);
+    for (unsigned int batch = 0; batch < n_batches; ++batch)
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int lane = 0; lane < n_lanes; ++lane)
             {
-              const int row = owned_index[cell * n + i];
+              const int row = owned_index[(batch * n + i) * n_lanes + lane];
               if (row < 0)
                 {
                   matrix_entry.push_back(-1);
                   continue;
                 }
+              const int column = epetra.LCID(
+                map.GID(ghosted_index[(batch * n + j) * n_lanes + lane]));
               const int *entry = std::find(columns + row_begin[row],
                                            columns + row_begin[row + 1],
-                                           local_column[j]);
+                                           column);
               AssertThrow(entry != columns + row_begin[row + 1],
                           ExcMessage("The sparsity pattern has no such "
                                      "entry."));
               matrix_entry.push_back(entry - columns);
             }
+  }
+
+
+
+  template <int dim>
+  void
+  HyperelasticBulk<dim>::import_ghosts(const Vector &old_solution,
+                                       const Vector &new_solution) const
+  {
+    const Epetra_BlockMap &map = ghosted_old.trilinos_vector().Map();
+    if (!import)
+      import =
+        std::make_unique<Epetra_Import>(map,
+                                        old_solution.trilinos_vector().Map());
+    const auto fill = [&](const Vector &from, Vector &to) {
+      const int error =
+        to.trilinos_vector().Import(from.trilinos_vector(), *import, Insert);
+      AssertThrow(error == 0, ExcTrilinosError(error));
+    };
+    fill(old_solution, ghosted_old);
+    fill(new_solution, ghosted_new);
+  }
+
+
+
+  template <int dim>
+  void
+  HyperelasticBulk<dim>::gather(const unsigned int batch) const
+  {
+    constexpr unsigned int n_lanes    = Lanes::size();
+    const double          *old_values = ghosted_old.trilinos_vector()[0];
+    const double          *new_values = ghosted_new.trilinos_vector()[0];
+    const int *index = &ghosted_index[batch * n_nodes * dim * n_lanes];
+
+    // Relative to the first node, since the gradients of all shape functions
+    // sum up to zero: far from where it started, the displacement of a body is
+    // much larger than its differences.
+    for (unsigned int k = 0; k < n_nodes * dim; ++k)
+      {
+        Lanes value;
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          {
+            const int i          = index[k * n_lanes + lane];
+            value[lane]          = old_values[i];
+            cell_change[k][lane] = new_values[i] - old_values[i];
+          }
+        cell_old[k] = value;
+      }
+    for (unsigned int k = n_nodes * dim; k-- > dim;)
+      {
+        cell_old[k] -= cell_old[k % dim];
+        cell_change[k] -= cell_change[k % dim];
       }
   }
 
@@ -219,39 +322,64 @@ namespace Ricochet
 
   template <int dim>
   void
-  HyperelasticBulk<dim>::deformation(const unsigned int cell,
+  HyperelasticBulk<dim>::deformation(const unsigned int batch,
                                      const unsigned int q,
-                                     Tensor<2, dim>    &old_f,
-                                     Tensor<2, dim>    &difference) const
+                                     Gradient          &old_f,
+                                     Gradient          &difference) const
   {
-    const double         *old_values = ghosted_old.trilinos_vector()[0];
-    const double         *new_values = ghosted_new.trilinos_vector()[0];
-    const Tensor<1, dim> *gradients =
-      &shape_gradients[(cell * n_points + q) * n_nodes];
-    const int *index = &ghosted_index[cell * n_nodes * dim];
-
-    // Relative to the first node, since the gradients of all shape functions
-    // sum up to zero: far from where it started, the displacement of a body is
-    // much larger than its differences.
-    old_f      = unit_symmetric_tensor<dim>();
-    difference = 0.;
+    const Tensor<1, dim, Lanes> *gradients =
+      &shape_gradients[(batch * n_points + q) * n_nodes];
     for (unsigned int i = 0; i < dim; ++i)
-      {
-        const double old_first    = old_values[index[i]];
-        const double first_change = new_values[index[i]] - old_first;
-        for (unsigned int a = 1; a < n_nodes; ++a)
-          {
-            const double old_value = old_values[index[a * dim + i]];
-            const double change    = new_values[index[a * dim + i]] - old_value;
-            old_f[i] += (old_value - old_first) * gradients[a];
-            difference[i] += (change - first_change) * gradients[a];
-          }
-      }
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          Lanes old_sum(i == d ? 1. : 0.), sum(0.);
+          for (unsigned int a = 1; a < n_nodes; ++a)
+            {
+              old_sum += cell_old[a * dim + i] * gradients[a][d];
+              sum += cell_change[a * dim + i] * gradients[a][d];
+            }
+          old_f[i][d]      = old_sum;
+          difference[i][d] = sum;
+        }
   }
 
 
 
   template <int dim>
+  Lanes
+  HyperelasticBulk<dim>::mend(const unsigned int batch,
+                              Gradient          &old_f,
+                              Gradient          &difference) const
+  {
+    const Lanes det = determinant(Gradient(old_f + difference));
+    for (unsigned int lane = 0; lane < Lanes::size(); ++lane)
+      if (!std::isnan(smallest_determinant) &&
+          !(det[lane] >= smallest_determinant))
+        {
+          smallest_determinant = det[lane];
+          worst_cell           = batch_cells[batch][lane];
+        }
+    Lanes exists(1.);
+    bool  all_exist = true;
+    for (unsigned int lane = 0; lane < Lanes::size(); ++lane)
+      if (!(det[lane] > flat))
+        {
+          all_exist    = false;
+          exists[lane] = 0.;
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                old_f[i][d][lane]      = i == d ? 1. : 0.;
+                difference[i][d][lane] = 0.;
+              }
+        }
+    return all_exist ? Lanes(1.) : exists;
+  }
+
+
+
+  template <int dim>
+  template <typename StressFunction>
   void
   HyperelasticBulk<dim>::assemble_force(const double          new_weight,
                                         const StressFunction &stress_function,
@@ -259,54 +387,52 @@ namespace Ricochet
                                         const Vector         &new_solution,
                                         Vector               &force) const
   {
-    ghosted_old    = old_solution;
-    ghosted_new    = new_solution;
+    import_ghosts(old_solution, new_solution);
     force          = 0.;
     double *values = force.trilinos_vector()[0];
 
-    const unsigned int n = dim * n_nodes;
-    Tensor<2, dim>     old_f, difference_f;
-    Symmetric2         stress;
+    constexpr unsigned int n_lanes = Lanes::size();
+    const unsigned int     n       = dim * n_nodes;
+    Gradient               old_f, difference_f;
+    Symmetric2             stress;
     smallest_determinant = std::numeric_limits<double>::max();
-    for (unsigned int cell = 0; cell < n_cells; ++cell)
+    for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
-        std::fill(cell_vector.begin(), cell_vector.end(), 0.);
+        const Material<dim> &material = materials[batch_part[batch]];
+        gather(batch);
+        std::fill(cell_vector.begin(), cell_vector.end(), Lanes(0.));
         for (unsigned int q = 0; q < n_points; ++q)
           {
-            deformation(cell, q, old_f, difference_f);
-            const double det = determinant(old_f + difference_f);
-            if (!std::isnan(smallest_determinant) &&
-                !(det >= smallest_determinant))
-              {
-                smallest_determinant = det;
-                worst_cell           = cell;
-              }
-            if (!(det > flat))
-              continue;
+            deformation(batch, q, old_f, difference_f);
+            const Lanes exists = mend(batch, old_f, difference_f);
 
             // C_new - C_old = 2 sym(F_mean^T (F_new - F_old)), without
             // cancellation.
-            const Tensor<2, dim> mean_f = old_f + .5 * difference_f;
-            stress_function(materials[cell_part[cell]],
-                            symmetrize(transpose(old_f) * old_f),
-                            2. * symmetrize(transpose(mean_f) * difference_f),
+            const Gradient mean_f = old_f + Lanes(.5) * difference_f;
+            stress_function(material,
+                            Symmetric2(symmetrize(transpose(old_f) * old_f)),
+                            Symmetric2(
+                              Lanes(2.) *
+                              symmetrize(transpose(mean_f) * difference_f)),
                             stress,
                             nullptr);
-            const Tensor<2, dim> test_f = old_f + new_weight * difference_f;
-            const double         weight = jxw[cell * n_points + q];
-            const Tensor<2, dim> first_piola_kirchhoff =
-              weight * (test_f * Tensor<2, dim>(stress));
+            const Gradient test_f = old_f + Lanes(new_weight) * difference_f;
+            const Lanes    weight = exists * jxw[batch * n_points + q];
+            const Gradient first_piola_kirchhoff =
+              weight * (test_f * Gradient(stress));
             for (unsigned int a = 0; a < n_nodes; ++a)
               {
-                const Tensor<1, dim> node_force = first_piola_kirchhoff *
-                  shape_gradients[(cell * n_points + q) * n_nodes + a];
+                const Tensor<1, dim, Lanes> node_force = first_piola_kirchhoff *
+                  shape_gradients[(batch * n_points + q) * n_nodes + a];
                 for (unsigned int i = 0; i < dim; ++i)
                   cell_vector[a * dim + i] += node_force[i];
               }
           }
+        const int *index = &owned_index[batch * n * n_lanes];
         for (unsigned int i = 0; i < n; ++i)
-          if (owned_index[cell * n + i] >= 0)
-            values[owned_index[cell * n + i]] += cell_vector[i];
+          for (unsigned int lane = 0; lane < n_lanes; ++lane)
+            if (index[i * n_lanes + lane] >= 0)
+              values[index[i * n_lanes + lane]] += cell_vector[i][lane];
       }
 
     if (!(smallest_determinant > flat) && force.locally_owned_size() > 0)
@@ -316,6 +442,7 @@ namespace Ricochet
 
 
   template <int dim>
+  template <typename StressFunction>
   void
   HyperelasticBulk<dim>::add_matrix(const double          factor,
                                     const double          new_weight,
@@ -324,8 +451,7 @@ namespace Ricochet
                                     const Vector         &new_solution,
                                     Matrix               &tangent) const
   {
-    ghosted_old         = old_solution;
-    ghosted_new         = new_solution;
+    import_ghosts(old_solution, new_solution);
     int      *row_begin = nullptr, *columns = nullptr;
     double   *values = nullptr;
     const int error =
@@ -336,24 +462,29 @@ namespace Ricochet
 
     constexpr auto         indices = component_indices<dim>();
     constexpr unsigned int n_c     = n_components<dim>;
+    constexpr unsigned int n_lanes = Lanes::size();
     const unsigned int     n       = dim * n_nodes;
-    Tensor<2, dim>         old_f, difference_f;
+    Gradient               old_f, difference_f;
     Symmetric2             stress;
     Symmetric4             stress_derivative;
-    double                 moduli[n_c][n_c];
-    for (unsigned int cell = 0; cell < n_cells; ++cell)
+    Lanes                  moduli[n_c][n_c];
+    for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
-        std::fill(cell_matrix.begin(), cell_matrix.end(), 0.);
+        const Material<dim> &material = materials[batch_part[batch]];
+        gather(batch);
+        std::fill(cell_matrix.begin(), cell_matrix.end(), Lanes(0.));
         for (unsigned int q = 0; q < n_points; ++q)
           {
-            deformation(cell, q, old_f, difference_f);
-            const Tensor<2, dim> mean_f = old_f + .5 * difference_f;
-            stress_function(materials[cell_part[cell]],
-                            symmetrize(transpose(old_f) * old_f),
-                            2. * symmetrize(transpose(mean_f) * difference_f),
+            deformation(batch, q, old_f, difference_f);
+            const Gradient mean_f = old_f + Lanes(.5) * difference_f;
+            stress_function(material,
+                            Symmetric2(symmetrize(transpose(old_f) * old_f)),
+                            Symmetric2(
+                              Lanes(2.) *
+                              symmetrize(transpose(mean_f) * difference_f)),
                             stress,
                             &stress_derivative);
-            const double weight = factor * jxw[cell * n_points + q];
+            const Lanes weight = factor * jxw[batch * n_points + q];
             for (unsigned int c = 0; c < n_c; ++c)
               for (unsigned int d = 0; d < n_c; ++d)
                 moduli[c][d] = 2. * weight *
@@ -361,23 +492,23 @@ namespace Ricochet
                                    [indices[d][1]];
 
             // dC = F_new^T dF + dF^T F_new.
-            const Tensor<2, dim>  new_f  = old_f + difference_f;
-            const Tensor<2, dim>  test_f = old_f + new_weight * difference_f;
-            const Tensor<1, dim> *gradients =
-              &shape_gradients[(cell * n_points + q) * n_nodes];
+            const Gradient new_f  = old_f + difference_f;
+            const Gradient test_f = old_f + Lanes(new_weight) * difference_f;
+            const Tensor<1, dim, Lanes> *gradients =
+              &shape_gradients[(batch * n_points + q) * n_nodes];
             for (unsigned int a = 0; a < n_nodes; ++a)
               {
-                node_strains(test_f,
-                             gradients[a],
-                             &test_strains[a * dim * n_c]);
-                node_strains(new_f,
-                             gradients[a],
-                             &trial_strains[a * dim * n_c]);
+                node_strains<dim>(test_f,
+                                  gradients[a],
+                                  &test_strains[a * dim * n_c]);
+                node_strains<dim>(new_f,
+                                  gradients[a],
+                                  &trial_strains[a * dim * n_c]);
               }
             for (unsigned int j = 0; j < n; ++j)
               for (unsigned int c = 0; c < n_c; ++c)
                 {
-                  double sum = 0.;
+                  Lanes sum(0.);
                   for (unsigned int d = 0; d < n_c; ++d)
                     sum += moduli[c][d] * trial_strains[j * n_c + d];
                   stress_columns[j * n_c + c] = sum;
@@ -385,59 +516,62 @@ namespace Ricochet
             for (unsigned int i = 0; i < n; ++i)
               for (unsigned int j = 0; j < n; ++j)
                 {
-                  double sum = 0.;
+                  Lanes sum = cell_matrix[i * n + j];
                   for (unsigned int c = 0; c < n_c; ++c)
                     sum +=
                       test_strains[i * n_c + c] * stress_columns[j * n_c + c];
-                  cell_matrix[i * n + j] += sum;
+                  cell_matrix[i * n + j] = sum;
                 }
 
             // The test gradient changes too: the geometric part.
             for (unsigned int a = 0; a < n_nodes; ++a)
               {
-                const Tensor<1, dim> stressed_gradient =
+                const Tensor<1, dim, Lanes> stressed_gradient =
                   new_weight * weight * (stress * gradients[a]);
                 for (unsigned int b = 0; b < n_nodes; ++b)
                   {
-                    const double geometric = stressed_gradient * gradients[b];
+                    const Lanes geometric = stressed_gradient * gradients[b];
                     for (unsigned int i = 0; i < dim; ++i)
                       cell_matrix[(a * dim + i) * n + b * dim + i] += geometric;
                   }
               }
           }
-        const int *entry = &matrix_entry[cell * n * n];
+        const int *entry = &matrix_entry[batch * n * n * n_lanes];
         for (unsigned int k = 0; k < n * n; ++k)
-          if (entry[k] >= 0)
-            values[entry[k]] += cell_matrix[k];
+          for (unsigned int lane = 0; lane < n_lanes; ++lane)
+            if (entry[k * n_lanes + lane] >= 0)
+              values[entry[k * n_lanes + lane]] += cell_matrix[k][lane];
       }
   }
 
 
 
   template <int dim>
+  template <typename Density>
   std::vector<double>
-  HyperelasticBulk<dim>::integrate(
-    const std::function<double(const Material<dim> &,
-                               const Symmetric2 &,
-                               const Symmetric2 &)> &density,
-    const Vector                                    &old_solution,
-    const Vector                                    &new_solution) const
+  HyperelasticBulk<dim>::integrate(const Density &density,
+                                   const Vector  &old_solution,
+                                   const Vector  &new_solution) const
   {
-    ghosted_old = old_solution;
-    ghosted_new = new_solution;
+    import_ghosts(old_solution, new_solution);
     std::vector<double> my_sums(materials.size(), 0.), sums(materials.size());
-    Tensor<2, dim>      old_f, difference_f;
-    for (unsigned int cell = 0; cell < n_cells; ++cell)
-      if (cell_is_owned[cell])
+    Gradient            old_f, difference_f;
+    for (unsigned int batch = 0; batch < n_batches; ++batch)
+      {
+        gather(batch);
         for (unsigned int q = 0; q < n_points; ++q)
           {
-            deformation(cell, q, old_f, difference_f);
-            const Tensor<2, dim> mean_f = old_f + .5 * difference_f;
-            my_sums[cell_part[cell]] += jxw[cell * n_points + q] *
-              density(materials[cell_part[cell]],
-                      symmetrize(transpose(old_f) * old_f),
-                      2. * symmetrize(transpose(mean_f) * difference_f));
+            deformation(batch, q, old_f, difference_f);
+            const Gradient mean_f = old_f + Lanes(.5) * difference_f;
+            const Lanes    part   = owned_jxw[batch * n_points + q] *
+              density(materials[batch_part[batch]],
+                      Symmetric2(symmetrize(transpose(old_f) * old_f)),
+                      Symmetric2(Lanes(2.) *
+                                 symmetrize(transpose(mean_f) * difference_f)));
+            for (unsigned int lane = 0; lane < Lanes::size(); ++lane)
+              my_sums[batch_part[batch]] += part[lane];
           }
+      }
     Utilities::MPI::sum(my_sums, communicator, sums);
     return sums;
   }
@@ -445,8 +579,8 @@ namespace Ricochet
 
 
   template <int dim>
-  typename HyperelasticBulk<dim>::StressFunction
-  HyperelasticBulk<dim>::collocation_stress() const
+  auto
+  HyperelasticBulk<dim>::collocation_stress()
   {
     return [](const Material<dim> &material,
               const Symmetric2    &old_c,
@@ -455,22 +589,23 @@ namespace Ricochet
               Symmetric4          *tangent) {
       if (tangent)
         {
-          material.hyperelastic->derivatives(old_c + difference,
-                                             stress,
-                                             *tangent);
-          *tangent *= 2.;
+          material.hyperelastic->template derivatives<Lanes>(old_c + difference,
+                                                             stress,
+                                                             *tangent);
+          *tangent *= Lanes(2.);
         }
       else
-        stress = material.hyperelastic->derivative(old_c + difference);
-      stress *= 2.;
+        stress =
+          material.hyperelastic->template derivative<Lanes>(old_c + difference);
+      stress *= Lanes(2.);
     };
   }
 
 
 
   template <int dim>
-  typename HyperelasticBulk<dim>::StressFunction
-  HyperelasticBulk<dim>::step_stress(const double time_step) const
+  auto
+  HyperelasticBulk<dim>::step_stress(const double time_step)
   {
     return [time_step](const Material<dim> &material,
                        const Symmetric2    &old_c,
@@ -569,7 +704,9 @@ namespace Ricochet
     return integrate(
       [](const Material<dim> &material,
          const Symmetric2    &c,
-         const Symmetric2 &) { return material.hyperelastic->energy(c); },
+         const Symmetric2 &) {
+        return material.hyperelastic->template energy<Lanes>(c);
+      },
       solution,
       solution);
   }
@@ -593,8 +730,8 @@ namespace Ricochet
                   const Symmetric2    &old_c,
                   const Symmetric2    &difference) {
         if (!material.viscosity.is_active())
-          return 0.;
-        return .5 *
+          return Lanes(0.);
+        return Lanes(.5) *
           (viscous_stress(*material.hyperelastic,
                           material.viscosity,
                           old_c,
@@ -615,12 +752,12 @@ namespace Ricochet
   {
     // The worst element of all ranks; all of them get the same text.
     std::vector<double> mine = {std::numeric_limits<double>::max()};
-    if (n_cells > 0)
+    if (n_batches > 0)
       mine[0] = std::isnan(smallest_determinant)
         ? -std::numeric_limits<double>::max()
         : smallest_determinant;
     for (unsigned int d = 0; d < dim; ++d)
-      mine.push_back(n_cells > 0 ? cell_centers[worst_cell][d] : 0.);
+      mine.push_back(n_batches > 0 ? cell_centers[worst_cell][d] : 0.);
     const auto all   = Utilities::MPI::all_gather(communicator, mine);
     const auto worst = *std::min_element(all.begin(), all.end());
     if (worst[0] > flat)

@@ -6,7 +6,12 @@
 #include <discretization/bulk_operator.h>
 #include <materials/material.h>
 
-#include <functional>
+#include <deal.II/base/aligned_vector.h>
+
+#include <Epetra_Import.h>
+
+#include <array>
+#include <memory>
 
 namespace Ricochet
 {
@@ -17,9 +22,10 @@ namespace Ricochet
    * Gonzalez' stress with the mean deformation gradient (papers A (3.7), B
    * (3.2)), and its tangent is the exact one, which is not symmetric.
    *
-   * Shape gradients and the places of all matrix entries are computed once. A
-   * rank assembles its own rows, from all cells that touch them, so that
-   * assembly needs no communication but for ghost values.
+   * Shape gradients and the places of all matrix entries are computed once. Cells go
+   * through all loops in batches, a cell to each lane of Lanes. A rank assembles its
+   * own rows, from all cells that touch them, so that assembly needs no
+   * communication but for ghost values.
    */
   template <int dim>
   class HyperelasticBulk : public BulkOperator
@@ -86,16 +92,12 @@ namespace Ricochet
     failure() const override;
 
   private:
-    using Symmetric2 = dealii::SymmetricTensor<2, dim>;
-    using Symmetric4 = dealii::SymmetricTensor<4, dim>;
+    using Gradient   = dealii::Tensor<2, dim, Lanes>;
+    using Symmetric2 = dealii::SymmetricTensor<2, dim, Lanes>;
+    using Symmetric4 = dealii::SymmetricTensor<4, dim, Lanes>;
 
-    /// Stress S and, if asked for, its derivative dS/dC at a point of a material,
-    /// from C_old and the difference of C.
-    using StressFunction = std::function<void(const Material<dim> &material,
-                                              const Symmetric2    &old_c,
-                                              const Symmetric2    &difference,
-                                              Symmetric2          &stress,
-                                              Symmetric4          *tangent)>;
+    // A StressFunction gives the stress S and, if asked for, its derivative dS/dC in
+    // points of a material, from C_old and the difference of C.
 
     void
     find_matrix_entries(const Matrix &matrix);
@@ -105,6 +107,7 @@ namespace Ricochet
      * (1 - @p new_weight) F_old + @p new_weight F_new. Not a number when an
      * element is turned inside out.
      */
+    template <typename StressFunction>
     void
     assemble_force(const double          new_weight,
                    const StressFunction &stress,
@@ -113,6 +116,7 @@ namespace Ricochet
                    Vector               &force) const;
 
     /// @p tangent += @p factor times the derivative of assemble_force().
+    template <typename StressFunction>
     void
     add_matrix(const double          factor,
                const double          new_weight,
@@ -123,50 +127,71 @@ namespace Ricochet
 
     /// Sum over the owned cells of @p density, a function of the material, C_old
     /// and the difference of C, on all ranks and for each part.
+    template <typename Density>
     std::vector<double>
-    integrate(const std::function<double(const Material<dim> &,
-                                         const Symmetric2 &,
-                                         const Symmetric2 &)> &density,
-              const Vector                                    &old_solution,
-              const Vector &new_solution) const;
+    integrate(const Density &density,
+              const Vector  &old_solution,
+              const Vector  &new_solution) const;
 
-    /// F_old and F_new - F_old in point @p q of @p cell, from the ghosted
-    /// vectors.
+    /// Fill the ghosted vectors.
     void
-    deformation(const unsigned int      cell,
-                const unsigned int      q,
-                dealii::Tensor<2, dim> &old_f,
-                dealii::Tensor<2, dim> &difference) const;
+    import_ghosts(const Vector &old_solution, const Vector &new_solution) const;
 
-    StressFunction
-    collocation_stress() const;
+    /// #cell_old and #cell_change of a batch, from the ghosted vectors.
+    void
+    gather(const unsigned int batch) const;
 
-    StressFunction
-    step_stress(const double time_step) const;
+    /// F_old and F_new - F_old in point @p q of @p batch, the last one of gather().
+    void
+    deformation(const unsigned int batch,
+                const unsigned int q,
+                Gradient          &old_f,
+                Gradient          &difference) const;
 
-    const std::vector<Material<dim>>    materials;
-    const MPI_Comm                      communicator;
-    double                              scale    = 0., round_off = 0.;
-    unsigned int                        n_cells  = 0;
-    unsigned int                        n_points = 0;
-    unsigned int                        n_nodes  = 0;
-    std::vector<char>                   cell_is_owned;
-    std::vector<unsigned int>           cell_part;
-    std::vector<dealii::Point<dim>>     cell_centers;
-    std::vector<dealii::Tensor<1, dim>> shape_gradients; // cell, point, node
-    std::vector<double>                 jxw;             // cell, point
+    /// Where elements are flat or turned inside out, which it remembers, take the body
+    /// at rest. @return 1 elsewhere.
+    Lanes
+    mend(const unsigned int batch, Gradient &old_f, Gradient &difference) const;
+
+    /// StressFunctions.
+    static auto
+    collocation_stress();
+
+    static auto
+    step_stress(const double time_step);
+
+    const std::vector<Material<dim>> materials;
+    const MPI_Comm                   communicator;
+    double                           scale = 0., round_off = 0.;
+    unsigned int                     n_batches = 0;
+    unsigned int                     n_points  = 0;
+    unsigned int                     n_nodes   = 0;
+    // By cell.
+    std::vector<dealii::Point<dim>> cell_centers;
+    // By batch: the part, and the cells; the last batch of a part may have some twice,
+    // without weight.
+    std::vector<unsigned int>                            batch_part;
+    std::vector<std::array<unsigned int, Lanes::size()>> batch_cells;
+    dealii::AlignedVector<dealii::Tensor<1, dim, Lanes>>
+                                 shape_gradients; // batch, point, node
+    dealii::AlignedVector<Lanes> jxw;             // batch, point
+    // The same in cells of this rank, and zero in those of others.
+    dealii::AlignedVector<Lanes> owned_jxw;
     // Local indices of the displacements of a cell, node by node, in vectors
-    // with ghost values and, -1 for other ranks', in vectors without.
+    // with ghost values and, -1 for other ranks', in vectors without; lanes innermost.
     std::vector<int> ghosted_index, owned_index;
     // Where the entry of two displacements of a cell lies in the values of the
     // matrix; -1 in rows of other ranks.
     std::vector<int> matrix_entry;
 
-    // Work space, so that nothing is allocated in a time step.
-    mutable Vector              ghosted_old, ghosted_new;
-    mutable std::vector<double> cell_vector, cell_matrix;
-    mutable std::vector<double> test_strains, trial_strains;
-    mutable std::vector<double> stress_columns;
+    // Work space, so that nothing is allocated in a time step: displacements of a batch
+    // relative to the first node, and their changes.
+    mutable Vector                         ghosted_old, ghosted_new;
+    mutable std::unique_ptr<Epetra_Import> import;
+    mutable dealii::AlignedVector<Lanes>   cell_old, cell_change;
+    mutable dealii::AlignedVector<Lanes>   cell_vector, cell_matrix;
+    mutable dealii::AlignedVector<Lanes>   test_strains, trial_strains;
+    mutable dealii::AlignedVector<Lanes>   stress_columns;
 
     // The worst element of the last loop: det F and cell.
     mutable double       smallest_determinant = 1.;

@@ -23,8 +23,10 @@ namespace Ricochet
   template <int dim>
   struct GonzalezStress
   {
-    using Symmetric2 = dealii::SymmetricTensor<2, dim>;
-    using Symmetric4 = dealii::SymmetricTensor<4, dim>;
+    template <typename Number>
+    using Symmetric2 = dealii::SymmetricTensor<2, dim, Number>;
+    template <typename Number>
+    using Symmetric4 = dealii::SymmetricTensor<4, dim, Number>;
 
     /// Frobenius norm of the difference of C below which the quotient is
     /// dropped. There it changes the stress by about 1e-14 of a modulus, and
@@ -32,53 +34,79 @@ namespace Ricochet
     static constexpr double threshold = 1e-7;
 
     /// S (Pa).
-    static Symmetric2
-    stress(const Hyperelastic<dim> &material,
-           const Symmetric2        &old_c,
-           const Symmetric2        &difference)
+    template <typename Number>
+    static Symmetric2<Number>
+    stress(const Hyperelastic<dim>  &material,
+           const Symmetric2<Number> &old_c,
+           const Symmetric2<Number> &difference)
     {
-      const Symmetric2 derivative =
-        material.derivative(old_c + .5 * difference);
-      const double square = difference * difference;
-      if (square < threshold * threshold)
-        return 2. * derivative;
-      const double quotient = (material.energy_difference(old_c, difference) -
-                               derivative * difference) /
-        square;
-      return 2. * (derivative + quotient * difference);
+      const Symmetric2<Number> derivative =
+        material.template derivative<Number>(old_c + Number(.5) * difference);
+      const Number quotient =
+        energy_quotient(material, old_c, difference, derivative);
+      return Number(2.) * (derivative + quotient * difference);
     }
 
     /// S (Pa) and its exact derivative with respect to C_new, which has no
     /// major symmetry.
+    template <typename Number>
     static void
-    stress_and_tangent(const Hyperelastic<dim> &material,
-                       const Symmetric2        &old_c,
-                       const Symmetric2        &difference,
-                       Symmetric2              &stress,
-                       Symmetric4              &tangent)
+    stress_and_tangent(const Hyperelastic<dim>  &material,
+                       const Symmetric2<Number> &old_c,
+                       const Symmetric2<Number> &difference,
+                       Symmetric2<Number>       &stress,
+                       Symmetric4<Number>       &tangent)
     {
-      Symmetric2 derivative;
-      Symmetric4 second_derivative;
-      material.derivatives(old_c + .5 * difference,
-                           derivative,
-                           second_derivative);
-      stress  = 2. * derivative;
+      Symmetric2<Number> derivative;
+      Symmetric4<Number> second_derivative;
+      material.template derivatives<Number>(old_c + Number(.5) * difference,
+                                            derivative,
+                                            second_derivative);
+      stress  = Number(2.) * derivative;
       tangent = second_derivative;
 
-      const double square = difference * difference;
-      if (square < threshold * threshold)
+      const Number square = difference * difference;
+      if (!is_less_somewhere(Number(threshold * threshold), square))
         return;
-      const double quotient = (material.energy_difference(old_c, difference) -
-                               derivative * difference) /
-        square;
-      const Symmetric2 quotient_derivative =
-        (material.derivative(old_c + difference) - derivative -
-         .5 * (second_derivative * difference) - 2. * quotient * difference) /
-        square;
-      stress += 2. * quotient * difference;
-      tangent += 2. *
-        (quotient * dealii::identity_tensor<dim>() +
+      const Number quotient =
+        energy_quotient(material, old_c, difference, derivative);
+      const Number             inverse_square      = inverse(square);
+      const Symmetric2<Number> quotient_derivative = inverse_square *
+        (material.template derivative<Number>(old_c + difference) - derivative -
+         Number(.5) * (second_derivative * difference) -
+         Number(2.) * quotient * difference);
+      stress += Number(2.) * quotient * difference;
+      tangent += Number(2.) *
+        (quotient * dealii::identity_tensor<dim, Number>() +
          outer_product(difference, quotient_derivative));
+    }
+
+  private:
+    /// 1/@p square, or 0 where the quotient is dropped.
+    template <typename Number>
+    static Number
+    inverse(const Number &square)
+    {
+      const Number smallest(threshold * threshold);
+      return where_less(square,
+                        smallest,
+                        Number(0.),
+                        1. / where_less(square, smallest, Number(1.), square));
+    }
+
+    template <typename Number>
+    static Number
+    energy_quotient(const Hyperelastic<dim>  &material,
+                    const Symmetric2<Number> &old_c,
+                    const Symmetric2<Number> &difference,
+                    const Symmetric2<Number> &derivative)
+    {
+      const Number square = difference * difference;
+      if (!is_less_somewhere(Number(threshold * threshold), square))
+        return Number(0.);
+      return (material.energy_difference(old_c, difference) -
+              derivative * difference) *
+        inverse(square);
     }
   };
 
@@ -90,32 +118,36 @@ namespace Ricochet
    * volume. If @p tangent is given, its derivative with respect to C_new is
    * added to it.
    */
-  template <int dim>
-  dealii::SymmetricTensor<2, dim>
-  viscous_stress(const Hyperelastic<dim>               &material,
-                 const Viscosity                       &viscosity,
-                 const dealii::SymmetricTensor<2, dim> &old_c,
-                 const dealii::SymmetricTensor<2, dim> &difference,
-                 const double                           time_step,
-                 dealii::SymmetricTensor<4, dim>       *tangent = nullptr)
+  template <int dim, typename Number>
+  dealii::SymmetricTensor<2, dim, Number>
+  viscous_stress(const Hyperelastic<dim>                       &material,
+                 const Viscosity                               &viscosity,
+                 const dealii::SymmetricTensor<2, dim, Number> &old_c,
+                 const dealii::SymmetricTensor<2, dim, Number> &difference,
+                 const double                                   time_step,
+                 dealii::SymmetricTensor<4, dim, Number> *tangent = nullptr)
   {
-    const double rate_factor = viscosity.eta / time_step;
+    const Number rate_factor(viscosity.eta / time_step);
+    const auto   identity = dealii::identity_tensor<dim, Number>();
     if (viscosity.law == Viscosity::Law::curnier)
       {
         if (tangent)
-          *tangent += 2. * rate_factor * dealii::identity_tensor<dim>();
+          *tangent += 2. * rate_factor * identity;
         return 2. * rate_factor * difference;
       }
 
-    dealii::SymmetricTensor<2, dim> trace_derivative;
-    const double                    factor =
-      material.trace(old_c + .5 * difference, trace_derivative) - 3.;
-    if (factor <= 0.)
-      return {};
+    dealii::SymmetricTensor<2, dim, Number> trace_derivative;
+    const Number                            unclipped =
+      material.template trace<Number>(old_c + Number(.5) * difference,
+                                      trace_derivative) -
+      3.;
+    const Number zero(0.), one(1.);
+    const Number factor = where_less(zero, unclipped, unclipped, zero);
+    const Number slope  = where_less(zero, unclipped, one, zero);
     if (tangent)
       *tangent += rate_factor *
-        (factor * dealii::identity_tensor<dim>() +
-         outer_product(difference, .5 * trace_derivative));
+        (factor * identity +
+         outer_product(difference, .5 * slope * trace_derivative));
     return rate_factor * factor * difference;
   }
 } // namespace Ricochet

@@ -9,9 +9,9 @@ namespace Ricochet
   {
     /// The invariants of C in dim dimensions: trace, (second in 3D),
     /// determinant.
-    template <int dim>
-    std::array<double, dim>
-    invariants_of(const SymmetricTensor<2, dim> &c)
+    template <int dim, typename Number>
+    std::array<Number, dim>
+    invariants_of(const SymmetricTensor<2, dim, Number> &c)
     {
       if constexpr (dim == 2)
         return {{dealii::trace(c), determinant(c)}};
@@ -20,23 +20,23 @@ namespace Ricochet
     }
 
     /// Their change from @p c to @p c + @p difference, without cancellation.
-    template <int dim>
-    std::array<double, dim>
-    invariants_difference(const SymmetricTensor<2, dim> &c,
-                          const SymmetricTensor<2, dim> &difference)
+    template <int dim, typename Number>
+    std::array<Number, dim>
+    invariants_difference(const SymmetricTensor<2, dim, Number> &c,
+                          const SymmetricTensor<2, dim, Number> &difference)
     {
-      const SymmetricTensor<2, dim> mean    = c + .5 * difference;
-      const double                  d_trace = dealii::trace(difference);
-      const double d_second = dealii::trace(mean) * d_trace - mean * difference;
+      const SymmetricTensor<2, dim, Number> mean = c + Number(.5) * difference;
+      const Number                          d_trace = dealii::trace(difference);
+      const Number d_second = dealii::trace(mean) * d_trace - mean * difference;
       // In 2D the second invariant is the determinant.
       if constexpr (dim == 2)
         return {{d_trace, d_second}};
       else
         {
-          const auto cofactor = [](const SymmetricTensor<2, dim> &a) {
-            return symmetrize(Tensor<2, dim>(a) * Tensor<2, dim>(a)) -
-              dealii::trace(a) * a +
-              second_invariant(a) * unit_symmetric_tensor<dim>();
+          using General       = Tensor<2, dim, Number>;
+          const auto cofactor = [](const SymmetricTensor<2, dim, Number> &a) {
+            return symmetrize(General(a) * General(a)) - dealii::trace(a) * a +
+              second_invariant(a) * unit_symmetric_tensor<dim, Number>();
           };
           return {{d_trace,
                    d_second,
@@ -46,8 +46,9 @@ namespace Ricochet
     }
 
     /// The invariants in three dimensions of a flat body.
-    Invariants<>
-    spatial(const double trace, const double determinant, const double c33)
+    template <typename Number>
+    Invariants<Number>
+    spatial(const Number &trace, const Number &determinant, const Number &c33)
     {
       return {trace + c33, determinant + trace * c33, determinant * c33};
     }
@@ -56,33 +57,37 @@ namespace Ricochet
 
 
   template <int dim>
-  double
-  Hyperelastic<dim>::c33(const double trace, const double determinant) const
+  template <typename Number>
+  Number
+  Hyperelastic<dim>::c33(const Number &trace, const Number &determinant) const
   {
     return plane_state == PlaneState::plane_strain
-      ? 1.
+      ? Number(1.)
       : law->plane_stress_c33(trace, determinant);
   }
 
 
 
   template <int dim>
-  double
-  Hyperelastic<dim>::energy(const Symmetric2 &c) const
+  template <typename Number>
+  Number
+  Hyperelastic<dim>::energy(const Symmetric2<Number> &c) const
   {
     const auto i = invariants_of(c);
     if constexpr (dim == 2)
       return law->energy(spatial(i[0], i[1], c33(i[0], i[1])));
     else
-      return law->energy({i[0], i[1], i[2]});
+      return law->energy(Invariants<Number>{i[0], i[1], i[2]});
   }
 
 
 
   template <int dim>
-  double
-  Hyperelastic<dim>::energy_difference(const Symmetric2 &old_c,
-                                       const Symmetric2 &difference) const
+  template <typename Number>
+  Number
+  Hyperelastic<dim>::energy_difference(
+    const Symmetric2<Number> &old_c,
+    const Symmetric2<Number> &difference) const
   {
     const auto i    = invariants_of(old_c);
     const auto diff = invariants_difference(old_c, difference);
@@ -90,30 +95,34 @@ namespace Ricochet
       {
         // The energy is stationary in C_33 in plane stress, so that the
         // cancellation in the difference of C_33 does no harm.
-        const double s   = c33(i[0], i[1]);
-        const double s_1 = c33(i[0] + diff[0], i[1] + diff[1]);
-        const double d_s = s_1 - s;
-        return law->energy_difference(spatial(i[0], i[1], s),
-                                      {diff[0] + d_s,
-                                       diff[1] + diff[0] * s_1 + i[0] * d_s,
-                                       diff[1] * s_1 + i[1] * d_s});
+        const Number s   = c33(i[0], i[1]);
+        const Number s_1 = c33<Number>(i[0] + diff[0], i[1] + diff[1]);
+        const Number d_s = s_1 - s;
+        return law->energy_difference(
+          spatial(i[0], i[1], s),
+          Invariants<Number>{diff[0] + d_s,
+                             diff[1] + diff[0] * s_1 + i[0] * d_s,
+                             diff[1] * s_1 + i[1] * d_s});
       }
     else
-      return law->energy_difference({i[0], i[1], i[2]},
-                                    {diff[0], diff[1], diff[2]});
+      return law->energy_difference(Invariants<Number>{i[0], i[1], i[2]},
+                                    Invariants<Number>{diff[0],
+                                                       diff[1],
+                                                       diff[2]});
   }
 
 
 
   template <int dim>
-  typename Hyperelastic<dim>::Reduced
-  Hyperelastic<dim>::reduce(const std::array<double, dim> &invariants,
+  template <typename Number>
+  typename Hyperelastic<dim>::template Reduced<Number>
+  Hyperelastic<dim>::reduce(const std::array<Number, dim> &invariants,
                             const bool                     with_hessian) const
   {
-    Reduced reduced;
+    Reduced<Number> reduced;
     if constexpr (dim == 3)
       {
-        const Invariants<> i{invariants[0], invariants[1], invariants[2]};
+        const Invariants<Number> i{invariants[0], invariants[1], invariants[2]};
         reduced.gradient = law->gradient(i);
         if (with_hessian)
           reduced.hessian = law->hessian(i);
@@ -122,8 +131,8 @@ namespace Ricochet
       {
         // With trace t, determinant b and s = C_33:
         // I1 = t + s, I2 = b + t s, I3 = b s.
-        const double t = invariants[0], b = invariants[1];
-        const double s   = c33(t, b);
+        const Number t = invariants[0], b = invariants[1];
+        const Number s   = c33(t, b);
         const auto   i   = spatial(t, b, s);
         const auto   g   = law->gradient(i);
         reduced.gradient = {{g[0] + s * g[1], g[1] + s * g[2]}};
@@ -131,13 +140,14 @@ namespace Ricochet
           return reduced;
 
         // Directions d(I1, I2, I3) along t, b and s.
-        const auto                  h       = law->hessian(i);
-        const std::array<double, 3> along_t = {{1., s, 0.}},
-                                    along_b = {{0., 1., s}},
-                                    along_s = {{1., t, b}};
-        const auto second = [&h](const std::array<double, 3> &x,
-                                 const std::array<double, 3> &y) {
-          double sum = 0.;
+        const auto                  h = law->hessian(i);
+        const Number                one(1.), zero(0.);
+        const std::array<Number, 3> along_t = {{one, s, zero}},
+                                    along_b = {{zero, one, s}},
+                                    along_s = {{one, t, b}};
+        const auto second = [&h](const std::array<Number, 3> &x,
+                                 const std::array<Number, 3> &y) {
+          Number sum(0.);
           for (unsigned int k = 0; k < 3; ++k)
             for (unsigned int l = 0; l < 3; ++l)
               sum += h[k][l] * x[k] * y[l];
@@ -149,9 +159,9 @@ namespace Ricochet
         reduced.hessian[1][1] = second(along_b, along_b);
         if (plane_state == PlaneState::plane_stress)
           {
-            const double ts = second(along_t, along_s) + g[1];
-            const double bs = second(along_b, along_s) + g[2];
-            const double ss = second(along_s, along_s);
+            const Number ts = second(along_t, along_s) + g[1];
+            const Number bs = second(along_b, along_s) + g[2];
+            const Number ss = second(along_s, along_s);
             reduced.hessian[0][0] -= ts * ts / ss;
             reduced.hessian[0][1] -= ts * bs / ss;
             reduced.hessian[1][0] -= ts * bs / ss;
@@ -167,31 +177,34 @@ namespace Ricochet
   namespace
   {
     /// dI/dC for each of the dim invariants.
-    template <int dim>
-    std::array<SymmetricTensor<2, dim>, dim>
-    invariant_gradients(const SymmetricTensor<2, dim> &c)
+    template <int dim, typename Number>
+    std::array<SymmetricTensor<2, dim, Number>, dim>
+    invariant_gradients(const SymmetricTensor<2, dim, Number> &c)
     {
-      const SymmetricTensor<2, dim> identity = unit_symmetric_tensor<dim>();
-      const SymmetricTensor<2, dim> second   = dealii::trace(c) * identity - c;
+      using General       = Tensor<2, dim, Number>;
+      const auto identity = unit_symmetric_tensor<dim, Number>();
+      const SymmetricTensor<2, dim, Number> second =
+        dealii::trace(c) * identity - c;
       if constexpr (dim == 2)
         return {{identity, second}};
       else
         return {{identity,
                  second,
-                 symmetrize(Tensor<2, dim>(c) * Tensor<2, dim>(c)) -
-                   dealii::trace(c) * c + second_invariant(c) * identity}};
+                 symmetrize(General(c) * General(c)) - dealii::trace(c) * c +
+                   second_invariant(c) * identity}};
     }
   } // namespace
 
 
 
   template <int dim>
-  SymmetricTensor<2, dim>
-  Hyperelastic<dim>::derivative(const Symmetric2 &c) const
+  template <typename Number>
+  SymmetricTensor<2, dim, Number>
+  Hyperelastic<dim>::derivative(const Symmetric2<Number> &c) const
   {
-    const Reduced reduced   = reduce(invariants_of(c), false);
-    const auto    gradients = invariant_gradients(c);
-    Symmetric2    result;
+    const auto         reduced   = reduce<Number>(invariants_of(c), false);
+    const auto         gradients = invariant_gradients(c);
+    Symmetric2<Number> result;
     for (unsigned int k = 0; k < dim; ++k)
       result += reduced.gradient[k] * gradients[k];
     return result;
@@ -200,42 +213,42 @@ namespace Ricochet
 
 
   template <int dim>
+  template <typename Number>
   void
-  Hyperelastic<dim>::derivatives(const Symmetric2 &c,
-                                 Symmetric2       &first,
-                                 Symmetric4       &second) const
+  Hyperelastic<dim>::derivatives(const Symmetric2<Number> &c,
+                                 Symmetric2<Number>       &first,
+                                 Symmetric4<Number>       &second) const
   {
-    const Reduced reduced   = reduce(invariants_of(c), true);
-    const auto    gradients = invariant_gradients(c);
-    first                   = Symmetric2();
-    second                  = Symmetric4();
+    const auto reduced   = reduce<Number>(invariants_of(c), true);
+    const auto gradients = invariant_gradients(c);
+    first                = Symmetric2<Number>();
+    second               = Symmetric4<Number>();
     for (unsigned int k = 0; k < dim; ++k)
       {
         first += reduced.gradient[k] * gradients[k];
         for (unsigned int l = 0; l < dim; ++l)
-          if (reduced.hessian[k][l] != 0.)
-            second +=
-              reduced.hessian[k][l] * outer_product(gradients[k], gradients[l]);
+          second +=
+            reduced.hessian[k][l] * outer_product(gradients[k], gradients[l]);
       }
     // The second derivative of the second invariant (in 2D the determinant) is
     // constant,
-    const Symmetric2 identity = unit_symmetric_tensor<dim>();
+    const auto identity = unit_symmetric_tensor<dim, Number>();
     second += reduced.gradient[1] *
-      (outer_product(identity, identity) - identity_tensor<dim>());
+      (outer_product(identity, identity) - identity_tensor<dim, Number>());
     // that of the determinant in 3D is linear: of C^2 - tr(C) C + I2 1.
     if constexpr (dim == 3)
       {
-        Symmetric4 curvature = outer_product(identity, gradients[1]) -
+        Symmetric4<Number> curvature = outer_product(identity, gradients[1]) -
           outer_product(c, identity) -
-          dealii::trace(c) * identity_tensor<dim>();
+          dealii::trace(c) * identity_tensor<dim, Number>();
         // d(C^2) = dC C + C dC, symmetrised in both pairs of indices.
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = i; j < dim; ++j)
             for (unsigned int k = 0; k < dim; ++k)
               for (unsigned int l = k; l < dim; ++l)
-                curvature[i][j][k][l] += .5 *
-                  ((i == k) * c[l][j] + (i == l) * c[k][j] +
-                   (j == k) * c[l][i] + (j == l) * c[k][i]);
+                curvature[i][j][k][l] += (i == k ? .5 : 0.) * c[l][j] +
+                  (i == l ? .5 : 0.) * c[k][j] + (j == k ? .5 : 0.) * c[l][i] +
+                  (j == l ? .5 : 0.) * c[k][i];
         second += reduced.gradient[2] * curvature;
       }
   }
@@ -243,14 +256,16 @@ namespace Ricochet
 
 
   template <int dim>
-  double
-  Hyperelastic<dim>::trace(const Symmetric2 &c, Symmetric2 &derivative) const
+  template <typename Number>
+  Number
+  Hyperelastic<dim>::trace(const Symmetric2<Number> &c,
+                           Symmetric2<Number>       &derivative) const
   {
-    derivative = unit_symmetric_tensor<dim>();
+    derivative = unit_symmetric_tensor<dim, Number>();
     if constexpr (dim == 2)
       {
         const auto i         = invariants_of(c);
-        const auto reduced   = reduce(i, true);
+        const auto reduced   = reduce<Number>(i, true);
         const auto gradients = invariant_gradients(c);
         for (unsigned int k = 0; k < dim; ++k)
           derivative += reduced.c33_gradient[k] * gradients[k];
@@ -267,7 +282,7 @@ namespace Ricochet
   Hyperelastic<dim>::cauchy_stress(
     const Tensor<2, dim> &deformation_gradient) const
   {
-    const Symmetric2 c =
+    const Symmetric2<double> c =
       symmetrize(transpose(deformation_gradient) * deformation_gradient);
     // The volume ratio of a flat body includes its thickness.
     double volume_ratio = determinant(deformation_gradient);
@@ -289,8 +304,8 @@ namespace Ricochet
   Hyperelastic<dim>::spatial_cauchy_stress(
     const Tensor<2, dim> &deformation_gradient) const
   {
-    const Symmetric2      in_plane = cauchy_stress(deformation_gradient);
-    SymmetricTensor<2, 3> stress;
+    const Symmetric2<double> in_plane = cauchy_stress(deformation_gradient);
+    SymmetricTensor<2, 3>    stress;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = i; j < dim; ++j)
         stress[i][j] = in_plane[i][j];
@@ -311,4 +326,27 @@ namespace Ricochet
 
   template class Hyperelastic<2>;
   template class Hyperelastic<3>;
+
+#define INSTANTIATE(dim, Number)                                \
+  template Number Hyperelastic<dim>::energy<Number>(            \
+    const SymmetricTensor<2, dim, Number> &) const;             \
+  template Number Hyperelastic<dim>::energy_difference<Number>( \
+    const SymmetricTensor<2, dim, Number> &,                    \
+    const SymmetricTensor<2, dim, Number> &) const;             \
+  template SymmetricTensor<2, dim, Number>                      \
+  Hyperelastic<dim>::derivative<Number>(                        \
+    const SymmetricTensor<2, dim, Number> &) const;             \
+  template void Hyperelastic<dim>::derivatives<Number>(         \
+    const SymmetricTensor<2, dim, Number> &,                    \
+    SymmetricTensor<2, dim, Number> &,                          \
+    SymmetricTensor<4, dim, Number> &) const;                   \
+  template Number Hyperelastic<dim>::trace<Number>(             \
+    const SymmetricTensor<2, dim, Number> &,                    \
+    SymmetricTensor<2, dim, Number> &) const;
+
+  INSTANTIATE(2, double)
+  INSTANTIATE(2, Lanes)
+  INSTANTIATE(3, double)
+  INSTANTIATE(3, Lanes)
+#undef INSTANTIATE
 } // namespace Ricochet

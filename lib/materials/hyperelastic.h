@@ -26,8 +26,10 @@ namespace Ricochet
   class Hyperelastic
   {
   public:
-    using Symmetric2 = dealii::SymmetricTensor<2, dim>;
-    using Symmetric4 = dealii::SymmetricTensor<4, dim>;
+    template <typename Number>
+    using Symmetric2 = dealii::SymmetricTensor<2, dim, Number>;
+    template <typename Number>
+    using Symmetric4 = dealii::SymmetricTensor<4, dim, Number>;
 
     /// @param plane_state not used in 3D.
     Hyperelastic(std::shared_ptr<const HyperelasticLaw> law,
@@ -36,32 +38,40 @@ namespace Ricochet
       , plane_state(plane_state)
     {}
 
+    // Number is double, or Lanes for several points at once.
+
     /// W (J/m^dim).
-    double
-    energy(const Symmetric2 &right_cauchy_green) const;
+    template <typename Number>
+    Number
+    energy(const Symmetric2<Number> &right_cauchy_green) const;
 
     /// W(@p old_c + @p difference) - W(@p old_c), free of cancellation.
-    double
-    energy_difference(const Symmetric2 &old_c,
-                      const Symmetric2 &difference) const;
+    template <typename Number>
+    Number
+    energy_difference(const Symmetric2<Number> &old_c,
+                      const Symmetric2<Number> &difference) const;
 
     /// dW/dC (Pa), half of the second Piola-Kirchhoff stress.
-    Symmetric2
-    derivative(const Symmetric2 &right_cauchy_green) const;
+    template <typename Number>
+    Symmetric2<Number>
+    derivative(const Symmetric2<Number> &right_cauchy_green) const;
 
     /// dW/dC and d2W/dC2 (Pa).
+    template <typename Number>
     void
-    derivatives(const Symmetric2 &right_cauchy_green,
-                Symmetric2       &first,
-                Symmetric4       &second) const;
+    derivatives(const Symmetric2<Number> &right_cauchy_green,
+                Symmetric2<Number>       &first,
+                Symmetric4<Number>       &second) const;
 
     /// The trace of C in three dimensions and its derivative with respect to C,
     /// for Pioletti's viscosity.
-    double
-    trace(const Symmetric2 &right_cauchy_green, Symmetric2 &derivative) const;
+    template <typename Number>
+    Number
+    trace(const Symmetric2<Number> &right_cauchy_green,
+          Symmetric2<Number>       &derivative) const;
 
     /// Cauchy stress (Pa).
-    Symmetric2
+    Symmetric2<double>
     cauchy_stress(const dealii::Tensor<2, dim> &deformation_gradient) const;
 
     /// Cauchy stress (Pa) with the components out of the plane in 2D; in 1D there
@@ -72,20 +82,23 @@ namespace Ricochet
 
   private:
     /// C_33 in 2D.
-    double
-    c33(const double trace, const double determinant) const;
+    template <typename Number>
+    Number
+    c33(const Number &trace, const Number &determinant) const;
 
     /// The derivatives of the (reduced) energy with respect to its dim
     /// invariants, and of C_33.
+    template <typename Number>
     struct Reduced
     {
-      std::array<double, dim>                  gradient{};
-      std::array<std::array<double, dim>, dim> hessian{};
-      std::array<double, dim>                  c33_gradient{};
+      std::array<Number, dim>                  gradient{};
+      std::array<std::array<Number, dim>, dim> hessian{};
+      std::array<Number, dim>                  c33_gradient{};
     };
 
-    Reduced
-    reduce(const std::array<double, dim> &invariants,
+    template <typename Number>
+    Reduced<Number>
+    reduce(const std::array<Number, dim> &invariants,
            const bool                     with_hessian) const;
 
     const std::shared_ptr<const HyperelasticLaw> law;

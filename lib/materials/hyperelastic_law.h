@@ -2,6 +2,8 @@
 #ifndef ricochet_materials_hyperelastic_law_h
 #define ricochet_materials_hyperelastic_law_h
 
+#include <materials/lanes.h>
+
 #include <array>
 
 namespace Ricochet
@@ -57,12 +59,30 @@ namespace Ricochet
      * is positive.
      */
     virtual double
-    plane_stress_c33(const double trace, const double determinant) const = 0;
+    plane_stress_c33(const double &trace, const double &determinant) const = 0;
+
+    // The same in several points.
+    virtual Lanes
+    energy(const Invariants<Lanes> &invariants) const = 0;
+
+    virtual Lanes
+    energy_difference(const Invariants<Lanes> &invariants,
+                      const Invariants<Lanes> &difference) const = 0;
+
+    virtual std::array<Lanes, 3>
+    gradient(const Invariants<Lanes> &invariants) const = 0;
+
+    virtual std::array<std::array<Lanes, 3>, 3>
+    hessian(const Invariants<Lanes> &invariants) const = 0;
+
+    virtual Lanes
+    plane_stress_c33(const Lanes &trace, const Lanes &determinant) const = 0;
   };
 
   /**
-   * Turns a struct with a templated energy into a HyperelasticLaw. The template
-   * lets the tests differentiate the very energy that the programs use.
+   * Turns a struct with templated functions into a HyperelasticLaw. The templates
+   * serve one point and several at once, and let the tests differentiate the very
+   * energy that the programs use.
    */
   template <typename Law>
   class HyperelasticLawImplementation : public HyperelasticLaw
@@ -98,8 +118,40 @@ namespace Ricochet
     }
 
     double
-    plane_stress_c33(const double trace,
-                     const double determinant) const override
+    plane_stress_c33(const double &trace,
+                     const double &determinant) const override
+    {
+      return law.plane_stress_c33(trace, determinant);
+    }
+
+    Lanes
+    energy(const Invariants<Lanes> &invariants) const override
+    {
+      return law.template energy<Lanes>(invariants);
+    }
+
+    Lanes
+    energy_difference(const Invariants<Lanes> &invariants,
+                      const Invariants<Lanes> &difference) const override
+    {
+      return law.energy_difference(invariants, difference);
+    }
+
+    std::array<Lanes, 3>
+    gradient(const Invariants<Lanes> &invariants) const override
+    {
+      return law.gradient(invariants);
+    }
+
+    std::array<std::array<Lanes, 3>, 3>
+    hessian(const Invariants<Lanes> &invariants) const override
+    {
+      return law.hessian(invariants);
+    }
+
+    Lanes
+    plane_stress_c33(const Lanes &trace,
+                     const Lanes &determinant) const override
     {
       return law.plane_stress_c33(trace, determinant);
     }

@@ -208,6 +208,24 @@ namespace Ricochet
         return true;
       }
 
+      const TriangularFactor *
+      triangular_factor() override
+      {
+        const cholmod_factor *factor = cholesky.factor();
+        if (factor->is_super || factor->itype != CHOLMOD_INT ||
+            factor->dtype != CHOLMOD_DOUBLE || (sign.array() < 0.).any())
+          return nullptr;
+        triangles = std::make_unique<TriangularFactor>(
+          TriangularFactor::Columns{static_cast<int>(factor->n),
+                                    static_cast<const int *>(factor->Perm),
+                                    static_cast<const int *>(factor->p),
+                                    static_cast<const int *>(factor->nz),
+                                    static_cast<const int *>(factor->i),
+                                    static_cast<const double *>(factor->x),
+                                    factor->is_ll != 0});
+        return triangles.get();
+      }
+
       bool
       has_halves() const override
       {
@@ -671,14 +689,15 @@ namespace Ricochet
         return true;
       }
 
-      const bool                  approximate;
-      Eigen::SparseMatrix<double> symmetric;
-      std::vector<Place>          places;
-      std::vector<int>            diagonal;
-      std::vector<Coupling>       one_sided;
-      Eigen::VectorXd             sign;
-      Eigen::MatrixXd             right, result;
-      Cholesky                    cholesky;
+      const bool                        approximate;
+      Eigen::SparseMatrix<double>       symmetric;
+      std::vector<Place>                places;
+      std::vector<int>                  diagonal;
+      std::vector<Coupling>             one_sided;
+      Eigen::VectorXd                   sign;
+      Eigen::MatrixXd                   right, result;
+      Cholesky                          cholesky;
+      std::unique_ptr<TriangularFactor> triangles;
       // Of a supernodal factor; by its order of the unknowns.
       std::vector<Supernode> supernodes;
       std::vector<int>       supernode_of, place_in_factor;

@@ -4,6 +4,7 @@
 
 #include <base/types.h>
 #include <solvers/functionals.h>
+#include <solvers/triangular_factor.h>
 
 #include <memory>
 #include <string>
@@ -52,6 +53,15 @@ namespace Ricochet
     has_halves() const
     {
       return false;
+    }
+
+    /// The factors themselves since the last factorise(), less accurate, for right hand
+    /// sides that are zero in unknowns with equations of their own. Null where they
+    /// are not at hand.
+    virtual const TriangularFactor *
+    triangular_factor()
+    {
+      return nullptr;
     }
 
     /// The part of L that it takes to know some unknowns.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
 #include <base/stopwatch.h>
 #include <solvers/krylov_solver.h>
 
@@ -10,6 +11,60 @@
 namespace Ricochet
 {
   using namespace dealii;
+
+  void
+  KrylovSolver::begin_stage()
+  {
+    TangentSolver::begin_stage();
+    body_is_of_this_stage = false;
+  }
+
+
+
+  CondensedSystem &
+  KrylovSolver::condensed(const Tangent &tangent)
+  {
+    const bool is_new     = !body_is_of_this_stage;
+    body_is_of_this_stage = false;
+    if (!body && !contact.has_multipliers)
+      {
+        if (!nearby)
+          nearby =
+            std::make_unique<NearbyBody>(factorisations.make(true, true),
+                                         *contact.functionals,
+                                         spent);
+        if (!is_new || nearby->factorise(tangent))
+          {
+            body_is_of_this_stage = true;
+            return *nearby;
+          }
+        nearby.reset();
+      }
+
+    if (!body)
+      {
+        LowRankCorrection::Options options;
+        options.is_symmetric =
+          contact.is_symmetric && factorisations.name(true) == "CHOLMOD";
+        body = std::make_unique<CorrectedFactorisation>(
+          factorisations.make(true, true),
+          CorrectedFactorisation::Correction::functionals,
+          contact,
+          options,
+          spent);
+      }
+    if (is_new)
+      {
+        body->set_body(tangent);
+        ++spent.n_factorisations;
+        if (!body->factorise())
+          throw NewtonFailure("The tangent of the body cannot be factored.");
+      }
+    body_is_of_this_stage = true;
+    return *body;
+  }
+
+
 
   bool
   KrylovSolver::solve(const Tangent &tangent,

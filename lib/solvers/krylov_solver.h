@@ -4,6 +4,7 @@
 
 #include <solvers/corrected_factorisation.h>
 #include <solvers/factorisation_choice.h>
+#include <solvers/nearby_body.h>
 #include <solvers/tangent_solver.h>
 
 #include <memory>
@@ -12,7 +13,8 @@ namespace Ricochet
 {
   /// For nonlinear bodies: the symmetric part of a tangent is factored, which costs
   /// less than half of a factorisation with pivots, and serves GMRES for several
-  /// tangents.
+  /// tangents; or condensed to contact, all iterations of a stage that need no other
+  /// tangent.
   class KrylovSolver : public TangentSolver
   {
   public:
@@ -22,6 +24,9 @@ namespace Ricochet
       , contact(contact)
     {}
 
+    void
+    begin_stage() override;
+
     /// @return whether GMRES converged.
     bool
     solve(const Tangent &tangent,
@@ -30,10 +35,27 @@ namespace Ricochet
           const bool     may_reuse,
           const double   tolerance) override;
 
+    /// Where contact enters by functionals.
+    bool
+    condenses() const override
+    {
+      return contact.functionals.has_value();
+    }
+
+    /// The symmetric part of the first tangent of a stage: not that of @p tangent, but
+    /// near it.
+    /// @throws NewtonFailure when it cannot be factored.
+    CondensedSystem &
+    condensed(const Tangent &tangent) override;
+
   private:
     const FactorisationChoice               factorisations;
     const ContactStructure                  contact;
     std::unique_ptr<CorrectedFactorisation> factorisation;
+    // For condensed systems.
+    std::unique_ptr<NearbyBody>             nearby;
+    std::unique_ptr<CorrectedFactorisation> body;
+    bool                                    body_is_of_this_stage = false;
   };
 } // namespace Ricochet
 

@@ -20,7 +20,7 @@ namespace Ricochet
                              const std::size_t                   n_unknowns,
                              const unsigned int                  n_ranks)
     : linear_body(linear_body)
-    , may_condense(parameters.condense && linear_body)
+    , may_condense(parameters.condense)
     , factorisations{parameters.factorisation, dim, n_unknowns, n_ranks}
     , type(parameters.type)
   {
@@ -154,11 +154,14 @@ namespace Ricochet
     parameters.add_parameter(
       "Condense to contact",
       condense,
-      "Linear bodies with Type = corrected before planes at rest, with treatments "
-      "whose forces are functions of gaps, pressures and slips in points (not active "
-      "sets), and, on one MPI rank, before each other with any treatment: Newton's method looks at these alone and the body is solved for twice "
-      "in each stage of a time step, instead of twice in each iteration. Results are "
-      "the same to the tolerance of Newton's method.");
+      "With Type = corrected before planes at rest, with treatments whose forces are "
+      "functions of gaps, pressures and slips in points (not active sets), and, on one "
+      "MPI rank, for linear bodies before each other with any treatment: Newton's "
+      "method looks at these alone. A linear body is solved for twice in each stage of "
+      "a time step, instead of twice in each iteration; for one that is not linear, "
+      "the tangent at the last state serves in all iterations of a step, which are more "
+      "and much cheaper, and Newton's method takes over where they are too slow. "
+      "Results are the same to the tolerance of Newton's method.");
     parameters.leave_subsection();
   }
 
@@ -203,7 +206,7 @@ namespace Ricochet
   bool
   LinearSolver::condenses() const
   {
-    return may_condense && ways.front()->condenses();
+    return may_condense && way_to_condense().condenses();
   }
 
 
@@ -211,7 +214,16 @@ namespace Ricochet
   CondensedSystem &
   LinearSolver::condensed(const Tangent &tangent)
   {
-    return ways.front()->condensed(tangent);
+    return way_to_condense().condensed(tangent);
+  }
+
+
+
+  TangentSolver &
+  LinearSolver::way_to_condense() const
+  {
+    // Those of "corrected": for linear bodies, then for others.
+    return *(linear_body || ways.size() < 2 ? ways[0] : ways[1]);
   }
 
 

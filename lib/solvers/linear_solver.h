@@ -103,8 +103,9 @@ namespace Ricochet
     condenses() const;
 
     /// The matrix of the linear body of @p tangent condensed to the functionals
-    /// through which contact acts, which serves until the next solve(). @pre
-    /// condenses()
+    /// through which contact acts, which serves until the next solve(); of a body that
+    /// is not linear, the symmetric part of the first tangent since begin_stage().
+    /// @pre condenses()
     /// @throws NewtonFailure when the body's matrix cannot be factored.
     CondensedSystem &
     condensed(const Tangent &tangent);
@@ -138,6 +139,9 @@ namespace Ricochet
     description() const;
 
   private:
+    TangentSolver &
+    way_to_condense() const;
+
     const bool                linear_body, may_condense;
     const FactorisationChoice factorisations;
     std::string               type;

@@ -57,7 +57,7 @@ namespace Ricochet
     }
 
     /// See LinearSolver::begin_stage().
-    void
+    virtual void
     begin_stage()
     {
       stage_begins = true;

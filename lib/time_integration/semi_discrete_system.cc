@@ -69,6 +69,7 @@ namespace Ricochet
     , follower(follower)
     , newton(newton_parameters)
     , condensed_newton(newton_parameters)
+    , quasi_newton(newton_parameters)
     , linear_solver(solver_parameters,
                     contact_structure(contact,
                                       unknowns.clamped,
@@ -213,6 +214,37 @@ namespace Ricochet
     return newton.solves(newton_problem, solution);
   }
 
+  bool
+  SemiDiscreteSystem::solve_near_last_state(
+    StageProblem                &problem,
+    const NewtonSolver::Problem &newton_problem,
+    Vector                      &solution)
+  {
+    // Contact may have thrown the body far from free flight, and its tangent there may
+    // be one of elements nearly flat; the last state is a body that exists.
+    residual       = solution;
+    solution       = safe_guess;
+    bool is_solved = false;
+    try
+      {
+        is_solved = quasi_newton.solve(problem,
+                                       newton_problem,
+                                       condensed_newton,
+                                       solution);
+      }
+    catch (const NewtonFailure &)
+      {
+        solution = residual;
+        throw;
+      }
+    const auto &history = quasi_newton.iterations();
+    if (newton_observer)
+      newton_observer(history);
+    if (!is_solved && !(history.back().relative_residual < 1e-3))
+      solution = residual;
+    return is_solved;
+  }
+
   unsigned int
   SemiDiscreteSystem::solve_stage(const Stage &stage,
                                   const State &old_state,
@@ -260,11 +292,16 @@ namespace Ricochet
       contact.begin_stage(start, stage.contact_weight_new);
       do
         {
-          if (linear_solver.condenses())
+          if (linear_solver.condenses() &&
+              (bulk.is_linear() || quasi_newton.is_allowed()))
             {
               try
                 {
-                  if (solve_condensed(problem, newton_problem, solution))
+                  if (bulk.is_linear()
+                                         ? solve_condensed(problem, newton_problem, solution)
+                                         : solve_near_last_state(problem,
+                                                newton_problem,
+                                                solution))
                     continue;
                 }
               catch (const NewtonFailure &)
@@ -273,7 +310,7 @@ namespace Ricochet
                   // round-off.
                   constexpr double small = 1e-6;
                   const auto      &history = condensed_newton.iterations();
-                  if (!history.empty() &&
+                  if (bulk.is_linear() && !history.empty() &&
                       !(history.back().relative_residual < small))
                     throw;
                   contact.begin_stage(start, stage.contact_weight_new);

@@ -10,6 +10,7 @@
 #include <solvers/linear_solver.h>
 #include <solvers/mass_solver.h>
 #include <solvers/newton.h>
+#include <time_integration/quasi_newton.h>
 #include <time_integration/stage.h>
 
 #include <functional>
@@ -46,7 +47,6 @@ namespace Ricochet
     Vector scheme_force;
   };
 
-  class StageProblem;
 
   /**
  * The system of ordinary differential equations (or inclusions)
@@ -239,6 +239,13 @@ namespace Ricochet
                     const NewtonSolver::Problem &newton_problem,
                     Vector                      &solution);
 
+    /// The same for a body that is not linear, whose tangent at the end of the last step
+    /// serves for all iterates. If it is not solved, @p solution is the guess, or nearer.
+    bool
+    solve_near_last_state(StageProblem                &problem,
+                          const NewtonSolver::Problem &newton_problem,
+                          Vector                      &solution);
+
     /// The forces of contact are those of the operator's last call.
     void
     take_shares(State &state) const;
@@ -251,6 +258,7 @@ namespace Ricochet
     NewtonSolver                                                   newton;
     // Of condensed systems: it keeps its vectors.
     NewtonSolver condensed_newton;
+    QuasiNewton  quasi_newton;
     LinearSolver linear_solver;
     // Made when it is first needed.
     std::optional<MassSolver> mass_solver;

@@ -35,29 +35,34 @@ namespace Ricochet
         (c1 + 2. * c2 + d) * log(i.third);
     }
 
-    double
-    energy_difference(const Invariants<> &i, const Invariants<> &diff) const
+    template <typename Number>
+    Number
+    energy_difference(const Invariants<Number> &i,
+                      const Invariants<Number> &diff) const
     {
       return c1 * diff.first + c2 * diff.second + d * diff.third -
-        (c1 + 2. * c2 + d) * std::log1p(diff.third / i.third);
+        (c1 + 2. * c2 + d) * log_of_one_plus(diff.third / i.third);
     }
 
-    std::array<double, 3>
-    gradient(const Invariants<> &i) const
+    template <typename Number>
+    std::array<Number, 3>
+    gradient(const Invariants<Number> &i) const
     {
-      return {{c1, c2, d - (c1 + 2. * c2 + d) / i.third}};
+      return {{Number(c1), Number(c2), d - (c1 + 2. * c2 + d) / i.third}};
     }
 
-    std::array<std::array<double, 3>, 3>
-    hessian(const Invariants<> &i) const
+    template <typename Number>
+    std::array<std::array<Number, 3>, 3>
+    hessian(const Invariants<Number> &i) const
     {
-      std::array<std::array<double, 3>, 3> result{};
+      std::array<std::array<Number, 3>, 3> result{};
       result[2][2] = (c1 + 2. * c2 + d) / (i.third * i.third);
       return result;
     }
 
-    double
-    plane_stress_c33(const double trace, const double determinant) const
+    template <typename Number>
+    Number
+    plane_stress_c33(const Number &trace, const Number &determinant) const
     {
       return (c1 + 2. * c2 + d) / (c1 + c2 * trace + d * determinant);
     }

@@ -33,45 +33,60 @@ namespace Ricochet
                     lambda / 8. * log_i3 * log_i3);
     }
 
-    double
-    energy_difference(const Invariants<> &i, const Invariants<> &diff) const
+    template <typename Number>
+    Number
+    energy_difference(const Invariants<Number> &i,
+                      const Invariants<Number> &diff) const
     {
-      const double log_difference = std::log1p(diff.third / i.third);
+      using std::log;
+      const Number log_difference = log_of_one_plus(diff.third / i.third);
       return mu / 2. * diff.first +
         log_difference *
-        (-mu / 2. + lambda / 8. * (2. * std::log(i.third) + log_difference));
+        (-mu / 2. + lambda / 8. * (2. * log(i.third) + log_difference));
     }
 
-    std::array<double, 3>
-    gradient(const Invariants<> &i) const
+    template <typename Number>
+    std::array<Number, 3>
+    gradient(const Invariants<Number> &i) const
     {
-      return {
-        {mu / 2., 0., (-mu / 2. + lambda / 4. * std::log(i.third)) / i.third}};
+      using std::log;
+      return {{Number(mu / 2.),
+               Number(0.),
+               (-mu / 2. + lambda / 4. * log(i.third)) / i.third}};
     }
 
-    std::array<std::array<double, 3>, 3>
-    hessian(const Invariants<> &i) const
+    template <typename Number>
+    std::array<std::array<Number, 3>, 3>
+    hessian(const Invariants<Number> &i) const
     {
-      std::array<std::array<double, 3>, 3> result{};
-      result[2][2] = (mu / 2. + lambda / 4. * (1. - std::log(i.third))) /
-        (i.third * i.third);
+      std::array<std::array<Number, 3>, 3> result{};
+      using std::log;
+      result[2][2] =
+        (mu / 2. + lambda / 4. * (1. - log(i.third))) / (i.third * i.third);
       return result;
     }
 
     /// Solves mu (s - 1) + lambda/2 ln(s det) = 0 for s = C_33. With lambda >=
     /// 0 the function rises and is concave, so that Newton's method from a point where it is
     /// negative climbs to the root.
-    double
-    plane_stress_c33(const double /*trace*/, const double determinant) const
+    template <typename Number>
+    Number
+    plane_stress_c33(const Number & /*trace*/, const Number &determinant) const
     {
-      double s = std::min(1., 1. / determinant);
+      using std::abs;
+      using std::log;
+      using std::min;
+      Number s = min(Number(1.), 1. / determinant);
+      // Lanes that have arrived stay where they are.
+      Number moves(1.);
       for (unsigned int k = 0; k < 100; ++k)
         {
-          const double value =
-            mu * (s - 1.) + lambda / 2. * std::log(s * determinant);
-          const double step = value / (mu + lambda / (2. * s));
+          const Number value =
+            mu * (s - 1.) + lambda / 2. * log(s * determinant);
+          const Number step = moves * value / (mu + lambda / (2. * s));
           s -= step;
-          if (!(std::abs(step) > 1e-15 * s))
+          moves = where_less(1e-15 * s, abs(step), moves, Number(0.));
+          if (!is_less_somewhere(Number(0.), moves))
             break;
         }
       return s;

@@ -31,8 +31,10 @@ namespace Ricochet
                       (i.first * i.first - 2. * i.second - 2. * i.first + 3.));
     }
 
-    double
-    energy_difference(const Invariants<> &i, const Invariants<> &diff) const
+    template <typename Number>
+    Number
+    energy_difference(const Invariants<Number> &i,
+                      const Invariants<Number> &diff) const
     {
       return diff.first *
         (lambda / 8. * (2. * (i.first - 3.) + diff.first) +
@@ -40,24 +42,27 @@ namespace Ricochet
         mu / 2. * diff.second;
     }
 
-    std::array<double, 3>
-    gradient(const Invariants<> &i) const
+    template <typename Number>
+    std::array<Number, 3>
+    gradient(const Invariants<Number> &i) const
     {
       return {{lambda / 4. * (i.first - 3.) + mu / 2. * (i.first - 1.),
-               -mu / 2.,
-               0.}};
+               Number(-mu / 2.),
+               Number(0.)}};
     }
 
-    std::array<std::array<double, 3>, 3>
-    hessian(const Invariants<> &) const
+    template <typename Number>
+    std::array<std::array<Number, 3>, 3>
+    hessian(const Invariants<Number> &) const
     {
-      std::array<std::array<double, 3>, 3> result{};
-      result[0][0] = lambda / 4. + mu / 2.;
+      std::array<std::array<Number, 3>, 3> result{};
+      result[0][0] = Number(lambda / 4. + mu / 2.);
       return result;
     }
 
-    double
-    plane_stress_c33(const double trace, const double /*determinant*/) const
+    template <typename Number>
+    Number
+    plane_stress_c33(const Number &trace, const Number & /*determinant*/) const
     {
       return 1. - lambda / (lambda + 2. * mu) * (trace - 2.);
     }

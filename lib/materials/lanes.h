@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_materials_lanes_h
+#define ricochet_materials_lanes_h
+
+#include <deal.II/base/template_constraints.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Ricochet
+{
+  /**
+   * A number in several points at once, in the lanes of one of the processor's
+   * registers. deal.II's VectorizedArray has as many lanes as deal.II was built for,
+   * which for packages of it is one; two are everywhere.
+   */
+  class Lanes
+  {
+  public:
+#if defined(__AVX512F__)
+    static constexpr unsigned int n = 8;
+#elif defined(__AVX__)
+    static constexpr unsigned int n = 4;
+#else
+    static constexpr unsigned int n = 2;
+#endif
+
+    static constexpr unsigned int
+    size()
+    {
+      return n;
+    }
+
+    /// Zero.
+    Lanes()
+      : data{}
+    {}
+
+    /// The same in all lanes.
+    Lanes(const double value)
+      : data(Register{} + value)
+    {}
+
+    double &
+    operator[](const unsigned int lane)
+    {
+      return reinterpret_cast<double *>(&data)[lane];
+    }
+
+    double
+    operator[](const unsigned int lane) const
+    {
+      return data[lane];
+    }
+
+    Lanes &
+    operator+=(const Lanes &other)
+    {
+      data += other.data;
+      return *this;
+    }
+
+    Lanes &
+    operator-=(const Lanes &other)
+    {
+      data -= other.data;
+      return *this;
+    }
+
+    Lanes &
+    operator*=(const Lanes &other)
+    {
+      data *= other.data;
+      return *this;
+    }
+
+    Lanes &
+    operator/=(const Lanes &other)
+    {
+      data /= other.data;
+      return *this;
+    }
+
+    friend Lanes
+    operator+(Lanes a, const Lanes &b)
+    {
+      return a += b;
+    }
+
+    friend Lanes
+    operator-(Lanes a, const Lanes &b)
+    {
+      return a -= b;
+    }
+
+    friend Lanes
+    operator*(Lanes a, const Lanes &b)
+    {
+      return a *= b;
+    }
+
+    friend Lanes
+    operator/(Lanes a, const Lanes &b)
+    {
+      return a /= b;
+    }
+
+    friend Lanes
+    operator-(Lanes a)
+    {
+      a.data = -a.data;
+      return a;
+    }
+
+    friend Lanes
+    where_less(const Lanes &a,
+               const Lanes &b,
+               const Lanes &then,
+               const Lanes &otherwise)
+    {
+      Lanes result;
+      result.data = a.data < b.data ? then.data : otherwise.data;
+      return result;
+    }
+
+    friend Lanes
+    abs(const Lanes &x)
+    {
+      return where_less(x, 0., -x, x);
+    }
+
+    friend Lanes
+    min(const Lanes &a, const Lanes &b)
+    {
+      return where_less(b, a, b, a);
+    }
+
+    friend Lanes
+    log(Lanes x)
+    {
+      for (unsigned int lane = 0; lane < n; ++lane)
+        x[lane] = std::log(x[lane]);
+      return x;
+    }
+
+    friend Lanes
+    log_of_one_plus(Lanes x)
+    {
+      for (unsigned int lane = 0; lane < n; ++lane)
+        x[lane] = std::log1p(x[lane]);
+      return x;
+    }
+
+    friend bool
+    is_less_somewhere(const Lanes &a, const Lanes &b)
+    {
+      bool result = false;
+      for (unsigned int lane = 0; lane < n; ++lane)
+        result = result || a[lane] < b[lane];
+      return result;
+    }
+
+  private:
+    using Register __attribute__((vector_size(n * sizeof(double)), may_alias)) =
+      double;
+
+    Register data;
+  };
+
+  // The same for one point.
+
+  /// @p then where @p a < @p b, @p otherwise elsewhere.
+  inline double
+  where_less(const double a,
+             const double b,
+             const double then,
+             const double otherwise)
+  {
+    return a < b ? then : otherwise;
+  }
+
+  /// Whether @p a < @p b in some lane.
+  inline bool
+  is_less_somewhere(const double a, const double b)
+  {
+    return a < b;
+  }
+
+  /// ln(1 + @p x), without cancellation.
+  inline double
+  log_of_one_plus(const double x)
+  {
+    return std::log1p(x);
+  }
+} // namespace Ricochet
+
+/// deal.II's tensors may be scaled by it.
+template <>
+struct dealii::EnableIfScalar<Ricochet::Lanes>
+{
+  using type = Ricochet::Lanes;
+};
+
+#endif

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_nearby_body_h
+#define ricochet_solvers_nearby_body_h
+
+#include <solvers/condensed_system.h>
+#include <solvers/factorisation.h>
+#include <solvers/tangent_solver.h>
+#include <solvers/triangular_factor.h>
+
+#include <memory>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * The symmetric part of the tangent of a body, factored, which is near that of the
+   * same body in other states; condensed to the functionals f_i of contact. With the
+   * halves y_i = L^{-1} P f_i the compliance is y_i D^{-1} y_j. A half is made of the few
+   * columns of L on the way from its unknowns to the last one, and costs next to
+   * nothing; so factors can be made anew in each step. On one rank.
+   */
+  class NearbyBody : public CondensedSystem
+  {
+  public:
+    /**
+     * @param factorisation of symmetric parts.
+     * @param contact functionals, none of which has unknowns with equations of their
+     * own (clamped ones); without multipliers.
+     */
+    NearbyBody(std::unique_ptr<Factorisation>       factorisation,
+               const ContactStructure::ActsThrough &contact,
+               TangentSolver::Costs                &spent);
+
+    /// Factor the tangent with open contact. @return whether the factors are at hand,
+    /// which is the same each time. @throws NewtonFailure when it is singular.
+    bool
+    factorise(const Tangent &tangent);
+
+    unsigned int
+    n_functionals() const override
+    {
+      return functionals.size();
+    }
+
+    unsigned int
+    place(const unsigned int f) const override
+    {
+      return places[f];
+    }
+
+    /// @p right_hand_side is zero where unknowns are clamped.
+    void
+    begin(const Vector &right_hand_side) override;
+
+    void
+    observe(std::vector<double> &values) override;
+
+    void
+    finish(const std::vector<double> &coefficients, Vector &solution) override;
+
+    void
+    add_functionals(const std::vector<double> &coefficients,
+                    Vector                    &vector) const override;
+
+    void
+    add_compliance(const double               factor,
+                   const std::vector<double> &coefficients,
+                   std::vector<double>       &values) override;
+
+    void
+    solve_contact(const std::vector<FunctionalRow> &change,
+                  std::vector<double>              &coefficients,
+                  const std::vector<double>        &values) override;
+
+  private:
+    /// That of the functional at this place.
+    const TriangularFactor::Half &
+    half_at(const unsigned int place);
+
+    /// The first @p n_rows entries at least of a column of the compliance.
+    const std::vector<double> &
+    column(const unsigned int place, const unsigned int n_rows);
+
+    Matrix                               matrix;
+    const std::unique_ptr<Factorisation> factorisation;
+    const Functionals                   &functionals;
+    TangentSolver::Costs                &spent;
+    const TriangularFactor              *factor = nullptr;
+    // Of each functional, and the other way round.
+    std::vector<unsigned int> places, functional_at;
+    // By place; empty where not asked for yet.
+    std::vector<TriangularFactor::Half> halves;
+    std::vector<std::vector<double>>    columns;
+    // Of the right hand side; work space that is zero between calls.
+    std::vector<double> half, dense;
+    // What observe() needs of the factor for so many places, and what it finds there.
+    std::vector<int>    region;
+    unsigned int        region_places = 0;
+    std::vector<double> partial_solution;
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_triangular_factor_h
+#define ricochet_solvers_triangular_factor_h
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * The factors of a symmetric matrix A = P^T L D L^T P, with L stored in single
+   * precision: those of a matrix that differs from A by as much. For that one, all is
+   * done in double precision.
+   *
+   * Columns of L with the same rows below them make blocks, whose rows are stored one
+   * behind the other.
+   */
+  class TriangularFactor
+  {
+  public:
+    /// Columns as sparse factorisations leave them.
+    struct Columns
+    {
+      int n;
+      /// Unknown of each place.
+      const int *order;
+      /// Where columns begin among rows and values, and how many entries they have, the
+      /// one on the diagonal first, rows rising.
+      const int    *begin, *n_entries, *rows;
+      const double *values;
+      /// The diagonal is that of L; otherwise it is D, and that of L is 1.
+      bool diagonal_is_of_l;
+    };
+
+    explicit TriangularFactor(const Columns &columns);
+
+    /// A vector L^{-1} P b of a sparse b: blocks in their order, and their values one
+    /// behind the other.
+    struct Half
+    {
+      std::vector<int>    blocks;
+      std::vector<double> values;
+    };
+
+    unsigned int
+    n() const
+    {
+      return place.size();
+    }
+
+    /// @p half = L^{-1} P @p right_hand_side.
+    void
+    go_forwards(const double *right_hand_side, std::vector<double> &half) const;
+
+    /// The same for a sparse right hand side: @p n_entries values with their unknowns.
+    template <typename Index>
+    Half
+    go_forwards(const Index       *unknowns,
+                const double      *values,
+                const unsigned int n_entries) const
+    {
+      std::vector<Start> start;
+      for (unsigned int k = 0; k < n_entries; ++k)
+        start.push_back({place[unknowns[k]], values[k]});
+      return go_forwards(start);
+    }
+
+    /// @p solution = P^T L^{-T} D^{-1} @p half, which is overwritten.
+    void
+    go_backwards(std::vector<double> &half, double *solution) const;
+
+    /// @p one D^{-1} @p other
+    double
+    product(const Half &one, const std::vector<double> &other) const;
+
+    /// The blocks on the ways of some unknowns to the last one.
+    template <typename Index>
+    std::vector<int>
+    region_of(const std::vector<Index> &unknowns) const
+    {
+      std::vector<int> region;
+      for (const Index unknown : unknowns)
+        mark(block_of[place[unknown]], region);
+      finish(region);
+      return region;
+    }
+
+    /// P^T L^{-T} D^{-1} @p half where @p region is; elsewhere nothing of meaning.
+    void
+    go_backwards(const std::vector<double> &half,
+                 const std::vector<int>    &region,
+                 std::vector<double>       &solution) const;
+
+    /// Place of an unknown in the last go_backwards() with a region.
+    template <typename Index>
+    int
+    place_of(const Index unknown) const
+    {
+      return place[unknown];
+    }
+
+    /// @p other += @p factor @p half
+    void
+    add(const double         factor,
+        const Half          &half,
+        std::vector<double> &other) const;
+
+    /// @p other = 0 where @p half has values.
+    void
+    clear(const Half &half, std::vector<double> &other) const;
+
+  private:
+    struct Block
+    {
+      int first, width;
+      /// Rows below among #rows.
+      std::size_t begin, end;
+      /// Of the strict lower triangle in #values, row by row, and of the rows below,
+      /// each with an even number of values, the last one zero if need be.
+      std::size_t triangle, below;
+      /// The one of the first row below; -1: none.
+      int parent;
+    };
+
+    struct Start
+    {
+      int    place;
+      double value;
+    };
+
+    Half
+    go_forwards(const std::vector<Start> &start) const;
+
+    /// Take @p block out of @p half.
+    void
+    eliminate(const Block &block, double *half) const;
+
+    /// Take what is known below it out of @p block of @p half, and solve.
+    void
+    substitute(const Block &block, double *half) const;
+
+    /// Add @p block and those after it to @p region, if they are not in it.
+    void
+    mark(int block, std::vector<int> &region) const;
+
+    /// Put @p region in order, and unmark it.
+    void
+    finish(std::vector<int> &region) const;
+
+    std::vector<int>    place, block_of;
+    std::vector<Block>  blocks;
+    std::vector<int>    rows;
+    std::vector<float>  values;
+    std::vector<double> inverse_diagonal;
+    // Work space: zero between calls.
+    mutable std::vector<double> dense;
+    // The unknowns of a block, with one more.
+    mutable std::vector<double> own_values;
+    mutable std::vector<char>   is_needed;
+  };
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <time_integration/quasi_newton.h>
+#include <time_integration/stage_problem.h>
+
+#include <cmath>
+
+namespace Ricochet
+{
+  namespace
+  {
+    /// Within so many iterations the residual has to fall by some factor; otherwise
+    /// Newton's method is faster.
+    constexpr unsigned int patience        = 12;
+    constexpr double       required_factor = .1;
+    constexpr unsigned int max_iterations  = 100;
+  } // namespace
+
+
+
+  bool
+  QuasiNewton::solve(StageProblem                &problem,
+                     const NewtonSolver::Problem &newton_problem,
+                     NewtonSolver                &condensed_newton,
+                     Vector                      &solution)
+  {
+    if (residual.size() != solution.size())
+      {
+        residual.reinit(solution);
+        step.reinit(solution);
+      }
+    history.clear();
+    mixing.restart();
+    while (true)
+      {
+        newton_problem.residual(solution, residual);
+        const double size = newton_problem.force_scale();
+        const double norm =
+          newton_problem.norm(residual) / (size == 0. ? 1. : size);
+        newton_problem.accept();
+        history.push_back(
+          {norm, history.empty() ? 0. : 1., newton_problem.active_set()});
+        const unsigned int n = history.size();
+        if (!std::isfinite(norm))
+          return false;
+        if (n > 1 &&
+            norm <= parameters.tolerance + newton_problem.round_off() / size)
+          return true;
+        if (n > max_iterations ||
+            (n > patience &&
+             !(norm <
+               required_factor * history[n - 1 - patience].relative_residual)))
+          return false;
+
+        mixing.next(residual, step);
+        step *= -1.;
+        problem.add_iterations(1);
+        CondensedStage condensed = problem.condensed(newton_problem, step);
+        condensed.solve(condensed_newton, solution);
+      }
+  }
+} // namespace Ricochet

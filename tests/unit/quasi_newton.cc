@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// What nonlinear bodies are solved with near their last state: factors in single
+// precision, and steps of the force that are mixed.
+
+#include <solvers/factorisation.h>
+#include <solvers/force_mixing.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <cmath>
+
+using namespace Ricochet;
+using dealii::VectorOperation;
+
+BOOST_AUTO_TEST_SUITE(quasi_newton)
+
+namespace
+{
+  constexpr unsigned int n_side = 14, n = n_side * n_side;
+
+  dealii::IndexSet
+  all_unknowns()
+  {
+    return dealii::complete_index_set(n);
+  }
+
+  /// A grid whose unknowns hang together with their neighbours', on one rank; with
+  /// @p skew, not quite symmetric.
+  Matrix
+  grid_matrix(const double skew)
+  {
+    dealii::DynamicSparsityPattern pattern(n, n);
+    const auto                     for_each = [&](const auto &action) {
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          action(i, i, 4.3 + .1 * (i % 3));
+          if (i % n_side != 0)
+            {
+              action(i, i - 1, -1. - skew);
+              action(i - 1, i, -1. + skew);
+            }
+          if (i >= n_side)
+            {
+              action(i, i - n_side, -1.1 + skew * (i % 5));
+              action(i - n_side, i, -1.1 - skew * (i % 5));
+            }
+        }
+    };
+    for_each([&](const unsigned int i, const unsigned int j, const double) {
+      pattern.add(i, j);
+    });
+    Matrix matrix;
+    matrix.reinit(all_unknowns(), pattern, MPI_COMM_SELF);
+    for_each([&](const unsigned int i,
+                 const unsigned int j,
+                 const double       value) { matrix.set(i, j, value); });
+    matrix.compress(VectorOperation::insert);
+    return matrix;
+  }
+
+  Vector
+  some_vector(const unsigned int seed)
+  {
+    Vector vector(all_unknowns(), MPI_COMM_SELF);
+    for (unsigned int i = 0; i < n; ++i)
+      vector(i) = std::sin(1. + seed + 2.7 * i);
+    vector.compress(VectorOperation::insert);
+    return vector;
+  }
+} // namespace
+
+
+
+BOOST_AUTO_TEST_CASE(factors_in_single_precision)
+{
+  const Matrix matrix        = grid_matrix(0.);
+  const auto   factorisation = make_cholesky_factorisation(true);
+  BOOST_REQUIRE(factorisation->factorise(matrix, false));
+  const TriangularFactor *factor = factorisation->triangular_factor();
+  BOOST_REQUIRE(factor);
+
+  const Vector        right_hand_side = some_vector(1);
+  Vector              exact(right_hand_side), solution(right_hand_side);
+  std::vector<double> half;
+  factorisation->solve(right_hand_side, exact);
+  factor->go_forwards(right_hand_side.trilinos_vector()[0], half);
+
+  // A functional of two unknowns sees the solution by its half, and in a part of it.
+  const std::vector<unsigned int> unknowns = {37, 121};
+  const std::vector<double>       values   = {1.5, -.7};
+  const auto own = factor->go_forwards(unknowns.data(), values.data(), 2);
+  BOOST_CHECK_LT(own.values.size(), n);
+  const double seen = 1.5 * exact(37) - .7 * exact(121);
+  BOOST_CHECK_SMALL(factor->product(own, half) - seen, 1e-6);
+  std::vector<double> part;
+  factor->go_backwards(half, factor->region_of(unknowns), part);
+  BOOST_CHECK_SMALL(1.5 * part[factor->place_of(37)] -
+                      .7 * part[factor->place_of(121)] - seen,
+                    1e-6);
+
+  // A half added is the functional added to the right hand side.
+  factor->add(2., own, half);
+  factor->go_backwards(half, solution.trilinos_vector()[0]);
+  Vector more(right_hand_side);
+  more(37) += 3.;
+  more(121) -= 1.4;
+  factorisation->solve(more, exact);
+  solution -= exact;
+  BOOST_CHECK_LT(solution.linfty_norm(), 1e-6);
+}
+
+
+
+BOOST_AUTO_TEST_CASE(mixing_solves_what_plain_steps_do_not)
+{
+  // x = T^{-1} f for the symmetric part T of a matrix; plain steps f - r need three
+  // times as many.
+  const Matrix matrix        = grid_matrix(.15);
+  const auto   factorisation = make_cholesky_factorisation(true);
+  BOOST_REQUIRE(factorisation->factorise(matrix, false));
+  const Vector right_hand_side = some_vector(2);
+  const auto   iterations      = [&](const unsigned int n_kept) {
+    ForceMixing  mixing(n_kept);
+    Vector       x(right_hand_side), residual(x), step(x), update(x);
+    unsigned int k = 0;
+    x              = 0.;
+    for (; k < 200; ++k)
+      {
+        matrix.vmult(residual, x);
+        residual -= right_hand_side;
+        if (residual.l2_norm() < 1e-11 * right_hand_side.l2_norm())
+          break;
+        if (n_kept == 0)
+          {
+            step = residual;
+            step *= -1.;
+          }
+        else
+          mixing.next(residual, step);
+        factorisation->solve(step, update);
+        x += update;
+      }
+    return k;
+  };
+  const unsigned int plain = iterations(0), mixed = iterations(40),
+                     with_few = iterations(3);
+  BOOST_TEST_MESSAGE(plain << " plain, " << with_few << " with three, " << mixed
+                           << " mixed");
+  BOOST_CHECK_LT(mixed, 25);
+  BOOST_CHECK_LT(mixed, .6 * plain);
+  BOOST_CHECK_LE(mixed, with_few);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
