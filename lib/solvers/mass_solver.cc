@@ -2,12 +2,24 @@
 #include <base/exceptions.h>
 #include <solvers/mass_solver.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/lac/diagonal_matrix.h>
 #include <deal.II/lac/solver_cg.h>
+
+#include <string>
 
 namespace Ricochet
 {
   using namespace dealii;
+
+  namespace
+  {
+    const std::string singular =
+      "Accelerations cannot be solved for: the mass matrix is singular. Does the body "
+      "have inertia?";
+  } // namespace
+
+
 
   MassSolver::MassSolver(const BodyMatrix &mass, const std::vector<Index> &own)
     : mass(mass)
@@ -18,9 +30,18 @@ namespace Ricochet
     mass.add_diagonal(1., inverse_diagonal);
     for (const auto i : own)
       inverse_diagonal(i) = 1.;
+    bool has_mass = true;
     for (const auto i : inverse_diagonal.locally_owned_elements())
-      inverse_diagonal(i) = 1. / inverse_diagonal(i);
+      {
+        const double own_mass = inverse_diagonal(i);
+        if (own_mass > 0.)
+          inverse_diagonal(i) = 1. / own_mass;
+        else
+          has_mass = false;
+      }
     inverse_diagonal.compress(VectorOperation::insert);
+    if (Utilities::MPI::min(has_mass ? 1 : 0, mass.get_mpi_communicator()) == 0)
+      throw NewtonFailure(singular);
   }
 
 
@@ -51,9 +72,7 @@ namespace Ricochet
       }
     catch (const SolverControl::NoConvergence &)
       {
-        throw NewtonFailure(
-          "Accelerations cannot be solved for: the mass matrix "
-          "is singular. Does the body have inertia?");
+        throw NewtonFailure(singular);
       }
   }
 } // namespace Ricochet

@@ -24,6 +24,7 @@ namespace Ricochet
      * has to outlive this object.
      * @param own unknowns of this rank with the equation a = f: clamped ones, whose
      * forces have to be zero, and those without mass that couple to no other.
+     * @throws NewtonFailure where an unknown has no mass.
      */
     MassSolver(const BodyMatrix &mass, const std::vector<Index> &own);
 
