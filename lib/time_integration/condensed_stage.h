@@ -18,9 +18,10 @@ namespace Ricochet
    *     x = x_g + s (x_0 - x_g) - K^{-1} f z,
    *
    * where s = 1 after the first full step. So its unknowns are the coefficients z and
-   * s: it makes the same iterates, and measures them by the same norms, as
-   * NewtonSolver with the whole system, but for round-off, and the body is solved for
-   * twice in all.
+   * s: with full steps it makes the same iterates as NewtonSolver with the whole
+   * system, but for round-off, and the body is solved for twice in all. Where steps
+   * have to be shortened, it may fail and the whole system not: norms are the same, but
+   * relative to the forces of the body at the guess.
    */
   class CondensedStage
   {

@@ -468,16 +468,6 @@ namespace
       return Tensor<1, 3>({0., 0., -press * time});
     };
     Impact<3> impact(parameters, *mesh, setup, MPI_COMM_WORLD);
-    if (getenv("DBG"))
-      try
-        {
-          equilibrium(impact, 1.);
-        }
-      catch (const std::exception &e)
-        {
-          puts("FAILED");
-          return 0.;
-        }
     const auto [solution, force] = equilibrium(impact, /* end time */ 1.);
 
     // One after the other: the blocks, and the spring of normal compliance.
