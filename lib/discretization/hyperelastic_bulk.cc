@@ -242,27 +242,32 @@ namespace Ricochet
     const unsigned int     n       = dim * n_nodes;
     const auto            &map     = ghosted_new.trilinos_vector().Map();
     matrix_entry.reserve(n_batches * n * n * n_lanes);
+    std::vector<int> column(n * n_lanes);
     for (unsigned int batch = 0; batch < n_batches; ++batch)
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int lane = 0; lane < n_lanes; ++lane)
+      {
+        for (unsigned int k = 0; k < n * n_lanes; ++k)
+          column[k] =
+            epetra.LCID(map.GID(ghosted_index[batch * n * n_lanes + k]));
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int k = 0; k < n * n_lanes; ++k)
             {
-              const int row = owned_index[(batch * n + i) * n_lanes + lane];
+              const int row =
+                owned_index[(batch * n + i) * n_lanes + k % n_lanes];
               if (row < 0)
                 {
                   matrix_entry.push_back(-1);
                   continue;
                 }
-              const int column = epetra.LCID(
-                map.GID(ghosted_index[(batch * n + j) * n_lanes + lane]));
-              const int *entry = std::find(columns + row_begin[row],
-                                           columns + row_begin[row + 1],
-                                           column);
-              AssertThrow(entry != columns + row_begin[row + 1],
+              // Columns rise in each row.
+              int *const end = columns + row_begin[row + 1];
+              const int *entry =
+                std::lower_bound(columns + row_begin[row], end, column[k]);
+              AssertThrow(entry != end && *entry == column[k],
                           ExcMessage("The sparsity pattern has no such "
                                      "entry."));
               matrix_entry.push_back(entry - columns);
             }
+      }
   }
 
 

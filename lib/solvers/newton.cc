@@ -80,11 +80,7 @@ namespace Ricochet
         trial.reinit(point);
       }
     problem.residual(point, residual);
-    const double norm = problem.norm(residual);
-    const double size = problem.force_scale();
-    // A size that is not a number must not look like none.
-    scale = size == 0. ? 1. : size;
-    return norm / scale;
+    return problem.norm(residual) / problem.scale();
   }
 
 
@@ -92,7 +88,7 @@ namespace Ricochet
   bool
   NewtonSolver::solves(const Problem &problem, const Vector &solution)
   {
-    if (!is_small(problem, evaluate(problem, solution)))
+    if (!problem.is_small(evaluate(problem, solution), parameters.tolerance))
       return false;
     problem.accept();
     return true;
@@ -111,7 +107,8 @@ namespace Ricochet
         norm     = evaluate(problem, solution);
       }
     const auto converged = [&]() {
-      return history.size() > 1 ? is_small(problem, norm) : norm == 0.;
+      return history.size() > 1 ? problem.is_small(norm, parameters.tolerance)
+                                : norm == 0.;
     };
     problem.accept();
     history.push_back({norm, 0., problem.active_set()});

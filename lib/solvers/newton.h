@@ -68,6 +68,23 @@ namespace Ricochet
       /// Where to begin if the residual at the guess is not finite; null for
       /// nowhere.
       const Vector *safe_guess = nullptr;
+
+      /// force_scale, or 1 if there are no forces.
+      double
+      scale() const
+      {
+        const double size = force_scale();
+        // A size that is not a number must not look like none.
+        return size == 0. ? 1. : size;
+      }
+
+      /// Whether the last residual(), whose norm over scale() is @p norm, is so small
+      /// that its point is a solution.
+      bool
+      is_small(const double norm, const double tolerance) const
+      {
+        return norm <= tolerance || norm <= tolerance + round_off() / scale();
+      }
     };
 
     /// What an iteration did.
@@ -103,33 +120,17 @@ namespace Ricochet
     bool
     solves(const Problem &problem, const Vector &solution);
 
-    /// Those of the last solve(), also if it failed.
-    const std::vector<Iteration> &
-    iterations() const
-    {
-      return history;
-    }
-
   private:
-    /// The residual at @p point over #scale, which is set.
+    /// The residual at @p point over Problem::scale().
     double
     evaluate(const Problem &problem, const Vector &point);
-
-    bool
-    is_small(const Problem &problem, const double norm) const
-    {
-      return norm <= parameters.tolerance ||
-        norm <= parameters.tolerance + problem.round_off() / scale;
-    }
 
     [[noreturn]] void
     fail(const std::string &reason) const;
 
     const Parameters       parameters;
     std::vector<Iteration> history;
-    // Magnitude of the forces at the last residual (N); 1 if there are none.
-    double scale = 1.;
-    Vector residual, update, trial;
+    Vector                 residual, update, trial;
   };
 } // namespace Ricochet
 

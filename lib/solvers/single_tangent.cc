@@ -103,12 +103,16 @@ namespace Ricochet
   void
   SingleTangent::vmult(VectorType &result, const VectorType &vector) const
   {
-    body->vmult(result, vector);
-    if (!some_change)
-      return;
+    // Both parts need the ghosts.
     vector.update_ghost_values();
     const float *from = vector.begin();
     float       *to   = result.begin();
+    body->vmult(from, to);
+    if (!some_change)
+      {
+        vector.zero_out_ghost_values();
+        return;
+      }
     for (unsigned int f = 0; f < observed.size(); ++f)
       {
         float sum = 0.F;

@@ -33,17 +33,15 @@ namespace Ricochet
     while (true)
       {
         newton_problem.residual(solution, residual);
-        const double size = newton_problem.force_scale();
         const double norm =
-          newton_problem.norm(residual) / (size == 0. ? 1. : size);
+          newton_problem.norm(residual) / newton_problem.scale();
         newton_problem.accept();
         history.push_back(
           {norm, history.empty() ? 0. : 1., newton_problem.active_set()});
         const unsigned int n = history.size();
         if (!std::isfinite(norm))
           return false;
-        if (n > 1 &&
-            norm <= parameters.tolerance + newton_problem.round_off() / size)
+        if (n > 1 && newton_problem.is_small(norm, parameters.tolerance))
           return true;
         if (n > max_iterations ||
             (n > patience &&

@@ -163,6 +163,7 @@ namespace Ricochet
         skin.push_back(index);
         skin_order.push_back(distance);
       }
+    skin_values.resize(skin.size());
     skin_force.resize(skin.size());
   }
 
@@ -447,8 +448,11 @@ namespace Ricochet
     evaluate(solution);
     residual.add(weight, force);
     clear_multipliers(force);
-    if (!skin.empty())
-      point_of_residual = solution;
+    if (skin.empty())
+      return;
+    point_of_change = solution;
+    for (unsigned int f = 0; f < skin.size(); ++f)
+      skin_values[f] = solution(skin[f]);
   }
 
 
@@ -457,10 +461,9 @@ namespace Ricochet
   void
   PairContact<dim>::look_at_change(const std::vector<double> &change)
   {
-    point_of_change = point_of_residual;
     for (unsigned int f = 0; f < skin.size(); ++f)
-      point_of_change(skin[f]) += change[f];
-    point_of_change.compress(VectorOperation::add);
+      point_of_change(skin[f]) = skin_values[f] + change[f];
+    point_of_change.compress(VectorOperation::insert);
     evaluate(point_of_change);
     clear_multipliers(force);
   }
@@ -529,13 +532,12 @@ namespace Ricochet
     // Less what open points make of their multipliers.
     for (unsigned int f = 0; f < skin.size(); ++f)
       skin_force[f] = weight * force(skin[f]);
-    if (!method.law && !skin.empty())
+    if (!skin.empty())
       for (const PointState &state : states)
-        for (unsigned int c = 0; c < dim; ++c)
-          if (const auto index = point_of(state).multipliers[c];
-              index != no_index)
-            skin_force[skin_place(index)] -=
-              open_diagonal(state) * solution(index);
+        for_each_multiplier(state, [&](const types::global_dof_index index) {
+          skin_force[skin_place(index)] -=
+            open_diagonal(state) * solution(index);
+        });
   }
 
 
@@ -705,12 +707,10 @@ namespace Ricochet
   void
   PairContact<dim>::complete_open_tangent(Matrix &tangent) const
   {
-    if (!method.law)
-      for (const PointState &state : states)
-        for (unsigned int c = 0; c < dim; ++c)
-          if (const auto index = point_of(state).multipliers[c];
-              index != no_index)
-            tangent.add(index, index, open_diagonal(state));
+    for (const PointState &state : states)
+      for_each_multiplier(state, [&](const types::global_dof_index index) {
+        tangent.add(index, index, open_diagonal(state));
+      });
     tangent.compress(VectorOperation::add);
   }
 
@@ -749,14 +749,10 @@ namespace Ricochet
                         [](const double value) { return value == 0.; }))
           continue;
         add_tangent(state, add);
-        if (!method.law)
-          for (unsigned int c = 0; c < dim; ++c)
-            if (const auto index = point_of(state).multipliers[c];
-                index != no_index)
-              {
-                const double open = -open_diagonal(state);
-                add(index, 1, &index, &open);
-              }
+        for_each_multiplier(state, [&](const types::global_dof_index index) {
+          const double open = -open_diagonal(state);
+          add(index, 1, &index, &open);
+        });
       }
     // Each column once, and none whose parts cancel: those of open points.
     for (FunctionalRow &row : change)

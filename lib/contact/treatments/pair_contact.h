@@ -295,6 +295,17 @@ namespace Ricochet
     void
     evaluate(const Vector &solution);
 
+    /// Call @p action with the unknown of each multiplier of a point of a constraint.
+    template <typename Action>
+    void
+    for_each_multiplier(const PointState &state, const Action &action) const
+    {
+      if (!method.law)
+        for (const auto index : point_of(state).multipliers)
+          if (index != dealii::numbers::invalid_dof_index)
+            action(index);
+    }
+
     /// Place of an unknown of the surfaces in #skin.
     unsigned int
     skin_place(const dealii::types::global_dof_index index) const;
@@ -370,11 +381,12 @@ namespace Ricochet
     unsigned int n_frozen = 0, n_returns = 0;
     Couplings    all_couplings;
     // The unknowns of the surfaces in ascending order, on one rank, the order in which
-    // contact is expected to spread over them, and what contact does to each.
+    // contact is expected to spread over them, their values at the last
+    // complete_residual(), and what contact does to each.
     std::vector<dealii::types::global_dof_index> skin;
-    std::vector<double>                          skin_order, skin_force;
-    // Where contact was looked at last, but for changes, and where it is looked at.
-    Vector point_of_residual, point_of_change;
+    std::vector<double> skin_order, skin_values, skin_force;
+    // Where look_at_change() looks.
+    Vector point_of_change;
     // Work space.
     mutable std::vector<double> values;
   };
