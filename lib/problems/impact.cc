@@ -315,7 +315,8 @@ namespace Ricochet
       return std::make_unique<LinearBulk<dim>>(body, materials, storage);
     }
 
-    /// Large linear bodies are never factored: their matrices need not have entries.
+    /// Blocks wherever products cost more than what is made of entries: but the
+    /// multigrid of elements of degree one and bodies against bodies take entries.
     template <int dim>
     MatrixStorage
     storage_of(const ImpactParameters &parameters,
@@ -333,13 +334,14 @@ namespace Ricochet
         std::any_of(contacts.begin(), contacts.end(), [](const auto &contact) {
           return contact.is_between_bodies();
         });
+      const bool multigrid =
+        LinearSolver::chooses_multigrid(parameters.linear_solver,
+                                        dim,
+                                        body.owned_indices().size(),
+                                        Utilities::MPI::n_mpi_processes(
+                                          body.communicator));
       return is_linear && !between_bodies && !body.has_multipliers() &&
-          setup.degree > 1 &&
-          LinearSolver::chooses_multigrid(parameters.linear_solver,
-                                          dim,
-                                          body.owned_indices().size(),
-                                          Utilities::MPI::n_mpi_processes(
-                                            body.communicator))
+          (setup.degree > 1 || !multigrid)
         ? MatrixStorage::blocks
         : MatrixStorage::entries;
     }

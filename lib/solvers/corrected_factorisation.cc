@@ -88,7 +88,6 @@ namespace Ricochet
     restore_rows(&OwnedRow::open);
     if (correction)
       correction->forget_columns();
-    regions.clear();
     return factorisation->factorise(tangent_matrix, false);
   }
 
@@ -237,7 +236,7 @@ namespace Ricochet
         body_solution.reinit(right_hand_side);
         work.reinit(right_hand_side);
       }
-    if (factorisation->has_halves())
+    if (correction->uses_halves(*factorisation))
       factorisation->go_forwards(right_hand_side, half);
     else
       factorisation->solve(right_hand_side, body_solution);
@@ -248,21 +247,17 @@ namespace Ricochet
   void
   CorrectedFactorisation::observe(std::vector<double> &values)
   {
-    const Stopwatch stopwatch(spent.substituting);
-    if (factorisation->has_halves() && !values.empty())
+    if (correction->uses_halves(*factorisation))
       {
-        const unsigned int n_steps =
-          (values.size() + region_step - 1) / region_step;
-        auto known = regions.find(n_steps);
-        if (known == regions.end())
-          known =
-            regions
-              .emplace(n_steps,
-                       factorisation->region_of(
-                         correction->unknowns_of_first(n_steps * region_step)))
-              .first;
-        factorisation->go_backwards(half, &known->second, body_solution);
+        {
+          const Stopwatch stopwatch(spent.factorising);
+          correction->solve_first_columns(values.size(), *factorisation);
+        }
+        const Stopwatch stopwatch(spent.substituting);
+        correction->observe_half(half, values, *factorisation);
+        return;
       }
+    const Stopwatch stopwatch(spent.substituting);
     correction->observe(body_solution, values);
   }
 
@@ -273,36 +268,24 @@ namespace Ricochet
                                  Vector                    &solution)
   {
     const Stopwatch stopwatch(spent.substituting);
-    const bool      pressed =
-      Utilities::MPI::max(std::any_of(coefficients.begin(),
-                                      coefficients.end(),
-                                      [](const double z) { return z != 0.; })
-                            ? 1
-                            : 0,
-                          tangent_matrix.get_mpi_communicator()) == 1;
-    if (pressed)
+    if (correction->uses_halves(*factorisation))
       {
-        ++spent.n_substitutions;
-        work = 0.;
-        correction->add_directions(coefficients, work);
-      }
-    if (factorisation->has_halves())
-      {
-        if (pressed)
-          {
-            factorisation->go_forwards(work, contact_half);
-            for (std::size_t i = 0; i < half.size(); ++i)
-              half[i] -= contact_half[i];
-          }
-        factorisation->go_backwards(half, nullptr, solution);
+        correction->subtract_half(coefficients, half, *factorisation);
+        factorisation->go_backwards(half, solution);
         return;
       }
-    solution = body_solution;
-    if (pressed)
-      {
-        factorisation->solve(work, body_solution);
-        solution -= body_solution;
-      }
+    solution           = body_solution;
+    const bool pressed = std::any_of(coefficients.begin(),
+                                     coefficients.end(),
+                                     [](const double z) { return z != 0.; });
+    if (Utilities::MPI::max(pressed ? 1 : 0,
+                            tangent_matrix.get_mpi_communicator()) == 0)
+      return;
+    ++spent.n_substitutions;
+    work = 0.;
+    correction->add_directions(coefficients, work);
+    factorisation->solve(work, body_solution);
+    solution -= body_solution;
   }
 
 

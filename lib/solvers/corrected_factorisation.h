@@ -163,11 +163,7 @@ namespace Ricochet
     Vector body_solution, work;
     // Whether there was a state of contact since begin().
     bool                has_seen_contact = false;
-    std::vector<double> half, contact_half;
-    // Parts of the factorisation that observe() needs, by the number of places in
-    // steps of #region_step.
-    static constexpr unsigned int                 region_step = 64;
-    std::map<unsigned int, Factorisation::Region> regions;
+    std::vector<double> half;
   };
 } // namespace Ricochet
 

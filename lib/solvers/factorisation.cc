@@ -233,15 +233,6 @@ namespace Ricochet
           sign.minCoeff() > 0.;
       }
 
-      Region
-      region_of(const std::vector<Index> &unknowns) const override
-      {
-        std::vector<bool> is_needed(supernodes.size(), false);
-        for (const Index unknown : unknowns)
-          is_needed[supernode_of[place_in_factor[unknown]]] = true;
-        return with_ancestors(is_needed);
-      }
-
       void
       go_forwards(const Vector        &right_hand_side,
                   std::vector<double> &half) override
@@ -416,18 +407,70 @@ namespace Ricochet
       }
 
       void
-      go_backwards(const std::vector<double> &half,
-                   const Region              *region,
-                   Vector                    &solution) override
+      observe(const HalfColumns         &columns,
+              const std::vector<double> &half,
+              double                    *values) const override
+      {
+        // In one piece, so that BLAS is called once.
+        const int n_rows = columns.first_row.back();
+        seen_half.resize(n_rows);
+        for_each_node(columns,
+                      [&](const int n, const int first, const int row) {
+                        std::copy_n(half.data() + first,
+                                    n,
+                                    seen_half.data() + row);
+                      });
+        const double plus_one = 1., zero = 0.;
+        const int    one = 1;
+        dgemv_("N",
+               &columns.n_columns,
+               &n_rows,
+               &plus_one,
+               columns.values.data(),
+               &columns.n_columns,
+               seen_half.data(),
+               &one,
+               &zero,
+               values,
+               &one);
+      }
+
+      void
+      subtract(const HalfColumns   &columns,
+               const double        *coefficients,
+               std::vector<double> &half) const override
+      {
+        const int n_rows = columns.first_row.back();
+        seen_half.resize(n_rows);
+        const double plus_one = 1., zero = 0.;
+        const int    one = 1;
+        dgemv_("T",
+               &columns.n_columns,
+               &n_rows,
+               &plus_one,
+               columns.values.data(),
+               &columns.n_columns,
+               coefficients,
+               &one,
+               &zero,
+               seen_half.data(),
+               &one);
+        for_each_node(columns,
+                      [&](const int n, const int first, const int row) {
+                        for (int i = 0; i < n; ++i)
+                          half[first + i] -= seen_half[row + i];
+                      });
+      }
+
+      void
+      go_backwards(const std::vector<double> &half, Vector &solution) override
       {
         std::vector<double> values(half);
         const double        minus_one = -1., plus_one = 1.;
         const int           one = 1;
-        const std::size_t   n_visited =
-          region ? region->size() : supernodes.size();
-        for (std::size_t k = n_visited; k-- > 0;)
+        for (std::size_t k = supernodes.size(); k-- > 0;)
           {
-            const Supernode &node    = supernodes[region ? (*region)[k] : k];
+            const Supernode &node    = supernodes[k];
             double          *own     = values.data() + node.first_column;
             const int        n_below = node.n_rows - node.n_columns;
             if (n_below > 0)
@@ -548,10 +591,10 @@ namespace Ricochet
       }
 
       /// The supernodes that are needed, and all that come after them, in their order.
-      Region
+      std::vector<int>
       with_ancestors(std::vector<bool> &is_needed) const
       {
-        Region region;
+        std::vector<int> region;
         for (unsigned int s = 0; s < supernodes.size(); ++s)
           if (is_needed[s])
             {
@@ -560,6 +603,20 @@ namespace Ricochet
                 is_needed[supernodes[s].parent] = true;
             }
         return region;
+      }
+
+      /// Call @p action(n_rows, first, row) for the supernodes of the columns: their
+      /// rows from @p row on are those of the unknowns from @p first on, in the order of
+      /// the factor.
+      template <typename Action>
+      void
+      for_each_node(const HalfColumns &columns, const Action &action) const
+      {
+        for (std::size_t k = 0; k < columns.region.size(); ++k)
+          {
+            const Supernode &node = supernodes[columns.region[k]];
+            action(node.n_columns, node.first_column, columns.first_row[k]);
+          }
       }
 
       /// Where an entry of the lower triangle and its mirror image are among
@@ -699,9 +756,10 @@ namespace Ricochet
       Cholesky                          cholesky;
       std::unique_ptr<TriangularFactor> triangles;
       // Of a supernodal factor; by its order of the unknowns.
-      std::vector<Supernode> supernodes;
-      std::vector<int>       supernode_of, place_in_factor;
-      std::vector<double>    below;
+      std::vector<Supernode>      supernodes;
+      std::vector<int>            supernode_of, place_in_factor;
+      std::vector<double>         below;
+      mutable std::vector<double> seen_half;
     };
   } // namespace
 

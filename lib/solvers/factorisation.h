@@ -47,8 +47,8 @@ namespace Ricochet
 
     /// Whether the functions below can be used since the last factorise(): with
     /// matrix = L L^T (but for the order of the unknowns), a solution is the way
-    /// forwards through L and the one backwards through L^T, and where only a part
-    /// of it is asked for, or little is on the right hand side, a part of L will do.
+    /// forwards through L and the one backwards through L^T, and where little is on the
+    /// right hand side, a part of L will do for the first.
     virtual bool
     has_halves() const
     {
@@ -64,15 +64,6 @@ namespace Ricochet
       return nullptr;
     }
 
-    /// The part of L that it takes to know some unknowns.
-    using Region = std::vector<int>;
-
-    virtual Region
-    region_of(const std::vector<Index> & /*unknowns*/) const
-    {
-      return {};
-    }
-
     /// @p half = L^{-1} @p right_hand_side, in an order of its own.
     virtual void
     go_forwards(const Vector & /*right_hand_side*/,
@@ -83,7 +74,7 @@ namespace Ricochet
     struct HalfColumns
     {
       /// The part of L with all that is not zero.
-      Region region;
+      std::vector<int> region;
       /// Place in #values of the first unknown of each member of the region, in
       /// unknowns, and behind the last one.
       std::vector<int> first_row;
@@ -106,12 +97,24 @@ namespace Ricochet
              std::vector<double> & /*products*/) const
     {}
 
-    /// @p solution = L^{-T} @p half; with a @p region only there, and elsewhere
-    /// nothing of meaning.
+    /// Inner products of the @p columns and a @p half solution: what their right hand
+    /// sides see of the whole one. @p values has a place for each column.
     virtual void
-    go_backwards(const std::vector<double> & /*half*/,
-                 const Region * /*region*/,
-                 Vector & /*solution*/)
+    observe(const HalfColumns & /*columns*/,
+            const std::vector<double> & /*half*/,
+            double * /*values*/) const
+    {}
+
+    /// Subtract the @p columns with their @p coefficients from a @p half solution.
+    virtual void
+    subtract(const HalfColumns & /*columns*/,
+             const double * /*coefficients*/,
+             std::vector<double> & /*half*/) const
+    {}
+
+    /// @p solution = L^{-T} @p half.
+    virtual void
+    go_backwards(const std::vector<double> & /*half*/, Vector & /*solution*/)
     {}
   };
 

@@ -116,16 +116,55 @@ namespace Ricochet
 
 
 
-  std::vector<LowRankCorrection::Index>
-  LowRankCorrection::unknowns_of_first(const unsigned int n) const
+  void
+  LowRankCorrection::solve_first_columns(const unsigned int n,
+                                         Factorisation     &factorisation)
   {
-    std::vector<Index> unknowns;
-    for (unsigned int d = 0; d < directions.size(); ++d)
-      if (place_of_direction[d] < n)
-        unknowns.insert(unknowns.end(),
-                        directions.index.begin() + directions.begin[d],
-                        directions.index.begin() + directions.begin[d + 1]);
-    return unknowns;
+    std::vector<unsigned int> places(n);
+    std::iota(places.begin(), places.end(), 0U);
+    solve_missing_columns(places, factorisation);
+  }
+
+
+
+  void
+  LowRankCorrection::observe_half(const std::vector<double> &half,
+                                  std::vector<double>       &values,
+                                  const Factorisation &factorisation) const
+  {
+    const std::size_t   group_size = options.group_size;
+    std::vector<double> seen;
+    for (std::size_t begin = 0; begin < values.size(); begin += group_size)
+      {
+        const auto &group = half_columns.at(begin / group_size);
+        seen.resize(group.n_columns);
+        factorisation.observe(group, half, seen.data());
+        std::copy_n(seen.begin(),
+                    std::min(seen.size(), values.size() - begin),
+                    values.begin() + begin);
+      }
+  }
+
+
+
+  void
+  LowRankCorrection::subtract_half(const std::vector<double> &coefficients,
+                                   std::vector<double>       &half,
+                                   const Factorisation &factorisation) const
+  {
+    const std::size_t   group_size = options.group_size;
+    std::vector<double> by_place(n_places(), 0.);
+    for (unsigned int d = 0; d < coefficients.size(); ++d)
+      by_place[place_of_direction[d]] = coefficients[d];
+    for (std::size_t begin = 0; begin < by_place.size(); begin += group_size)
+      {
+        const auto first = by_place.begin() + begin,
+                   last = first + std::min(group_size, by_place.size() - begin);
+        if (std::any_of(first, last, [](const double z) { return z != 0.; }))
+          factorisation.subtract(half_columns.at(begin / group_size),
+                                 &*first,
+                                 half);
+      }
   }
 
 

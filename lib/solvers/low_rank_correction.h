@@ -110,9 +110,34 @@ namespace Ricochet
     void
     observe(const Vector &vector, std::vector<double> &values);
 
-    /// The unknowns of this rank's directions at the first @p n places.
-    std::vector<Index>
-    unknowns_of_first(const unsigned int n) const;
+    /// Whether columns are made of half solutions, which takes half of the work and
+    /// only a part of the factor. They are known only where those of the
+    /// observables are.
+    bool
+    uses_halves(const Factorisation &factorisation) const
+    {
+      return options.is_symmetric && options.group_size > 0 &&
+        !own_observables && factorisation.has_halves();
+    }
+
+    /// Solve for the columns at the first @p n places, unless they are known.
+    void
+    solve_first_columns(const unsigned int n, Factorisation &factorisation);
+
+    /// Values of the first observables of the solution of which the @p half is known,
+    /// from their columns; as many as @p values has. @pre uses_halves(), and the columns
+    /// are known; so below.
+    void
+    observe_half(const std::vector<double> &half,
+                 std::vector<double>       &values,
+                 const Factorisation       &factorisation) const;
+
+    /// Subtract the half solution for the directions of this rank with their @p
+    /// coefficients from @p half.
+    void
+    subtract_half(const std::vector<double> &coefficients,
+                  std::vector<double>       &half,
+                  const Factorisation       &factorisation) const;
 
     /// Add the sum of this rank's directions with their @p coefficients to @p
     /// vector.
@@ -161,16 +186,6 @@ namespace Ricochet
     void
     solve_missing_columns(const std::vector<unsigned int> &places,
                           Factorisation                   &factorisation);
-
-    /// Whether columns are made of half solutions, which takes half of the work and
-    /// only a part of the factor. They are known only where those of the
-    /// observables are.
-    bool
-    uses_halves(const Factorisation &factorisation) const
-    {
-      return options.is_symmetric && options.group_size > 0 &&
-        !own_observables && factorisation.has_halves();
-    }
 
     /// Solve for a group of columns by half solutions.
     void
