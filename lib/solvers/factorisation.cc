@@ -201,7 +201,17 @@ namespace Ricochet
               entry[coupling.entry] = .5 * coupling.value;
             one_sided.clear();
           }
+        // Bodies that do not change are factored once and solved with often, best by
+        // dense blocks; of others, the factor has to be at hand column by column.
+        if (!is_analysed)
+          analyse(!approximate && sign.minCoeff() > 0.);
         cholesky.factorize(symmetric);
+        if (cholesky.info() != Eigen::Success && prefers_blocks)
+          {
+            // It may be indefinite.
+            analyse(false);
+            cholesky.factorize(symmetric);
+          }
         if (cholesky.info() != Eigen::Success)
           return false;
         find_supernodes();
@@ -251,30 +261,47 @@ namespace Ricochet
         const int    one = 1;
         for (const int s : with_ancestors(is_needed))
           {
-            const Supernode &node = supernodes[s];
-            double          *own  = half.data() + node.first_column;
-            dtrsv_("L",
-                   "N",
-                   "N",
-                   &node.n_columns,
-                   node.values,
-                   &node.n_rows,
-                   own,
-                   &one);
-            const int n_below = node.n_rows - node.n_columns;
-            if (n_below == 0)
-              continue;
-            dgemv_("N",
-                   &n_below,
-                   &node.n_columns,
-                   &minus_one,
-                   node.values + node.n_columns,
-                   &node.n_rows,
-                   own,
-                   &one,
-                   &zero,
-                   below.data(),
-                   &one);
+            const Supernode &node    = supernodes[s];
+            double          *own     = half.data() + node.first_column;
+            const int        n_below = node.n_rows - node.n_columns;
+            if (node.is_small())
+              {
+                std::fill_n(below.begin(), n_below, 0.);
+                for (int column = 0; column < node.n_columns; ++column)
+                  {
+                    const double *entry = node.values +
+                      static_cast<std::size_t>(column) * node.n_rows;
+                    const double value = own[column] /= entry[column];
+                    for (int i = column + 1; i < node.n_columns; ++i)
+                      own[i] -= value * entry[i];
+                    entry += node.n_columns;
+                    for (int i = 0; i < n_below; ++i)
+                      below[i] -= value * entry[i];
+                  }
+              }
+            else
+              {
+                dtrsv_("L",
+                       "N",
+                       "N",
+                       &node.n_columns,
+                       node.values,
+                       &node.n_rows,
+                       own,
+                       &one);
+                if (n_below > 0)
+                  dgemv_("N",
+                         &n_below,
+                         &node.n_columns,
+                         &minus_one,
+                         node.values + node.n_columns,
+                         &node.n_rows,
+                         own,
+                         &one,
+                         &zero,
+                         below.data(),
+                         &one);
+              }
             for (int i = 0; i < n_below; ++i)
               half[node.rows[node.n_columns + i]] += below[i];
           }
@@ -473,22 +500,37 @@ namespace Ricochet
             const Supernode &node    = supernodes[k];
             double          *own     = values.data() + node.first_column;
             const int        n_below = node.n_rows - node.n_columns;
-            if (n_below > 0)
+            for (int i = 0; i < n_below; ++i)
+              below[i] = values[node.rows[node.n_columns + i]];
+            if (node.is_small())
               {
-                for (int i = 0; i < n_below; ++i)
-                  below[i] = values[node.rows[node.n_columns + i]];
-                dgemv_("T",
-                       &n_below,
-                       &node.n_columns,
-                       &minus_one,
-                       node.values + node.n_columns,
-                       &node.n_rows,
-                       below.data(),
-                       &one,
-                       &plus_one,
-                       own,
-                       &one);
+                for (int column = node.n_columns; column-- > 0;)
+                  {
+                    const double *entry = node.values +
+                      static_cast<std::size_t>(column) * node.n_rows;
+                    double sum = own[column];
+                    for (int i = column + 1; i < node.n_columns; ++i)
+                      sum -= entry[i] * own[i];
+                    const double diagonal = entry[column];
+                    entry += node.n_columns;
+                    for (int i = 0; i < n_below; ++i)
+                      sum -= entry[i] * below[i];
+                    own[column] = sum / diagonal;
+                  }
+                continue;
               }
+            if (n_below > 0)
+              dgemv_("T",
+                     &n_below,
+                     &node.n_columns,
+                     &minus_one,
+                     node.values + node.n_columns,
+                     &node.n_rows,
+                     below.data(),
+                     &one,
+                     &plus_one,
+                     own,
+                     &one);
             dtrsv_("L",
                    "T",
                    "N",
@@ -549,6 +591,13 @@ namespace Ricochet
         const double *values;
         /// The one to which the first row below belongs; -1: none.
         int parent;
+
+        /// Whether a call of BLAS takes longer than what it does.
+        bool
+        is_small() const
+        {
+          return n_rows * n_columns <= 2048;
+        }
       };
 
       /// None where the factor has none.
@@ -720,10 +769,18 @@ namespace Ricochet
         symmetric.resize(n, n);
         symmetric.setFromTriplets(pattern.begin(), pattern.end());
         sign.resize(n);
-        // From so many operations per entry of the factor on, the supernodal
-        // factorisation is faster: never in the plane, always in 3D.
-        cholesky.cholmod().supernodal_switch = 200.;
+      }
+
+      /// @param prefer_blocks a supernodal factor of all but small matrices. Without it,
+      /// where it is made faster: never in the plane, always in 3D.
+      void
+      analyse(const bool prefer_blocks)
+      {
+        // Operations per entry of the factor.
+        cholesky.cholmod().supernodal_switch = prefer_blocks ? 10. : 200.;
         cholesky.analyzePattern(symmetric);
+        is_analysed    = true;
+        prefers_blocks = prefer_blocks;
       }
 
       /// Whether the unknowns from which couplings of one side lead are not
@@ -746,14 +803,15 @@ namespace Ricochet
         return true;
       }
 
-      const bool                        approximate;
-      Eigen::SparseMatrix<double>       symmetric;
-      std::vector<Place>                places;
-      std::vector<int>                  diagonal;
-      std::vector<Coupling>             one_sided;
-      Eigen::VectorXd                   sign;
-      Eigen::MatrixXd                   right, result;
-      Cholesky                          cholesky;
+      const bool                  approximate;
+      Eigen::SparseMatrix<double> symmetric;
+      std::vector<Place>          places;
+      std::vector<int>            diagonal;
+      std::vector<Coupling>       one_sided;
+      Eigen::VectorXd             sign;
+      Eigen::MatrixXd             right, result;
+      Cholesky                    cholesky;
+      bool                        is_analysed = false, prefers_blocks = false;
       std::unique_ptr<TriangularFactor> triangles;
       // Of a supernodal factor; by its order of the unknowns.
       std::vector<Supernode>      supernodes;
