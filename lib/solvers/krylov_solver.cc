@@ -26,7 +26,7 @@ namespace Ricochet
   {
     const bool is_new     = !body_is_of_this_stage;
     body_is_of_this_stage = false;
-    if (!body && !contact.has_multipliers)
+    if (!body)
       {
         if (!nearby)
           nearby =
@@ -45,7 +45,7 @@ namespace Ricochet
       {
         LowRankCorrection::Options options;
         options.is_symmetric =
-          contact.is_symmetric && factorisations.name(true) == "CHOLMOD";
+          !contact.is_clamped && factorisations.name(true) == "CHOLMOD";
         body = std::make_unique<CorrectedFactorisation>(
           factorisations.make(true, true),
           CorrectedFactorisation::Correction::functionals,

@@ -27,6 +27,13 @@ namespace Ricochet
     void
     begin_stage() override;
 
+    /// Those that contact gives no couplings which the body has not.
+    bool
+    takes(const Tangent & /*tangent*/) const override
+    {
+      return !contact.couplings_change;
+    }
+
     /// @return whether GMRES converged.
     bool
     solve(const Tangent &tangent,

@@ -77,6 +77,14 @@ namespace Ricochet
         "Multigrid factors nothing: with Linear solver/Type = multigrid leave "
         "Linear solver/Factorisation at automatic.");
 
+    // Bodies that are not linear, before each other, condensed to contact; what takes
+    // over solves with all of it. Multigrid is faster by itself.
+    condenses_only = parameters.type == "automatic" && type == "direct" &&
+      contact.couplings_change && contact.functionals && !linear_body &&
+      may_condense && n_unknowns > 1000 && factorisations.name(true) == "CHOLMOD";
+    if (condenses_only)
+      ways.push_back(std::make_unique<KrylovSolver>(factorisations, contact));
+
     if (type == "multigrid" && contact.couplings_change)
       ways.push_back(std::make_unique<CoupledMultigrid>(coarse_space()));
     else if (type == "multigrid")
@@ -86,15 +94,14 @@ namespace Ricochet
                                                        coarse_space()));
     else
       {
-        if (type == "corrected")
-          {
-            ways.push_back(std::make_unique<CorrectedSolver>(factorisations,
-                                                             parameters.n_kept,
-                                                             contact));
-            // Where GMRES gives up, a factorisation with pivots will do.
-            ways.push_back(
-              std::make_unique<KrylovSolver>(factorisations, contact));
-          }
+        if (type == "corrected" && linear_body)
+          ways.push_back(std::make_unique<CorrectedSolver>(factorisations,
+                                                           parameters.n_kept,
+                                                           contact));
+        // Where GMRES gives up, a factorisation with pivots will do.
+        if (type == "corrected" && !linear_body)
+          ways.push_back(
+            std::make_unique<KrylovSolver>(factorisations, contact));
         ways.push_back(
           std::make_unique<DirectSolver>(factorisations, parameters.n_kept));
       }
@@ -173,6 +180,9 @@ namespace Ricochet
     if (type == "multigrid")
       return "multigrid";
     const std::string name = factorisations.name(type == "corrected");
+    if (condenses_only)
+      return factorisations.name(true) +
+        ", kept for a step and condensed to contact; where that fails, " + name;
     if (type == "direct")
       return name + " for each state of contact";
     return name +
@@ -222,8 +232,7 @@ namespace Ricochet
   TangentSolver &
   LinearSolver::way_to_condense() const
   {
-    // Those of "corrected": for linear bodies, then for others.
-    return *(linear_body || ways.size() < 2 ? ways[0] : ways[1]);
+    return *ways.front();
   }
 
 

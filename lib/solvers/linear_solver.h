@@ -145,6 +145,8 @@ namespace Ricochet
     const bool                linear_body, may_condense;
     const FactorisationChoice factorisations;
     std::string               type;
+    // The first way is there to condense, and solves nothing.
+    bool condenses_only = false;
     // The ways to solve, one after the other until one succeeds.
     std::vector<std::unique_ptr<TangentSolver>> ways;
   };
