@@ -29,10 +29,9 @@ namespace Ricochet
     if (!body)
       {
         if (!nearby)
-          nearby =
-            std::make_unique<NearbyBody>(factorisations.make(true, true),
-                                         *contact.functionals,
-                                         spent);
+          nearby = std::make_unique<NearbyBody>(factorisations.make(true, true),
+                                                *contact.functionals,
+                                                spent);
         if (!is_new || nearby->factorise(tangent))
           {
             body_is_of_this_stage = true;

@@ -27,7 +27,8 @@ namespace Ricochet
     void
     begin_stage() override;
 
-    /// Those that contact gives no couplings which the body has not.
+    /// Not those in which contact couples what the body does not: these it condenses
+    /// only.
     bool
     takes(const Tangent & /*tangent*/) const override
     {

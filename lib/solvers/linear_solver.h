@@ -28,6 +28,10 @@ namespace Ricochet
    * tangent is factored, which costs less than half of a factorisation with
    * pivots, and GMRES does the rest.
    *
+   * Bodies that are not linear, before each other on one rank, are condensed to
+   * contact, with one factorisation of the bodies a step; "direct" takes over where that
+   * fails.
+   *
    * "multigrid" solves each system iteratively, for bodies in three dimensions
    * whose factorisation takes too long or too much memory.
    */

@@ -182,8 +182,9 @@ namespace Ricochet
       else
         parts.bulk.add_tangent(bulk_weight, solution, matrix);
     };
-    tangent.row_scaling        = &parts.contact.row_scaling();
-    const Couplings *couplings = !condenses && parts.linear_solver.needs_couplings()
+    tangent.row_scaling = &parts.contact.row_scaling();
+    const Couplings *couplings =
+      !condenses && parts.linear_solver.needs_couplings()
       ? parts.contact.couplings()
       : nullptr;
     if (couplings)
