@@ -51,6 +51,13 @@ namespace Ricochet
     accept_iterate()
     {}
 
+    /// From here on another problem with the same contact is solved, near the last
+    /// iterate: what former iterates did, such as to come back to where they were,
+    /// tells nothing.
+    virtual void
+    forget_iterates()
+    {}
+
     /**
      * Called after a stage was solved: treatments in several passes set up the
      * next one (from the same beginning of the step) and return true; it is

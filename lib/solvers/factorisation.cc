@@ -223,7 +223,7 @@ namespace Ricochet
       {
         const cholmod_factor *factor = cholesky.factor();
         if (factor->is_super || factor->itype != CHOLMOD_INT ||
-            factor->dtype != CHOLMOD_DOUBLE || (sign.array() < 0.).any())
+            factor->dtype != CHOLMOD_DOUBLE)
           return nullptr;
         triangles = std::make_unique<TriangularFactor>(
           TriangularFactor::Columns{static_cast<int>(factor->n),
@@ -232,7 +232,8 @@ namespace Ricochet
                                     static_cast<const int *>(factor->nz),
                                     static_cast<const int *>(factor->i),
                                     static_cast<const double *>(factor->x),
-                                    factor->is_ll != 0});
+                                    factor->is_ll != 0,
+                                    sign.data()});
         return triangles.get();
       }
 

@@ -26,13 +26,12 @@ namespace Ricochet
   {
     const bool is_new     = !body_is_of_this_stage;
     body_is_of_this_stage = false;
-    if (!body && !contact.has_multipliers)
+    if (!body)
       {
         if (!nearby)
-          nearby =
-            std::make_unique<NearbyBody>(factorisations.make(true, true),
-                                         *contact.functionals,
-                                         spent);
+          nearby = std::make_unique<NearbyBody>(factorisations.make(true, true),
+                                                *contact.functionals,
+                                                spent);
         if (!is_new || nearby->factorise(tangent))
           {
             body_is_of_this_stage = true;
@@ -45,7 +44,7 @@ namespace Ricochet
       {
         LowRankCorrection::Options options;
         options.is_symmetric =
-          contact.is_symmetric && factorisations.name(true) == "CHOLMOD";
+          !contact.is_clamped && factorisations.name(true) == "CHOLMOD";
         body = std::make_unique<CorrectedFactorisation>(
           factorisations.make(true, true),
           CorrectedFactorisation::Correction::functionals,

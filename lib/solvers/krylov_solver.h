@@ -27,6 +27,14 @@ namespace Ricochet
     void
     begin_stage() override;
 
+    /// Not those in which contact couples what the body does not: these it condenses
+    /// only.
+    bool
+    takes(const Tangent & /*tangent*/) const override
+    {
+      return !contact.couplings_change;
+    }
+
     /// @return whether GMRES converged.
     bool
     solve(const Tangent &tangent,

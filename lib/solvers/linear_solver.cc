@@ -77,6 +77,15 @@ namespace Ricochet
         "Multigrid factors nothing: with Linear solver/Type = multigrid leave "
         "Linear solver/Factorisation at automatic.");
 
+    // Bodies that are not linear, before each other, condensed to contact; what takes
+    // over solves with all of it. Multigrid is faster by itself.
+    condenses_only = parameters.type == "automatic" && type == "direct" &&
+      contact.couplings_change && contact.functionals && !linear_body &&
+      may_condense && n_unknowns > 1000 &&
+      factorisations.name(true) == "CHOLMOD";
+    if (condenses_only)
+      ways.push_back(std::make_unique<KrylovSolver>(factorisations, contact));
+
     if (type == "multigrid" && contact.couplings_change)
       ways.push_back(std::make_unique<CoupledMultigrid>(coarse_space()));
     else if (type == "multigrid")
@@ -86,15 +95,14 @@ namespace Ricochet
                                                        coarse_space()));
     else
       {
-        if (type == "corrected")
-          {
-            ways.push_back(std::make_unique<CorrectedSolver>(factorisations,
-                                                             parameters.n_kept,
-                                                             contact));
-            // Where GMRES gives up, a factorisation with pivots will do.
-            ways.push_back(
-              std::make_unique<KrylovSolver>(factorisations, contact));
-          }
+        if (type == "corrected" && linear_body)
+          ways.push_back(std::make_unique<CorrectedSolver>(factorisations,
+                                                           parameters.n_kept,
+                                                           contact));
+        // Where GMRES gives up, a factorisation with pivots will do.
+        if (type == "corrected" && !linear_body)
+          ways.push_back(
+            std::make_unique<KrylovSolver>(factorisations, contact));
         ways.push_back(
           std::make_unique<DirectSolver>(factorisations, parameters.n_kept));
       }
@@ -156,7 +164,9 @@ namespace Ricochet
       condense,
       "With Type = corrected before planes at rest, with treatments whose forces are "
       "functions of gaps, pressures and slips in points (not active sets), and, on one "
-      "MPI rank, for linear bodies before each other with any treatment: Newton's "
+      "MPI rank, for bodies before each other with any treatment (those that are not "
+      "linear with Type = automatic, above 1000 unknowns, where multigrid is not "
+      "chosen): Newton's "
       "method looks at these alone. A linear body is solved for twice in each stage of "
       "a time step, instead of twice in each iteration; for one that is not linear, "
       "the tangent at the last state serves in all iterations of a step, which are more "
@@ -173,6 +183,9 @@ namespace Ricochet
     if (type == "multigrid")
       return "multigrid";
     const std::string name = factorisations.name(type == "corrected");
+    if (condenses_only)
+      return factorisations.name(true) +
+        ", kept for a step and condensed to contact; where that fails, " + name;
     if (type == "direct")
       return name + " for each state of contact";
     return name +
@@ -222,8 +235,7 @@ namespace Ricochet
   TangentSolver &
   LinearSolver::way_to_condense() const
   {
-    // Those of "corrected": for linear bodies, then for others.
-    return *(linear_body || ways.size() < 2 ? ways[0] : ways[1]);
+    return *ways.front();
   }
 
 

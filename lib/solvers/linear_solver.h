@@ -28,6 +28,10 @@ namespace Ricochet
    * tangent is factored, which costs less than half of a factorisation with
    * pivots, and GMRES does the rest.
    *
+   * Bodies that are not linear, before each other on one rank, are condensed to
+   * contact, with one factorisation of the bodies a step; "direct" takes over where that
+   * fails.
+   *
    * "multigrid" solves each system iteratively, for bodies in three dimensions
    * whose factorisation takes too long or too much memory.
    */
@@ -145,6 +149,8 @@ namespace Ricochet
     const bool                linear_body, may_condense;
     const FactorisationChoice factorisations;
     std::string               type;
+    // The first way is there to condense, and solves nothing.
+    bool condenses_only = false;
     // The ways to solve, one after the other until one succeeds.
     std::vector<std::unique_ptr<TangentSolver>> ways;
   };

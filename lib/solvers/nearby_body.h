@@ -25,7 +25,7 @@ namespace Ricochet
     /**
      * @param factorisation of symmetric parts.
      * @param contact functionals, none of which has unknowns with equations of their
-     * own (clamped ones); without multipliers.
+     * own (clamped ones); multipliers are coupled to nothing while contact is open.
      */
     NearbyBody(std::unique_ptr<Factorisation>       factorisation,
                const ContactStructure::ActsThrough &contact,

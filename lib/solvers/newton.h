@@ -115,6 +115,13 @@ namespace Ricochet
     const std::vector<Iteration> &
     solve(const Problem &problem, Vector &solution);
 
+    /// What the last solve() returned, or did before it failed.
+    const std::vector<Iteration> &
+    iterations() const
+    {
+      return history;
+    }
+
     /// Whether @p solution solves @p problem, to the same tolerance; if so, it is
     /// accepted as the next iterate.
     bool

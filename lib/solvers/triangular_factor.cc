@@ -58,9 +58,8 @@ namespace Ricochet
           {
             block_of[column]         = blocks.size();
             const double diagonal    = columns.values[columns.begin[column]];
-            inverse_diagonal[column] = columns.diagonal_is_of_l
-              ? 1. / (diagonal * diagonal)
-              : 1. / diagonal;
+            inverse_diagonal[column] = columns.sign[columns.order[column]] /
+              (columns.diagonal_is_of_l ? diagonal * diagonal : diagonal);
           }
         const auto add_row = [&](const int row, const int width) {
           for (int c = 0; c < width; ++c)

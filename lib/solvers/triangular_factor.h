@@ -31,6 +31,9 @@ namespace Ricochet
       const double *values;
       /// The diagonal is that of L; otherwise it is D, and that of L is 1.
       bool diagonal_is_of_l;
+      /// -1 for unknowns whose rows have been multiplied by that, which couple to no
+      /// other one; otherwise 1.
+      const double *sign;
     };
 
     explicit TriangularFactor(const Columns &columns);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
 #include <time_integration/condensed_stage.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Ricochet
 {
@@ -153,7 +155,7 @@ namespace Ricochet
 
 
 
-  const std::vector<NewtonSolver::Iteration> &
+  std::vector<NewtonSolver::Iteration>
   CondensedStage::solve(NewtonSolver &newton, Vector &solution)
   {
     const unsigned int n_own = forces.size() + 1;
@@ -169,23 +171,47 @@ namespace Ricochet
     own.add_range(first, first + n_own);
     Vector unknowns(own, communicator);
 
-    const auto &history =
-      newton.solve({[this](const Vector &point, Vector &result) {
-                      residual(point, result);
-                    },
-                    [this](const Vector &right_hand_side,
-                           Vector       &update,
-                           const bool /*may_reuse*/,
-                           const double /*tolerance*/) {
-                      linear_solve(right_hand_side, update);
-                    },
-                    [this](const Vector &result) { return norm(result); },
-                    problem.accept,
-                    problem.active_set,
-                    [this]() { return body_force_scale + contact_force_scale; },
-                    problem.round_off,
-                    nullptr},
-                   unknowns);
+    const NewtonSolver::Problem condensed{
+      [this](const Vector &point, Vector &result) { residual(point, result); },
+      [this](const Vector &right_hand_side,
+             Vector       &update,
+             const bool /*may_reuse*/,
+             const double /*tolerance*/) {
+        linear_solve(right_hand_side, update);
+      },
+      [this](const Vector &result) { return norm(result); },
+      problem.accept,
+      problem.active_set,
+      [this]() { return body_force_scale + contact_force_scale; },
+      problem.round_off,
+      nullptr};
+    // A line search may get stuck where points pass from facet to facet. Iterations
+    // cost little here, and full steps lead on.
+    constexpr unsigned int               n_attempts = 8;
+    std::vector<NewtonSolver::Iteration> history;
+    const auto                           remember = [&]() {
+      // Where an attempt begins, the last one ended.
+      const auto &latest = newton.iterations();
+      history.insert(history.end(),
+                     latest.begin() + (history.empty() ? 0 : 1),
+                     latest.end());
+    };
+    bool is_solved = false;
+    for (unsigned int attempt = 1; !is_solved; ++attempt)
+      try
+        {
+          newton.solve(condensed, unknowns);
+          is_solved = true;
+          remember();
+        }
+      catch (const NewtonFailure &)
+        {
+          // What fails at once will do so again.
+          if (attempt == n_attempts || newton.iterations().size() < 3 ||
+              !std::isfinite(newton.iterations().back().relative_residual))
+            throw;
+          remember();
+        }
 
     // There was at least one step.
     Unknowns result = read(unknowns);

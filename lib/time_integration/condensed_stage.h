@@ -40,12 +40,13 @@ namespace Ricochet
                    const double                 contact_force_scale);
 
     /**
-     * Solve with @p newton, from the guess @p solution to @p solution.
+     * Solve with @p newton, from the guess @p solution to @p solution; where it gets
+     * stuck, it begins anew from there a few times.
      *
-     * @return what NewtonSolver::solve() returns.
+     * @return what NewtonSolver::solve() returns, all attempts one behind the other.
      * @throws NewtonFailure; the guess remains.
      */
-    const std::vector<NewtonSolver::Iteration> &
+    std::vector<NewtonSolver::Iteration>
     solve(NewtonSolver &newton, Vector &solution);
 
   private:

@@ -81,6 +81,9 @@ namespace Ricochet
                     mass.m(),
                     Utilities::MPI::n_mpi_processes(
                       mass.get_mpi_communicator()))
+    , has_multipliers(
+        Utilities::MPI::max(unknowns.multipliers.n_elements() > 0 ? 1 : 0,
+                            mass.get_mpi_communicator()) == 1)
     , work(contact.row_scaling())
     , constant_part(contact.row_scaling())
     , force(contact.row_scaling())
@@ -207,7 +210,7 @@ namespace Ricochet
     if (!std::isfinite(newton_problem.norm(residual)))
       return false;
     CondensedStage condensed = problem.condensed(newton_problem, residual);
-    const auto    &history   = condensed.solve(condensed_newton, solution);
+    const auto     history   = condensed.solve(condensed_newton, solution);
     problem.add_iterations(history.size() - 1);
     if (newton_observer)
       newton_observer(history);
@@ -240,7 +243,8 @@ namespace Ricochet
     const auto &history = quasi_newton.iterations();
     if (newton_observer)
       newton_observer(history);
-    if (!is_solved && !(history.back().relative_residual < 1e-3))
+    if (!is_solved &&
+        (has_multipliers || !(history.back().relative_residual < 1e-3)))
       solution = residual;
     return is_solved;
   }
@@ -287,24 +291,32 @@ namespace Ricochet
                              stage.time_step,
                              stage.end_time,
                              &old_state.contact_shares};
-    const auto                  solve_all_passes = [&]() {
+    // Not again in this stage where it has failed, which it would do once more.
+    bool condenses = linear_solver.condenses() &&
+      (bulk.is_linear() || quasi_newton.is_allowed());
+    const auto solve_all_passes = [&]() {
       problem.forget_tangents();
       contact.begin_stage(start, stage.contact_weight_new);
       do
         {
-          if (linear_solver.condenses() &&
-              (bulk.is_linear() || quasi_newton.is_allowed()))
+          if (condenses)
             {
               try
                 {
                   const bool is_solved = bulk.is_linear()
-                                     ? solve_condensed(problem, newton_problem, solution)
-                                     : solve_near_last_state(problem, newton_problem, solution);
+                    ? solve_condensed(problem, newton_problem, solution)
+                    : solve_near_last_state(problem, newton_problem, solution);
                   if (is_solved)
                     continue;
+                  condenses = bulk.is_linear();
+                  // Where constraints are nearly the same, multipliers may have grown
+                  // beyond all forces, which are what residuals are measured by.
+                  if (!bulk.is_linear() && has_multipliers)
+                    contact.begin_stage(start, stage.contact_weight_new);
                 }
               catch (const NewtonFailure &)
                 {
+                  condenses = false;
                   // Perhaps the whole system can be solved, which measures its steps
                   // by all of its forces; if not, it says why.
                   contact.begin_stage(start, stage.contact_weight_new);

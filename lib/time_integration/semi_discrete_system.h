@@ -263,6 +263,8 @@ namespace Ricochet
     // Made when it is first needed.
     std::optional<MassSolver> mass_solver;
     double                    residual_seconds = 0., tangent_seconds = 0.;
+    /// On any rank.
+    const bool has_multipliers;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, constant_part, force;
     // What the equations leave over in prescribed displacements (N), where

@@ -81,8 +81,9 @@ namespace Ricochet
   StageProblem::condensed(const NewtonSolver::Problem &for_newton,
                           const Vector                &residual)
   {
+    parts.contact.forget_iterates();
     return {for_newton,
-            parts.linear_solver.condensed(tangent()),
+            parts.linear_solver.condensed(tangent(true)),
             parts.contact,
             residual,
             contact_scale};
@@ -141,7 +142,7 @@ namespace Ricochet
   }
 
   Tangent
-  StageProblem::tangent()
+  StageProblem::tangent(const bool condenses)
   {
     const double bulk_weight =
       stage.bulk_step_force ? .5 : stage.bulk_weight_new;
@@ -181,8 +182,9 @@ namespace Ricochet
       else
         parts.bulk.add_tangent(bulk_weight, solution, matrix);
     };
-    tangent.row_scaling        = &parts.contact.row_scaling();
-    const Couplings *couplings = parts.linear_solver.needs_couplings()
+    tangent.row_scaling = &parts.contact.row_scaling();
+    const Couplings *couplings =
+      !condenses && parts.linear_solver.needs_couplings()
       ? parts.contact.couplings()
       : nullptr;
     if (couplings)

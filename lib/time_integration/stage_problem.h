@@ -76,6 +76,13 @@ namespace Ricochet
     CondensedStage
     condensed(const NewtonSolver::Problem &for_newton, const Vector &residual);
 
+    /// What makes the rows of residuals those of forces.
+    const Vector &
+    row_scaling() const
+    {
+      return parts.contact.row_scaling();
+    }
+
     /// Count @p n linear solves made elsewhere.
     void
     add_iterations(const unsigned int n)
@@ -100,9 +107,10 @@ namespace Ricochet
           const bool    may_reuse,
           const double  tolerance);
 
-    /// The tangent at the iterate.
+    /// The tangent at the iterate. @param condenses contact is looked at by its
+    /// functionals alone.
     Tangent
-    tangent();
+    tangent(const bool condenses = false);
 
     double
     norm(const Vector &result);

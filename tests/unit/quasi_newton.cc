@@ -114,6 +114,39 @@ BOOST_AUTO_TEST_CASE(factors_in_single_precision)
 
 
 
+BOOST_AUTO_TEST_CASE(rows_of_open_multipliers)
+{
+  // Two unknowns that couple to nothing, with a negative diagonal.
+  Matrix matrix = grid_matrix(0.);
+  matrix.clear_row(37, -.5);
+  matrix.clear_row(60, -2.);
+  for (unsigned int i = 0; i < n; ++i)
+    for (const unsigned int j : {37, 60})
+      if (i != j && matrix.el(i, j) != 0.)
+        matrix.set(i, j, 0.);
+  matrix.compress(VectorOperation::insert);
+  const auto factorisation = make_cholesky_factorisation(true);
+  BOOST_REQUIRE(factorisation->factorise(matrix, false));
+  const TriangularFactor *factor = factorisation->triangular_factor();
+  BOOST_REQUIRE(factor);
+  const Vector        right_hand_side = some_vector(3);
+  Vector              solution(right_hand_side), residual(right_hand_side);
+  std::vector<double> half;
+  factor->go_forwards(right_hand_side.trilinos_vector()[0], half);
+  const std::vector<unsigned int> unknowns = {37, 121};
+  const std::vector<double>       values   = {1.5, -.7};
+  const auto   own  = factor->go_forwards(unknowns.data(), values.data(), 2);
+  const double seen = factor->product(own, half);
+  factor->go_backwards(half, solution.trilinos_vector()[0]);
+  matrix.vmult(residual, solution);
+  residual -= right_hand_side;
+  BOOST_CHECK_LT(residual.linfty_norm(), 1e-5);
+  BOOST_CHECK_SMALL(solution(37) + right_hand_side(37) / .5, 1e-6);
+  BOOST_CHECK_SMALL(1.5 * solution(37) - .7 * solution(121) - seen, 1e-6);
+}
+
+
+
 BOOST_AUTO_TEST_CASE(mixing_solves_what_plain_steps_do_not)
 {
   // x = T^{-1} f for the symmetric part T of a matrix; plain steps f - r need three

@@ -75,6 +75,12 @@ namespace Ricochet
     void
     accept_iterate() override;
 
+    void
+    forget_iterates() override
+    {
+      forget_patterns();
+    }
+
     bool
     next_pass() override;
 
