@@ -3,6 +3,7 @@
 
 import argparse
 import csv
+import functools
 import os
 import pathlib
 import shutil
@@ -128,6 +129,7 @@ def increments(values):
     return [b - a for a, b in zip(values, values[1:])]
 
 
+@functools.cache
 def is_debug_build():
     """Debug programs are several times slower: tests shorten their runs."""
     result = subprocess.run([program_path("bar_sd"), "--version"],

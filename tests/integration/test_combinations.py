@@ -14,19 +14,27 @@ from common import *
 
 class Combinations(ProgramTest):
 
+    def masses(self, scheme):
+        """Both; with assertions the one or the other by turns: all of them are run in
+        the release build."""
+        both = ("consistent", "redistributed")
+        if not is_debug_build():
+            return both
+        return (both[list(SCHEMES).index(scheme) % 2],)
+
     def cases(self, program):
         final_time = ["Time/Final time=3"] if is_debug_build() else []
         combinations = list(itertools.product(TREATMENTS, SCHEMES)) + [
             ("Nitsche-hybrid", "midpoint")]
         for treatment, scheme in combinations:
-            for mass in ("consistent", "redistributed"):
+            for mass in self.masses(scheme):
                 yield ((treatment, scheme, mass), program,
                        NO_FIELDS + final_time + SCHEMES[scheme] +
                        [f"Contact/Treatment={treatment}", f"Time/Mass={mass}"])
 
     def check(self, program):
         ledgers = dict(self.run_many(self.cases(program)))
-        self.assertEqual(len(ledgers), 2 * (5 * 5 + 1))
+        self.assertEqual(len(ledgers), (1 if is_debug_build() else 2) * (5 * 5 + 1))
         for name, ledger in ledgers.items():
             with self.subTest(name):
                 self.assertEqual(ledger["step_halvings"][-1], 0)
@@ -35,7 +43,7 @@ class Combinations(ProgramTest):
                                 2e-12)
 
         for scheme in SCHEMES:
-            for mass in ("consistent", "redistributed"):
+            for mass in self.masses(scheme):
                 reference = ledgers["Signorini active set", scheme, mass]
                 for other in ("Signorini multipliers",
                               "proximal augmented Lagrangian"):
@@ -62,6 +70,8 @@ class Combinations(ProgramTest):
                   NO_FIELDS + SCHEMES[scheme] + [f"Contact/Nitsche theta={theta}",
                                                  "Time/Final time=3"])
                  for theta in (-1, 0) for scheme in SCHEMES]
+        if is_debug_build():
+            cases = cases[::3]
         for name, ledger in self.run_many(cases):
             with self.subTest(name):
                 self.assertLess(max(map(abs, ledger["balance_residual"])),

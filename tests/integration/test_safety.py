@@ -76,10 +76,11 @@ class Safety(ProgramTest):
 
     def test_a_run_goes_on_when_there_is_room_again(self):
         """The checkpoint is written first, and the table up to it is there."""
+        whole = self.folder / "whole"
+        self.run_program("bar_sd", SHORT, whole)
         for limit in (15000, 25000):
             with self.subTest(limit):
-                whole, parts = self.folder / "whole", self.folder / f"{limit}"
-                self.run_program("bar_sd", SHORT, whole)
+                parts = self.folder / f"{limit}"
                 code, error = self.attempt_limited(limit, "bar_sd", SHORT, parts)
                 self.assertEqual(code, 2, msg=error)
                 self.run_program("bar_sd", SHORT, parts, options=["--resume"])
@@ -250,11 +251,18 @@ class Safety(ProgramTest):
 
 
 class DamagedTable(ProgramTest):
-    """--resume believes nothing of energy.csv."""
+    """--resume believes nothing of energy.csv. Each test damages a copy of the same
+    run."""
+
+    whole = None
 
     def setUp(self):
         super().setUp()
-        self.run_program("bar_sd", SHORT)
+        if DamagedTable.whole is None:
+            DamagedTable.whole = pathlib.Path(tempfile.mkdtemp(prefix="ricochet-"))
+            self.addClassCleanup(shutil.rmtree, self.whole, ignore_errors=True)
+            self.run_program("bar_sd", SHORT, self.whole)
+        shutil.copytree(self.whole, self.folder / "run")
         self.table = self.folder / "run" / "energy.csv"
         self.lines = self.table.read_text().split("\n")
 
