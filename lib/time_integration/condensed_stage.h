@@ -19,7 +19,7 @@ namespace Ricochet
    *
    * where s = 1 after the first full step. So its unknowns are the coefficients z and
    * s: with full steps it makes the same iterates as NewtonSolver with the whole
-   * system, but for round-off, and the body is solved for twice in all. Where steps
+   * system, but for round-off, and the body is solved for once or twice in all. Where steps
    * have to be shortened, it may fail and the whole system not: norms are the same, but
    * relative to the forces of the body at the guess.
    */
