@@ -78,10 +78,11 @@ namespace Ricochet
         "Linear solver/Factorisation at automatic.");
 
     // Bodies that are not linear, before each other, condensed to contact; what takes
-    // over solves with all of it. Multigrid is faster by itself.
+    // over solves with all of it. In space it gains little, since factorisations take
+    // more of the time, and multigrid is faster by itself.
     condenses_only = parameters.type == "automatic" && type == "direct" &&
       contact.couplings_change && contact.functionals && !linear_body &&
-      may_condense && n_unknowns > 1000 &&
+      may_condense && dim == 2 && n_unknowns > 1000 &&
       factorisations.name(true) == "CHOLMOD";
     if (condenses_only)
       ways.push_back(std::make_unique<KrylovSolver>(factorisations, contact));
@@ -165,8 +166,7 @@ namespace Ricochet
       "With Type = corrected before planes at rest, with treatments whose forces are "
       "functions of gaps, pressures and slips in points (not active sets), and, on one "
       "MPI rank, for bodies before each other with any treatment (those that are not "
-      "linear with Type = automatic, above 1000 unknowns, where multigrid is not "
-      "chosen): Newton's "
+      "linear in the plane, with Type = automatic, above 1000 unknowns): Newton's "
       "method looks at these alone. A linear body is solved for twice in each stage of "
       "a time step, instead of twice in each iteration; for one that is not linear, "
       "the tangent at the last state serves in all iterations of a step, which are more "
