@@ -9,7 +9,6 @@
 #include <solvers/tangent.h>
 #include <solvers/tangent_solver.h>
 
-#include <map>
 #include <memory>
 #include <vector>
 

@@ -440,27 +440,14 @@ namespace Ricochet
               double                    *values) const override
       {
         // In one piece, so that BLAS is called once.
-        const int n_rows = columns.first_row.back();
-        seen_half.resize(n_rows);
+        seen_half.resize(columns.first_row.back());
         for_each_node(columns,
                       [&](const int n, const int first, const int row) {
                         std::copy_n(half.data() + first,
                                     n,
                                     seen_half.data() + row);
                       });
-        const double plus_one = 1., zero = 0.;
-        const int    one = 1;
-        dgemv_("N",
-               &columns.n_columns,
-               &n_rows,
-               &plus_one,
-               columns.values.data(),
-               &columns.n_columns,
-               seen_half.data(),
-               &one,
-               &zero,
-               values,
-               &one);
+        multiply_by("N", columns, seen_half.data(), values);
       }
 
       void
@@ -468,21 +455,8 @@ namespace Ricochet
                const double        *coefficients,
                std::vector<double> &half) const override
       {
-        const int n_rows = columns.first_row.back();
-        seen_half.resize(n_rows);
-        const double plus_one = 1., zero = 0.;
-        const int    one = 1;
-        dgemv_("T",
-               &columns.n_columns,
-               &n_rows,
-               &plus_one,
-               columns.values.data(),
-               &columns.n_columns,
-               coefficients,
-               &one,
-               &zero,
-               seen_half.data(),
-               &one);
+        seen_half.resize(columns.first_row.back());
+        multiply_by("T", columns, coefficients, seen_half.data());
         for_each_node(columns,
                       [&](const int n, const int first, const int row) {
                         for (int i = 0; i < n; ++i)
@@ -667,6 +641,29 @@ namespace Ricochet
             const Supernode &node = supernodes[columns.region[k]];
             action(node.n_columns, node.first_column, columns.first_row[k]);
           }
+      }
+
+      /// @p result = the columns' values times @p vector; as they are stored, with rows
+      /// for columns and columns for rows, or with "T" transposed.
+      static void
+      multiply_by(const char        *transpose,
+                  const HalfColumns &columns,
+                  const double      *vector,
+                  double            *result)
+      {
+        const int    n_rows = columns.first_row.back(), one = 1;
+        const double plus_one = 1., zero = 0.;
+        dgemv_(transpose,
+               &columns.n_columns,
+               &n_rows,
+               &plus_one,
+               columns.values.data(),
+               &columns.n_columns,
+               vector,
+               &one,
+               &zero,
+               result,
+               &one);
       }
 
       /// Where an entry of the lower triangle and its mirror image are among

@@ -96,12 +96,12 @@ namespace Ricochet
                                                        coarse_space()));
     else
       {
+        // Where GMRES gives up, a factorisation with pivots will do.
         if (type == "corrected" && linear_body)
           ways.push_back(std::make_unique<CorrectedSolver>(factorisations,
                                                            parameters.n_kept,
                                                            contact));
-        // Where GMRES gives up, a factorisation with pivots will do.
-        if (type == "corrected" && !linear_body)
+        else if (type == "corrected")
           ways.push_back(
             std::make_unique<KrylovSolver>(factorisations, contact));
         ways.push_back(

@@ -13,18 +13,6 @@ namespace Ricochet
     constexpr unsigned int patience        = 12;
     constexpr double       required_factor = .1;
     constexpr unsigned int max_iterations  = 100;
-
-
-
-    /// Divide each entry of @p vector by that of @p scaling.
-    void
-    divide(Vector &vector, const Vector &scaling)
-    {
-      double       *values  = vector.trilinos_vector()[0];
-      const double *factors = scaling.trilinos_vector()[0];
-      for (unsigned int i = 0; i < vector.locally_owned_size(); ++i)
-        values[i] /= factors[i];
-    }
   } // namespace
 
 
@@ -64,8 +52,11 @@ namespace Ricochet
         // Residuals are compared as forces, whatever the equations of multipliers are.
         residual.scale(problem.row_scaling());
         mixing.next(residual, step);
-        step *= -1.;
-        divide(step, problem.row_scaling());
+        step.trilinos_vector().ReciprocalMultiply(
+          -1.,
+          problem.row_scaling().trilinos_vector(),
+          step.trilinos_vector(),
+          0.);
         problem.add_iterations(1);
         CondensedStage condensed = problem.condensed(newton_problem, step);
         condensed.solve(condensed_newton, solution);

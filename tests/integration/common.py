@@ -111,6 +111,16 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(code, 0, msg=f"{program} {parameters}\n{out}\n{err}")
         return Ledger(folder)
 
+    def copy_of_shared_run(self, program, parameters):
+        """A copy, in the folder "run" of this test, of a run that is made once for all
+        tests of its class."""
+        cls = type(self)
+        if "shared_run" not in vars(cls):
+            cls.shared_run = pathlib.Path(tempfile.mkdtemp(prefix="ricochet-"))
+            cls.addClassCleanup(shutil.rmtree, cls.shared_run, ignore_errors=True)
+            self.run_program(program, parameters, cls.shared_run)
+        shutil.copytree(cls.shared_run, self.folder / "run")
+
     def run_many(self, cases):
         """Run (name, program, parameters) on two cores; yield (name, ledger)."""
         def run(numbered):

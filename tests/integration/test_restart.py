@@ -157,19 +157,13 @@ class Restart(ProgramTest):
 class BadCheckpoint(ProgramTest):
     """Each test damages a copy of the same run."""
 
-    whole = None
-
     def setUp(self):
         super().setUp()
         if is_debug_build():
             self.skipTest("is refused before anything is computed")
         self.parameters = NO_FIELDS + ["Output/Checkpoint every=5",
                                        "Time/Final time=0.5"]
-        if BadCheckpoint.whole is None:
-            BadCheckpoint.whole = pathlib.Path(tempfile.mkdtemp(prefix="ricochet-"))
-            self.addClassCleanup(shutil.rmtree, self.whole, ignore_errors=True)
-            self.run_program("bar_sd", self.parameters, self.whole)
-        shutil.copytree(self.whole, self.folder / "run")
+        self.copy_of_shared_run("bar_sd", self.parameters)
         self.checkpoint = self.folder / "run" / "checkpoint.bin"
 
     def refuse(self, message, parameters=(), n_ranks=1):

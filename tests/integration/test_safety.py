@@ -254,15 +254,9 @@ class DamagedTable(ProgramTest):
     """--resume believes nothing of energy.csv. Each test damages a copy of the same
     run."""
 
-    whole = None
-
     def setUp(self):
         super().setUp()
-        if DamagedTable.whole is None:
-            DamagedTable.whole = pathlib.Path(tempfile.mkdtemp(prefix="ricochet-"))
-            self.addClassCleanup(shutil.rmtree, self.whole, ignore_errors=True)
-            self.run_program("bar_sd", SHORT, self.whole)
-        shutil.copytree(self.whole, self.folder / "run")
+        self.copy_of_shared_run("bar_sd", SHORT)
         self.table = self.folder / "run" / "energy.csv"
         self.lines = self.table.read_text().split("\n")
 
