@@ -53,6 +53,7 @@ namespace Ricochet
     gaps.resize(own_points.size());
     all_rows.resize(own_points.size());
     up_to_date.resize(own_points.size());
+    softnesses.resize(own_points.size());
     supports.resize(own_points.size());
     slave_places.resize(slave.nodes.size(), no_place);
     master_places.resize(master.nodes.size(), no_place);
@@ -338,16 +339,22 @@ namespace Ricochet
       {
         Gaps &gap     = gaps[p];
         up_to_date[p] = false;
-        double part   = 0.;
+        // Of the weight, how much is before the master, and what is there without signs.
+        double part = 0., size = 0.;
         for (const Support &support : supports[p])
           {
             const Face &face = faces[support.face];
             for (unsigned int q = 0; q < face.n_points; ++q)
-              part +=
-                face.points[q].weight * psi(face, support.node, face.points[q]);
+              {
+                const double share = face.points[q].weight *
+                  psi(face, support.node, face.points[q]) /
+                  own_points[p].weight;
+                part += share;
+                size += std::abs(share);
+              }
           }
-        gap.is_before_facet =
-          own_points[p].can_touch && part > 1e-6 * own_points[p].weight;
+        softnesses[p]       = 1e-11 * size * size * std::abs(1. - part);
+        gap.is_before_facet = own_points[p].can_touch && part > 1e-6;
         if (!gap.is_before_facet)
           continue;
         gap.old_gap = gap.new_gap = mean_gap(p, old_positions);

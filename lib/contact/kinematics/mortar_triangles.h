@@ -58,6 +58,16 @@ namespace Ricochet
     void
     evaluate(const Vector &solution) override;
 
+    /// Four shape functions on one triangle of a face, where they are linear, are not
+    /// independent: neither are the constraints of nodes of which the master is before
+    /// that triangle only. The softness is small beside what the rows do to the body,
+    /// which goes with their square.
+    double
+    softness(const unsigned int p) const override
+    {
+      return softnesses[p];
+    }
+
     const Rows &
     rows(const unsigned int p) const override;
 
@@ -181,9 +191,11 @@ namespace Ricochet
     std::vector<std::vector<Support>> supports;
     /// What is farther from the slave is not cut, besides twice a triangle's size: the
     /// way of a step (m).
-    double                            way = 0.;
-    Positions                         old_positions, new_positions;
-    mutable std::vector<Rows>         all_rows;
+    double                    way = 0.;
+    Positions                 old_positions, new_positions;
+    mutable std::vector<Rows> all_rows;
+    /// See softness().
+    std::vector<double>               softnesses;
     mutable std::vector<bool>         up_to_date;
     mutable std::vector<unsigned int> slave_places, master_places;
     mutable std::vector<unsigned int> places, coordinates;

@@ -89,10 +89,10 @@ namespace Ricochet
       return p + n_first_sides;
     }
 
-    bool
-    is_double(const unsigned int p) const override
+    double
+    softness(const unsigned int p) const override
     {
-      return steps[p].is_double;
+      return steps[p].is_double ? 1e-9 : 0.;
     }
 
   private:
@@ -128,7 +128,7 @@ namespace Ricochet
       unsigned int old_facet = 0, new_facet = 0;
       /// It may pass vertices: it begins between the bisectors of the old facet.
       bool may_pass = false;
-      /// See SurfacePair::is_double().
+      /// It is a node on another one, whose constraint is the same or nearly so.
       bool is_double = false;
       /// It is the other side of a node, and has the row of the facet where it ends.
       bool is_beyond_valley = false;

@@ -61,10 +61,10 @@ namespace Ricochet
     int
     passage(const unsigned int p) const override;
 
-    bool
-    is_double(const unsigned int p) const override
+    double
+    softness(const unsigned int p) const override
     {
-      return steps[p].is_double;
+      return steps[p].is_double ? 1e-9 : 0.;
     }
 
     std::vector<Index>
@@ -91,7 +91,7 @@ namespace Ricochet
       /// Before which the point is at both ends of the step.
       unsigned int old_facet = 0, new_facet = 0;
       bool         may_pass = false;
-      /// See SurfacePair::is_double().
+      /// It is a node on another one, whose constraint is the same or nearly so.
       bool is_double = false;
       /// Outward normal of the slave at the beginning of the step.
       Position           normal{};

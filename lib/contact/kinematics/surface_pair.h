@@ -169,12 +169,13 @@ namespace Ricochet
       return {};
     }
 
-    /// Whether the point is a node on another one, whose constraint is the same or
-    /// nearly so.
-    virtual bool
-    is_double(const unsigned int /*p*/) const
+    /// How soft the constraint of the point has to be, as a part of h / r_0 (see
+    /// PairContact): not at all, but where other constraints may say the same or
+    /// nearly so. Then it is as much as tells how they share the force.
+    virtual double
+    softness(const unsigned int /*p*/) const
     {
-      return false;
+      return 0.;
     }
 
     virtual const Rows &

@@ -580,7 +580,7 @@ namespace Ricochet
           if (c == 0 && state.status != Status::open)
             equation = -closing(state) - softness(state) * multiplier;
           if (c > 0 && state.status == Status::stick)
-            equation = -pair.rows(p).slip[c - 1];
+            equation = -pair.rows(p).slip[c - 1] - softness(state) * multiplier;
           if (c > 0 && state.status == Status::slip)
             equation = (method.friction.coefficient * state.pressure *
                           state.direction[c - 1] -
@@ -881,10 +881,13 @@ namespace Ricochet
 
     // Columns and rows of the multipliers.
     const bool closes = state.status != Status::open;
-    if (closes && softness(state) > 0.)
-      add_entry(point.multipliers[0],
-                point.multipliers[0],
-                -factor * softness(state));
+    if (softness(state) > 0.)
+      for (unsigned int c = 0; c < dim; ++c)
+        if (point.multipliers[c] != no_index &&
+            (c == 0 ? closes : state.status == Status::stick))
+          add_entry(point.multipliers[c],
+                    point.multipliers[c],
+                    -factor * softness(state));
     const double half =
       method.condition == ClosingCondition::two_step && pass == 0 ? .5 : 1.;
     for (unsigned int a = 0; a < m; ++a)

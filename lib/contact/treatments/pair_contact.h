@@ -250,13 +250,12 @@ namespace Ricochet
       return has_friction && !method.law;
     }
 
-    /// How far (m) a pressure of 1 Pa pushes a closed point in. Nothing, but where two
-    /// constraints are the same: so little tells how they share the force.
+    /// How far (m) a pressure of 1 Pa pushes a closed point in, see
+    /// SurfacePair::softness().
     double
     softness(const PointState &state) const
     {
-      return pair_of(state).is_double(state.point) ? 1e-9 / stiffness(state)
-                                                   : 0.;
+      return pair_of(state).softness(state.point) / stiffness(state);
     }
 
     /// Entry of the projection on what is across the direction of slip.
