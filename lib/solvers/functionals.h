@@ -36,6 +36,17 @@ namespace Ricochet
     {
       begin.push_back(index.size());
     }
+
+    /// Append all of @p others.
+    void
+    add(const Functionals &others)
+    {
+      const std::size_t end = index.size();
+      for (unsigned int f = 0; f < others.size(); ++f)
+        begin.push_back(end + others.begin[f + 1]);
+      index.insert(index.end(), others.index.begin(), others.index.end());
+      value.insert(value.end(), others.value.begin(), others.value.end());
+    }
   };
 
   /// A row of a sparse matrix between functionals: numbers of columns, and

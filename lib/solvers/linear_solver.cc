@@ -55,9 +55,10 @@ namespace Ricochet
     if (type == "automatic")
       {
         // A nonlinear body gains by the symmetry only, and where a factorisation
-        // costs more than the iterations that it saves.
+        // costs more than the iterations that it saves. Linear bodies before each other
+        // need a new one whenever contact changes.
         const bool gains = linear_body
-          ? n_unknowns > 1000
+          ? n_unknowns > 1000 || contact.couplings_change
           : n_unknowns > 5000 && factorisations.name(true) == "CHOLMOD";
         type = gains || parameters.factorisation == "CHOLMOD" ? "corrected"
                                                               : "direct";

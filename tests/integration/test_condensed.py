@@ -66,6 +66,66 @@ PAIRS = [
     ("colliding_spheres", SPHERES + ["Contact/Treatment=persistent contact"]),
 ]
 
+# A ball rolls on a floor into another one, which is before a wall: four contacts.
+SEVERAL = """
+set Program   = ricochet
+set Dimension = 2
+subsection Time
+  set Final time = 0.006
+  set Time step  = 1e-4
+end
+subsection Body left
+  set Shape         = disk
+  set Radius        = 0.02
+  set Nodes around  = {nodes}
+  set Translation   = -0.041, 0
+  set Velocity      = 1, -0.3
+  set Law           = {law}
+  set Young modulus = 1e6
+  set Density       = 1000
+end
+subsection Body right
+  set Shape         = disk
+  set Radius        = 0.02
+  set Nodes around  = {nodes}
+  set Rotation      = 0.1
+  set Law           = {law}
+  set Young modulus = 1e6
+  set Density       = 1000
+end
+subsection Obstacle floor
+  set Shape  = half space
+  set Centre = 0, -0.0201
+end
+subsection Obstacle wall
+  set Shape     = half space
+  set Centre    = 0.0202, 0
+  set Direction = -1, 0
+end
+subsection Contact left on floor
+  set Surface              = left
+  set Against              = floor
+  set Treatment            = improved normal compliance
+  set Friction coefficient = 0.3
+end
+subsection Contact right on floor
+  set Surface   = right
+  set Against   = floor
+  set Treatment = penalty
+end
+subsection Contact right at wall
+  set Surface   = right
+  set Against   = wall
+  set Treatment = improved normal compliance
+end
+subsection Contact balls
+  set Surface              = left
+  set Against              = right
+  set Treatment            = {treatment}
+  set Friction coefficient = 0.2
+end
+"""
+
 
 class Condensed(ProgramTest):
 
@@ -160,6 +220,40 @@ class Condensed(ProgramTest):
                              (parts / "energy.csv").read_text())
             if is_debug_build():
                 break
+
+    def test_several_contacts(self):
+        """What contacts act through is one behind the other: linear bodies with at most
+        two solutions a stage, nonlinear ones with one factorisation a step."""
+        cases = [("linear elastic", 32, "improved normal compliance"),
+                 ("linear elastic", 32, "persistent contact"),
+                 ("Saint Venant-Kirchhoff", 64, "penalty")]
+        for number, (law, nodes, treatment) in enumerate(cases):
+            if is_debug_build() and number != 1:
+                continue
+            with self.subTest(f"{law}, {treatment}"):
+                scene = self.folder / f"{number}.prm"
+                scene.write_text(SEVERAL.format(law=law, nodes=nodes,
+                                                treatment=treatment))
+                parameters = NO_FIELDS + ["Output/Timing=true"]
+                if law == "linear elastic":
+                    parameters.append("Linear solver/Type=corrected")
+                one, other = (self.run_program("ricochet", parameters + more,
+                                               self.folder / f"{number}-{way}",
+                                               prm=scene)
+                              for way, more in (("condensed", []), ("whole", WHOLE)))
+                self.compare(one, other, 1e-9)
+                for contact in ("left_on_floor", "right_on_floor", "right_at_wall",
+                                "balls"):
+                    self.assertGreater(max(one[f"contact_force_{contact}"]), 0.)
+                steps = len(one["time"]) - 1
+                if law == "linear elastic":
+                    self.assertLessEqual(
+                        self.substitutions(self.folder / f"{number}-condensed"),
+                        2 * steps + 1 + steps // 20)
+                else:
+                    log = (self.folder / f"{number}-condensed/log.txt").read_text()
+                    self.assertLessEqual(
+                        int(re.search(r"(\d+) factorisations", log).group(1)), steps + 1)
 
     def test_bodies_with_large_strains(self):
         """One tangent a step: the same results, and the same digits when resumed."""

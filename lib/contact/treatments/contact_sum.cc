@@ -27,6 +27,18 @@ namespace Ricochet
         has_friction = has_friction || contact->friction_force();
         scaling.scale(contact->row_scaling());
       }
+    first_functional.push_back(0);
+    for (const ContactOperator *contact : in_order)
+      {
+        const auto own = contact->tangent_structure().functionals;
+        if (!own)
+          {
+            first_functional.clear();
+            break;
+          }
+        first_functional.push_back(first_functional.back() +
+                                   own->functionals.size());
+      }
   }
 
 
@@ -71,6 +83,15 @@ namespace Ricochet
   {
     for (ContactOperator *contact : in_order)
       contact->accept_iterate();
+  }
+
+
+
+  void
+  ContactSum::forget_iterates()
+  {
+    for (ContactOperator *contact : in_order)
+      contact->forget_iterates();
   }
 
 
@@ -166,14 +187,24 @@ namespace Ricochet
   {
     ContactStructure sum;
     sum.is_nearly_symmetric = true;
+    sum.is_symmetric        = true;
+    if (!first_functional.empty())
+      sum.functionals.emplace();
     for (const ContactOperator *contact : in_order)
       {
         const ContactStructure own = contact->tangent_structure();
         sum.rows.insert(sum.rows.end(), own.rows.begin(), own.rows.end());
         sum.is_nearly_symmetric =
           sum.is_nearly_symmetric && own.is_nearly_symmetric;
+        sum.is_symmetric     = sum.is_symmetric && own.is_symmetric;
         sum.has_multipliers  = sum.has_multipliers || own.has_multipliers;
         sum.couplings_change = sum.couplings_change || own.couplings_change;
+        if (!sum.functionals)
+          continue;
+        sum.functionals->functionals.add(own.functionals->functionals);
+        sum.functionals->order.insert(sum.functionals->order.end(),
+                                      own.functionals->order.begin(),
+                                      own.functionals->order.end());
       }
     // Each row once, where it comes first.
     std::vector<types::global_dof_index> rows;
@@ -191,6 +222,49 @@ namespace Ricochet
       }
     sum.rows = rows;
     return sum;
+  }
+
+
+
+  void
+  ContactSum::tangent_change(std::vector<FunctionalRow> &change) const
+  {
+    for (unsigned int k = 0; k < in_order.size(); ++k)
+      {
+        const unsigned int         first = first_functional[k];
+        std::vector<FunctionalRow> own(first_functional[k + 1] - first);
+        in_order[k]->tangent_change(own);
+        for (unsigned int f = 0; f < own.size(); ++f)
+          {
+            for (auto &entry : own[f])
+              entry.first += first;
+            change[first + f] = std::move(own[f]);
+          }
+      }
+  }
+
+
+
+  void
+  ContactSum::look_at_change(const std::vector<double> &change)
+  {
+    for (unsigned int k = 0; k < in_order.size(); ++k)
+      in_order[k]->look_at_change({change.begin() + first_functional[k],
+                                   change.begin() + first_functional[k + 1]});
+  }
+
+
+
+  void
+  ContactSum::force_change(std::vector<double> &coefficients) const
+  {
+    coefficients.clear();
+    std::vector<double> own;
+    for (const ContactOperator *contact : in_order)
+      {
+        contact->force_change(own);
+        coefficients.insert(coefficients.end(), own.begin(), own.end());
+      }
   }
 
 

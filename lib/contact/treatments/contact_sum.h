@@ -46,6 +46,9 @@ namespace Ricochet
     void
     accept_iterate() override;
 
+    void
+    forget_iterates() override;
+
     bool
     next_pass() override;
 
@@ -88,8 +91,19 @@ namespace Ricochet
     void
     complete_open_tangent(Matrix &tangent) const override;
 
+    /// The functionals are those of all contacts, one contact after the other; there
+    /// are none if one of them has none.
     ContactStructure
     tangent_structure() const override;
+
+    void
+    tangent_change(std::vector<FunctionalRow> &change) const override;
+
+    void
+    look_at_change(const std::vector<double> &change) override;
+
+    void
+    force_change(std::vector<double> &coefficients) const override;
 
     const Couplings *
     couplings() override;
@@ -138,8 +152,11 @@ namespace Ricochet
     const std::vector<std::unique_ptr<ContactOperator>> contacts;
     // The same, those that take rows last.
     std::vector<ContactOperator *> in_order;
-    bool                           has_friction = false;
-    Vector                         force, friction, scaling;
+    // Where the functionals of each of these begin among all of this rank, and where
+    // the last one's end; empty without functionals.
+    std::vector<unsigned int> first_functional;
+    bool                      has_friction = false;
+    Vector                    force, friction, scaling;
     // After force_at() these are the shares; otherwise contacts know them.
     std::vector<Vector> instant_forces;
     bool                at_instant = false;
