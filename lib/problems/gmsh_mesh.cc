@@ -6,6 +6,7 @@
 #include <problems/gmsh_file_check.h>
 #include <problems/gmsh_mesh.h>
 
+#include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 
@@ -25,6 +26,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -205,6 +207,40 @@ namespace Ricochet
 
 
 
+    /// Order the cells along Hilbert's curve: cells that are beside each other in the body
+    /// are so in memory, and so are their unknowns, which are numbered cell by cell. Gmsh's
+    /// order is that in which it has found them.
+    template <int dim>
+    void
+    order_along_curve(const std::vector<Point<dim>> &points,
+                      std::vector<CellData<dim>>    &cells)
+    {
+      std::vector<Point<dim>> centers;
+      for (const CellData<dim> &cell : cells)
+        {
+          Point<dim> center;
+          for (const unsigned int v : cell.vertices)
+            center += points[v] / double(cell.vertices.size());
+          centers.push_back(center);
+        }
+      const auto places =
+        Utilities::inverse_Hilbert_space_filling_curve(centers, 20);
+      std::vector<unsigned int> order(cells.size());
+      std::iota(order.begin(), order.end(), 0U);
+      std::stable_sort(order.begin(),
+                       order.end(),
+                       [&](const unsigned int a, const unsigned int b) {
+                         return places[a] < places[b];
+                       });
+      std::vector<CellData<dim>> ordered;
+      ordered.reserve(cells.size());
+      for (const unsigned int c : order)
+        ordered.push_back(std::move(cells[c]));
+      cells = std::move(ordered);
+    }
+
+
+
     /// What @p work does with Gmsh, whose errors are told as "Gmsh cannot @p do_what".
     template <typename Result>
     Result
@@ -367,7 +403,7 @@ namespace Ricochet
                Triangulation<3>            &triangulation,
                CellNodes<3>                *curved)
   {
-    const auto mesh = with_gmsh<Description<3>>("make the mesh", [&]() {
+    auto mesh = with_gmsh<Description<3>>("make the mesh", [&]() {
       gmsh::model::add("body");
       describe();
       gmsh::model::occ::synchronize();
@@ -376,6 +412,7 @@ namespace Ricochet
         gmsh::model::mesh::setOrder(2);
       return describe_model<3>();
     });
+    order_along_curve(mesh.points, mesh.cells);
     triangulation.create_triangulation(mesh.points, mesh.cells, mesh.boundary);
     if (curved)
       *curved = collect_cell_nodes(triangulation, mesh.between);
@@ -403,11 +440,17 @@ namespace Ricochet
             std::ifstream file(file_name);
             GridIn<dim>   reader(triangulation);
             reader.read_msh(file);
+            auto [points, cells, boundary] =
+              GridTools::get_coarse_mesh_description(triangulation);
+            order_along_curve(points, cells);
+            triangulation.clear();
+            triangulation.create_triangulation(points, cells, boundary);
             return {};
           }
         GridTools::invert_cells_with_negative_measure(mesh.points, mesh.cells);
         if (mesh.cells.front().vertices.size() == (1U << dim))
           GridTools::consistently_order_cells(mesh.cells);
+        order_along_curve(mesh.points, mesh.cells);
         triangulation.create_triangulation(mesh.points,
                                            mesh.cells,
                                            mesh.boundary);

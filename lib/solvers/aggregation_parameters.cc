@@ -31,9 +31,7 @@ namespace Ricochet
     // Smoothed aggregates need as many iterations here, more memory, and twice
     // the time to be set up.
     list.set("aggregation: damping factor", 0.);
-    // The unknowns of a node stand together: dim translations, and in all
-    // dim (dim + 1) / 2 modes.
-    list.set("PDE equations", n_modes == 6 ? 3 : n_modes == 3 ? 2 : 1);
+    list.set("PDE equations", static_cast<int>(space.dim()));
     list.set("null space: type", "pre-computed");
     list.set("null space: dimension", static_cast<int>(n_modes));
     list.set("null space: vectors", modes.data());

@@ -41,13 +41,15 @@ namespace Ricochet
 
 
 
-  BlockPattern::BlockPattern(const std::vector<const Matrix *> &matrices,
-                             const std::vector<types::global_dof_index> &others,
-                             const unsigned int                          dim)
+  BlockPattern::BlockPattern(
+    const std::vector<const Epetra_CrsMatrix *> &matrices,
+    const std::vector<types::global_dof_index>  &others,
+    const unsigned int                           dim,
+    const MPI_Comm                               communicator)
     : dim(dim)
   {
-    const Matrix  &first = *matrices.front();
-    const IndexSet owned = first.locally_owned_range_indices();
+    const IndexSet owned(
+      static_cast<const Epetra_BlockMap &>(matrices.front()->RangeMap()));
     // Ghosts, each node with all of its unknowns.
     std::vector<types::global_dof_index> ghosts;
     const auto add_ghost = [&](const types::global_dof_index unknown) {
@@ -57,35 +59,32 @@ namespace Ricochet
     };
     for (const auto unknown : others)
       add_ghost(unknown);
-    for (const Matrix *matrix : matrices)
-      {
-        const Epetra_CrsMatrix &epetra = matrix->trilinos_matrix();
-        for (int c = 0; c < epetra.NumMyCols(); ++c)
-          add_ghost(epetra.GCID64(c));
-      }
+    for (const Epetra_CrsMatrix *matrix : matrices)
+      for (int c = 0; c < matrix->NumMyCols(); ++c)
+        add_ghost(matrix->GCID64(c));
     std::sort(ghosts.begin(), ghosts.end());
     IndexSet ghost_set(owned.size());
     ghost_set.add_indices(ghosts.begin(), ghosts.end());
-    partitioner = std::make_shared<Utilities::MPI::Partitioner>(
-      owned,
-      ghost_set,
-      first.get_mpi_communicator());
+    partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned,
+                                                                ghost_set,
+                                                                communicator);
     AssertThrow(owned.n_elements() % dim == 0 &&
                   partitioner->local_range().first % dim == 0,
                 ExcMessage("The unknowns of a node do not stand together."));
 
     const unsigned int                     n = owned.n_elements() / dim;
     std::vector<std::vector<unsigned int>> rows(n);
-    for (const Matrix *matrix : matrices)
+    for (const Epetra_CrsMatrix *matrix : matrices)
       {
-        const Epetra_CrsMatrix         &epetra = matrix->trilinos_matrix();
         const std::vector<unsigned int> columns =
-          local_columns(epetra, *partitioner);
+          local_columns(*matrix, *partitioner);
         for (unsigned int r = 0; r < n * dim; ++r)
-          for_each_entry(epetra, r, [&](const int entry_column, double) {
+          for_each_entry(*matrix, r, [&](const int entry_column, double) {
+            // To the right of the diagonal, from either side of it.
             const unsigned int node = columns[entry_column] / dim;
-            if (rows[r / dim].empty() || rows[r / dim].back() != node)
-              rows[r / dim].push_back(node);
+            const auto [i, j]       = std::minmax({node, r / dim});
+            if (rows[i].empty() || rows[i].back() != j)
+              rows[i].push_back(j);
           });
       }
     set_rows(std::move(rows));
@@ -161,13 +160,12 @@ namespace Ricochet
 
   template <typename Number>
   void
-  BlockMatrix<Number>::add(const double factor, const Matrix &matrix)
+  BlockMatrix<Number>::add(const double factor, const Epetra_CrsMatrix &matrix)
   {
     Assert(!isotropic, ExcNotImplemented());
-    const Epetra_CrsMatrix         &epetra = matrix.trilinos_matrix();
     const unsigned int              dim = places->dim, n = places->n_rows();
     const std::vector<unsigned int> local =
-      local_columns(epetra, *places->partitioner);
+      local_columns(matrix, *places->partitioner);
     // The blocks of a row of nodes, and the number of each column among them.
     std::vector<unsigned int> columns;
     std::vector<double>       values;
@@ -178,7 +176,7 @@ namespace Ricochet
       {
         for (unsigned int c = 0; c < dim; ++c)
           for_each_entry(
-            epetra,
+            matrix,
             i * dim + c,
             [&](const int column, const double value) {
               const unsigned int j = local[column] / dim;

@@ -29,9 +29,10 @@ namespace Ricochet
      * @param others unknowns of other ranks that are to be known besides.
      * Collective.
      */
-    BlockPattern(const std::vector<const Matrix *>                  &matrices,
+    BlockPattern(const std::vector<const Epetra_CrsMatrix *>        &matrices,
                  const std::vector<dealii::types::global_dof_index> &others,
-                 const unsigned int                                  dim);
+                 const unsigned int                                  dim,
+                 const MPI_Comm communicator);
 
     /// @param rows for each own node the numbers of those that it couples to, in
     /// any order; what is not to the right of the diagonal is left out. They are
@@ -88,7 +89,7 @@ namespace Ricochet
     /// each has its own rows). Its entries have a place in the pattern.
     /// @pre it is not isotropic; so below.
     void
-    add(const double factor, const Matrix &matrix);
+    add(const double factor, const Epetra_CrsMatrix &matrix);
 
     /// Add @p factor times @p matrix, on the same pattern.
     void

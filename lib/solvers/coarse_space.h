@@ -29,6 +29,15 @@ namespace Ricochet
     /// Displacements that move the body without deforming it, to first order:
     /// translations, then rotations about the origin.
     std::vector<Vector> rigid_body_modes;
+
+    /// Unknowns of a node, which stand together: translations among these
+    /// dim (dim + 1) / 2 motions.
+    unsigned int
+    dim() const
+    {
+      const auto n_modes = rigid_body_modes.size();
+      return n_modes == 6 ? 3 : n_modes == 3 ? 2 : 1;
+    }
   };
 } // namespace Ricochet
 

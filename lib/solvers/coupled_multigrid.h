@@ -4,6 +4,7 @@
 
 #include <solvers/coarse_space.h>
 #include <solvers/iteration_budget.h>
+#include <solvers/single_finest_level.h>
 #include <solvers/tangent_solver.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
@@ -18,7 +19,7 @@ class Epetra_Vector;
 namespace Ricochet
 {
   /**
-   * Solves each system by GMRES, for bodies that touch each other and are too large
+   * Solves each system by flexible GMRES, for bodies that touch each other and are too large
    * to be factored. Displacements come first, on each rank, then multipliers:
    *
    *     T = | A  G |
@@ -31,7 +32,8 @@ namespace Ricochet
    *     | H  C~ |
    *
    * by its Schur complement A - G C~^-1 H, on which Trilinos' ML acts with the rigid
-   * body modes as what coarse levels must be able to represent. This adds springs of
+   * body modes as what coarse levels must be able to represent, in single precision on
+   * the finest level. This adds springs of
    * the bodies' stiffness where they touch, which tie them together on all levels, and
    * leaves the multipliers' own Schur complement well conditioned.
    */
@@ -97,7 +99,9 @@ namespace Ricochet
     std::unique_ptr<Epetra_Vector>    inverse_diagonal;
     std::unique_ptr<Epetra_CrsMatrix> schur_complement;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> aggregation;
-    mutable Vector displacement_part, displacement_result;
+    // Refers to both.
+    std::unique_ptr<SingleFinestLevel> finest_level;
+    mutable Vector                     displacement_part, displacement_result;
     mutable std::unique_ptr<Epetra_Vector> multiplier_part, work;
     IterationBudget                        budget;
     // Norm of the right hand side of the last solve (N).

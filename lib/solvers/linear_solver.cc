@@ -141,8 +141,8 @@ namespace Ricochet
       "CHOLMOD its symmetric part), with GMRES for the rest. multigrid: from "
       "degree 2 to degree 1 and on by aggregation, not for treatments with multipliers "
       "of one body; between bodies by aggregation, with or without. automatic: "
-      "corrected above 1000 unknowns for linear bodies, above 5000 for "
-      "nonlinear ones if CHOLMOD can be used; multigrid for linear bodies in 3D "
+      "corrected above 1000 unknowns for linear bodies (before each other always), "
+      "above 5000 for nonlinear ones if CHOLMOD can be used; multigrid for linear bodies in 3D "
       "above 50000 unknowns, or 10000 on several ranks, and for contact between "
       "bodies in 3D above 5000 unknowns; otherwise direct.",
       Patterns::Selection("automatic|direct|corrected|multigrid"));
@@ -167,8 +167,8 @@ namespace Ricochet
       "With Type = corrected before planes at rest, with treatments whose forces are "
       "functions of gaps, pressures and slips in points (not active sets), and, on one "
       "MPI rank, for bodies before each other with any treatment (those that are not "
-      "linear in the plane, with Type = automatic, above 1000 unknowns): Newton's "
-      "method looks at these alone. A linear body is solved for twice in each stage of "
+      "linear in the plane, with Type = automatic, above 1000 unknowns), where all "
+      "contacts are of these kinds: Newton's method looks at these alone. A linear body is solved for twice in each stage of "
       "a time step, instead of twice in each iteration; for one that is not linear, "
       "the tangent at the last state serves in all iterations of a step, which are more "
       "and much cheaper, and Newton's method takes over where they are too slow. "

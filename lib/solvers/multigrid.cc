@@ -148,9 +148,7 @@ namespace Ricochet
     tangent = &new_tangent;
     if (!has_smoother)
       return;
-    // As many unknowns of a node as translations among dim (dim + 1) / 2 motions.
-    const unsigned int n_modes = space.rigid_body_modes.size();
-    single.set_body(*tangent, n_modes == 6 ? 3 : n_modes == 3 ? 2 : 1);
+    single.set_body(*tangent, space.dim());
     CoarseProducts products(space);
     coarse_body.reinit(space.pattern);
     for (unsigned int k = 0; k < tangent->terms().size(); ++k)

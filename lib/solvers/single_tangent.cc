@@ -17,16 +17,17 @@ namespace Ricochet
     body.reset();
     // Blocks have a place for whatever couples in the body.
     pattern.reset();
-    std::vector<const Matrix *> matrices;
+    std::vector<const Epetra_CrsMatrix *> matrices;
     for (const MatrixTerm &term : tangent.terms())
       if (term.matrix->blocks())
         pattern = term.matrix->blocks()->pattern();
       else
-        matrices.push_back(term.matrix->entries());
+        matrices.push_back(&term.matrix->entries()->trilinos_matrix());
     if (!pattern)
       pattern = std::make_shared<BlockPattern>(matrices,
                                                tangent.functionals().index,
-                                               dim);
+                                               dim,
+                                               tangent.communicator);
     body = std::make_unique<BlockMatrix<float>>(pattern);
 
     // The body's own stiffness decides, which is there without contact.
@@ -41,7 +42,8 @@ namespace Ricochet
       if (term.matrix->blocks())
         body->add(scaling * term.weight, *term.matrix->blocks());
       else
-        body->add(scaling * term.weight, *term.matrix->entries());
+        body->add(scaling * term.weight,
+                  term.matrix->entries()->trilinos_matrix());
 
     VectorType flags;
     initialize_dof_vector(flags);

@@ -6,7 +6,10 @@
 #include "meshes.h"
 
 #include <discretization/linear_bulk.h>
+#include <solvers/single_finest_level.h>
 #include <solvers/single_tangent.h>
+
+#include <ml_MultiLevelPreconditioner.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -167,6 +170,73 @@ BOOST_AUTO_TEST_CASE(blocks_take_less_memory)
   };
   BOOST_CHECK_LT(bytes(MatrixStorage::blocks, 0),
                  .4 * bytes(MatrixStorage::entries, 0));
+}
+
+// The finest level of ML: the symmetric part, with entries that are on one side of the
+// diagonal only, in single precision, for vectors of any size; and then as it was.
+BOOST_AUTO_TEST_CASE(finest_level_in_single_precision)
+{
+  const auto [n_ranks, rank] =
+    std::make_pair(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD),
+                   dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+  // Two nodes on each rank.
+  const unsigned int first = 6 * rank;
+  dealii::IndexSet   owned(6 * n_ranks);
+  owned.add_range(first, first + 6);
+  dealii::TrilinosWrappers::SparsityPattern pattern(owned, MPI_COMM_WORLD, 6);
+  const std::vector<std::tuple<unsigned int, unsigned int, double>> others =
+    {{0, 4, 1e7}, {5, 1, -2e7}, {0, 1, 3e7}, {4, 5, 4e7}};
+  for (unsigned int i = 0; i < 6; ++i)
+    pattern.add(first + i, first + i);
+  for (const auto &[i, j, value] : others)
+    pattern.add(first + i, first + j);
+  pattern.compress();
+  Matrix matrix;
+  matrix.reinit(pattern);
+  for (unsigned int i = 0; i < 6; ++i)
+    matrix.set(first + i, first + i, 1e8 + i);
+  for (const auto &[i, j, value] : others)
+    matrix.set(first + i, first + j, value);
+  matrix.compress(VectorOperation::insert);
+
+  Teuchos::ParameterList list;
+  ML_Epetra::SetDefaults("SA", list);
+  list.set("ML output", 0);
+  list.set("PDE equations", 3);
+  dealii::TrilinosWrappers::PreconditionAMG aggregation;
+  aggregation.initialize(matrix.trilinos_matrix(), list);
+  const ML *hierarchy =
+    dynamic_cast<const ML_Epetra::MultiLevelPreconditioner &>(
+      aggregation.trilinos_operator())
+      .GetML();
+  ML_Operator *level = &hierarchy->Amat[hierarchy->ML_finest_level];
+
+  Vector vector(owned, MPI_COMM_WORLD), product(vector), transposed(vector),
+    found(vector);
+  const auto multiply = [&]() {
+    level->matvec->func_ptr(level,
+                            6,
+                            vector.trilinos_vector()[0],
+                            6,
+                            found.trilinos_vector()[0]);
+  };
+  for (const double size : {1., 1e-60, 1e60})
+    {
+      randomise(vector, size, 3);
+      matrix.vmult(product, vector);
+      matrix.Tvmult(transposed, vector);
+      product.sadd(.5, .5, transposed);
+      SingleFinestLevel single(aggregation,
+                               matrix.trilinos_matrix(),
+                               3,
+                               MPI_COMM_WORLD);
+      multiply();
+      BOOST_CHECK_SMALL(difference(found, product), 1e-6);
+      BOOST_CHECK_GT(difference(found, product), 1e-12);
+    }
+  matrix.vmult(product, vector);
+  multiply();
+  BOOST_CHECK_SMALL(difference(found, product), 1e-15);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -580,7 +580,7 @@ namespace Ricochet
           if (c == 0 && state.status != Status::open)
             equation = -closing(state) - softness(state) * multiplier;
           if (c > 0 && state.status == Status::stick)
-            equation = -pair.rows(p).slip[c - 1] - softness(state) * multiplier;
+            equation = softness(state) * multiplier - pair.rows(p).slip[c - 1];
           if (c > 0 && state.status == Status::slip)
             equation = (method.friction.coefficient * state.pressure *
                           state.direction[c - 1] -
@@ -887,7 +887,7 @@ namespace Ricochet
             (c == 0 ? closes : state.status == Status::stick))
           add_entry(point.multipliers[c],
                     point.multipliers[c],
-                    -factor * softness(state));
+                    (c == 0 ? -factor : factor) * softness(state));
     const double half =
       method.condition == ClosingCondition::two_step && pass == 0 ? .5 : 1.;
     for (unsigned int a = 0; a < m; ++a)

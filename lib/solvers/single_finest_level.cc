@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <solvers/single_finest_level.h>
+
+#include <ml_MultiLevelPreconditioner.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Ricochet
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The power of two next to @p value, 1 where it is zero or not finite.
+    double
+    size_of(const double value)
+    {
+      return value > 0. && std::isfinite(value)
+        ? std::ldexp(1., std::ilogb(value))
+        : 1.;
+    }
+  } // namespace
+
+
+
+  SingleFinestLevel::SingleFinestLevel(
+    TrilinosWrappers::PreconditionAMG &aggregation,
+    const Epetra_CrsMatrix            &exact,
+    const unsigned int                 dim,
+    const MPI_Comm                     communicator)
+    : matrix(std::make_shared<BlockPattern>(
+        std::vector<const Epetra_CrsMatrix *>{&exact},
+        std::vector<types::global_dof_index>(),
+        dim,
+        communicator))
+    , scale(size_of(exact.NormInf()))
+  {
+    matrix.add(1. / scale, exact);
+    from.reinit(matrix.pattern()->partitioner);
+    to.reinit(matrix.pattern()->partitioner);
+
+    const auto *ml = dynamic_cast<const ML_Epetra::MultiLevelPreconditioner *>(
+      &aggregation.trilinos_operator());
+    AssertThrow(ml, ExcMessage("deal.II's aggregation is not that of ML."));
+    const ML *hierarchy = ml->GetML();
+    level               = &hierarchy->Amat[hierarchy->ML_finest_level];
+    data_of_level       = level->data;
+    product_of_level    = level->matvec->func_ptr;
+    // ML asks for rows and diagonals when it is set up only.
+    level->data             = this;
+    level->matvec->func_ptr = &SingleFinestLevel::multiply;
+  }
+
+
+
+  SingleFinestLevel::~SingleFinestLevel()
+  {
+    level->data             = data_of_level;
+    level->matvec->func_ptr = product_of_level;
+  }
+
+
+
+  int
+  SingleFinestLevel::multiply(ML_Operator *level,
+                              int /*n_columns*/,
+                              double *vector,
+                              int     n_rows,
+                              double *result)
+  {
+    auto &self = *static_cast<SingleFinestLevel *>(level->data);
+    // Of a size that single precision can hold, by a power of two.
+    double largest = 0.;
+    for (int i = 0; i < n_rows; ++i)
+      largest = std::max(largest, std::abs(vector[i]));
+    const double size = size_of(largest);
+    for (int i = 0; i < n_rows; ++i)
+      self.from.local_element(i) = static_cast<float>(vector[i] / size);
+    self.matrix.vmult(self.to, self.from);
+    for (int i = 0; i < n_rows; ++i)
+      result[i] = self.to.local_element(i) * size * self.scale;
+    return 1;
+  }
+} // namespace Ricochet

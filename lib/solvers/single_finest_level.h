@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_single_finest_level_h
+#define ricochet_solvers_single_finest_level_h
+
+#include <solvers/block_matrix.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <ml_operator.h>
+
+namespace Ricochet
+{
+  /**
+   * The finest level of Trilinos' ML in single precision: while this exists, its
+   * products (of smoothers and residuals) are those with the symmetric part of the
+   * matrix, half of which is kept, by blocks. What a cycle takes is the time to read the
+   * matrix, and a preconditioner need not be exact. The coarse levels are what ML has
+   * made of the matrix itself.
+   */
+  class SingleFinestLevel
+  {
+  public:
+    using VectorType = dealii::LinearAlgebra::distributed::Vector<float>;
+
+    /// @param aggregation set up for @p matrix. @param dim unknowns of a node, which
+    /// stand together. Both are to live as long as this. Collective.
+    SingleFinestLevel(dealii::TrilinosWrappers::PreconditionAMG &aggregation,
+                      const Epetra_CrsMatrix                    &matrix,
+                      const unsigned int                         dim,
+                      const MPI_Comm                             communicator);
+
+    SingleFinestLevel(const SingleFinestLevel &) = delete;
+
+    SingleFinestLevel &
+    operator=(const SingleFinestLevel &) = delete;
+
+    /// ML is as it was.
+    ~SingleFinestLevel();
+
+  private:
+    /// What ML calls: @p result = the matrix times @p vector, whose data are this.
+    static int
+    multiply(ML_Operator *level,
+             int          n_columns,
+             double      *vector,
+             int          n_rows,
+             double      *result);
+
+    BlockMatrix<float> matrix;
+    // What the matrix was divided by, a power of two.
+    double     scale = 1.;
+    VectorType from, to;
+
+    ML_Operator *level;
+    void        *data_of_level;
+    int (*product_of_level)(ML_Operator *, int, double *, int, double *);
+  };
+} // namespace Ricochet
+
+#endif
