@@ -7,6 +7,8 @@
 
 #include <base/exceptions.h>
 #include <output/node_probe.h>
+#include <problems/ball_mesh.h>
+#include <problems/gmsh_mesh.h>
 #include <problems/impact.h>
 #include <problems/round_meshes.h>
 
@@ -127,6 +129,31 @@ BOOST_AUTO_TEST_CASE(areas_by_hand)
   make_disk_of_triangles(dealii::Point<2>(3., 1.), 2., n, 61, disk);
   BOOST_CHECK_EQUAL(disk.n_vertices(), 61u);
   BOOST_CHECK_CLOSE(area_of(disk), factor * 4., 1e-10);
+}
+
+// Cells of meshes from Gmsh have numbers near those of their neighbours: on the mean over
+// all pairs they are 0.03 of the number of cells apart, in Gmsh's own order 0.2.
+BOOST_AUTO_TEST_CASE(neighbours_have_near_numbers)
+{
+  const auto distance = [](const dealii::Triangulation<3> &mesh) {
+    double sum = 0., n_pairs = 0.;
+    for (const auto &cell : mesh.active_cell_iterators())
+      for (const auto f : cell->face_indices())
+        if (!cell->at_boundary(f))
+          {
+            sum += std::abs(1. * cell->active_cell_index() -
+                            cell->neighbor(f)->active_cell_index());
+            ++n_pairs;
+          }
+    return sum / n_pairs / mesh.n_active_cells();
+  };
+  dealii::Triangulation<3> made, read;
+  make_ball_of_tetrahedra(dealii::Point<3>(), 1., .15, made);
+  BOOST_CHECK_LT(distance(made), .1);
+  read_gmsh_mesh(RICOCHET_MESHES "/sphere_h4.msh", read);
+  BOOST_CHECK_LT(distance(read), .1);
+  BOOST_TEST_MESSAGE("neighbours: " << distance(made) << ", "
+                                    << distance(read));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
