@@ -2,6 +2,7 @@
 #include <base/exceptions.h>
 #include <solvers/aggregation_parameters.h>
 #include <solvers/multigrid.h>
+#include <solvers/single_precision.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/solver_cg.h>
@@ -256,14 +257,13 @@ namespace Ricochet
         aggregation->vmult(result, vector);
         return;
       }
-    // Of a size that single precision can hold, by powers of two.
     const double norm = vector.linfty_norm();
     if (!(norm > 0.) || !std::isfinite(norm))
       {
         result = vector;
         return;
       }
-    const double        size = std::ldexp(1., std::ilogb(norm));
+    const double        size = size_for_single_precision(norm);
     const unsigned int  n    = single_residual.locally_owned_size();
     const double *const from = vector.trilinos_vector()[0];
     double *const       to   = result.trilinos_vector()[0];

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <solvers/single_finest_level.h>
+#include <solvers/single_precision.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <ml_MultiLevelPreconditioner.h>
 
@@ -9,20 +12,6 @@
 namespace Ricochet
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// The power of two next to @p value, 1 where it is zero or not finite.
-    double
-    size_of(const double value)
-    {
-      return value > 0. && std::isfinite(value)
-        ? std::ldexp(1., std::ilogb(value))
-        : 1.;
-    }
-  } // namespace
-
-
 
   SingleFinestLevel::SingleFinestLevel(
     TrilinosWrappers::PreconditionAMG &aggregation,
@@ -34,7 +23,7 @@ namespace Ricochet
         std::vector<types::global_dof_index>(),
         dim,
         communicator))
-    , scale(size_of(exact.NormInf()))
+    , scale(size_for_single_precision(exact.NormInf()))
   {
     matrix.add(1. / scale, exact);
     from.reinit(matrix.pattern()->partitioner);
@@ -70,11 +59,13 @@ namespace Ricochet
                               double *result)
   {
     auto &self = *static_cast<SingleFinestLevel *>(level->data);
-    // Of a size that single precision can hold, by a power of two.
+    // The same on all ranks, which exchange what was divided by it.
     double largest = 0.;
     for (int i = 0; i < n_rows; ++i)
       largest = std::max(largest, std::abs(vector[i]));
-    const double size = size_of(largest);
+    const double size = size_for_single_precision(Utilities::MPI::max(
+      largest,
+      self.matrix.pattern()->partitioner->get_mpi_communicator()));
     for (int i = 0; i < n_rows; ++i)
       self.from.local_element(i) = static_cast<float>(vector[i] / size);
     self.matrix.vmult(self.to, self.from);

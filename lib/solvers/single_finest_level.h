@@ -48,7 +48,7 @@ namespace Ricochet
 
     BlockMatrix<float> matrix;
     // What the matrix was divided by, a power of two.
-    double     scale = 1.;
+    double     scale;
     VectorType from, to;
 
     ML_Operator *level;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <solvers/single_precision.h>
 #include <solvers/single_tangent.h>
 
 #include <deal.II/base/mpi.h>
@@ -35,9 +36,7 @@ namespace Ricochet
     for (const MatrixTerm &term : tangent.terms())
       largest =
         std::max(largest, std::abs(term.weight) * term.matrix->linfty_norm());
-    scaling = std::isfinite(largest) && largest > 0.
-      ? std::ldexp(1., -std::ilogb(largest))
-      : 1.;
+    scaling = 1. / size_for_single_precision(largest);
     for (const MatrixTerm &term : tangent.terms())
       if (term.matrix->blocks())
         body->add(scaling * term.weight, *term.matrix->blocks());

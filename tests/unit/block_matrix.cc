@@ -190,6 +190,14 @@ BOOST_AUTO_TEST_CASE(finest_level_in_single_precision)
     pattern.add(first + i, first + i);
   for (const auto &[i, j, value] : others)
     pattern.add(first + i, first + j);
+  // Nodes of the ranks before and after, too.
+  std::vector<unsigned int> beyond;
+  if (rank > 0)
+    beyond.push_back(first - 6);
+  if (rank + 1 < n_ranks)
+    beyond.push_back(first + 6);
+  for (const unsigned int j : beyond)
+    pattern.add(first, j);
   pattern.compress();
   Matrix matrix;
   matrix.reinit(pattern);
@@ -197,6 +205,8 @@ BOOST_AUTO_TEST_CASE(finest_level_in_single_precision)
     matrix.set(first + i, first + i, 1e8 + i);
   for (const auto &[i, j, value] : others)
     matrix.set(first + i, first + j, value);
+  for (const unsigned int j : beyond)
+    matrix.set(first, j, 5e7);
   matrix.compress(VectorOperation::insert);
 
   Teuchos::ParameterList list;
@@ -222,7 +232,8 @@ BOOST_AUTO_TEST_CASE(finest_level_in_single_precision)
   };
   for (const double size : {1., 1e-60, 1e60})
     {
-      randomise(vector, size, 3);
+      // Not of one size on all ranks.
+      randomise(vector, size * std::pow(1e-3, rank), 3);
       matrix.vmult(product, vector);
       matrix.Tvmult(transposed, vector);
       product.sadd(.5, .5, transposed);
