@@ -207,13 +207,15 @@ namespace Ricochet
 
 
 
-    /// Order the cells along Hilbert's curve: cells that are beside each other in the body
+    /// Make a mesh of the cells in the order of Hilbert's curve: cells that are beside each other in the body
     /// are so in memory, and so are their unknowns, which are numbered cell by cell. Gmsh's
     /// order is that in which it has found them.
     template <int dim>
     void
-    order_along_curve(const std::vector<Point<dim>> &points,
-                      std::vector<CellData<dim>>    &cells)
+    create_along_curve(const std::vector<Point<dim>> &points,
+                       std::vector<CellData<dim>>   &&cells,
+                       const SubCellData             &boundary,
+                       Triangulation<dim>            &triangulation)
     {
       std::vector<Point<dim>> centers;
       for (const CellData<dim> &cell : cells)
@@ -236,7 +238,7 @@ namespace Ricochet
       ordered.reserve(cells.size());
       for (const unsigned int c : order)
         ordered.push_back(std::move(cells[c]));
-      cells = std::move(ordered);
+      triangulation.create_triangulation(points, ordered, boundary);
     }
 
 
@@ -412,8 +414,10 @@ namespace Ricochet
         gmsh::model::mesh::setOrder(2);
       return describe_model<3>();
     });
-    order_along_curve(mesh.points, mesh.cells);
-    triangulation.create_triangulation(mesh.points, mesh.cells, mesh.boundary);
+    create_along_curve(mesh.points,
+                       std::move(mesh.cells),
+                       mesh.boundary,
+                       triangulation);
     if (curved)
       *curved = collect_cell_nodes(triangulation, mesh.between);
   }
@@ -442,18 +446,20 @@ namespace Ricochet
             reader.read_msh(file);
             auto [points, cells, boundary] =
               GridTools::get_coarse_mesh_description(triangulation);
-            order_along_curve(points, cells);
             triangulation.clear();
-            triangulation.create_triangulation(points, cells, boundary);
+            create_along_curve(points,
+                               std::move(cells),
+                               boundary,
+                               triangulation);
             return {};
           }
         GridTools::invert_cells_with_negative_measure(mesh.points, mesh.cells);
         if (mesh.cells.front().vertices.size() == (1U << dim))
           GridTools::consistently_order_cells(mesh.cells);
-        order_along_curve(mesh.points, mesh.cells);
-        triangulation.create_triangulation(mesh.points,
-                                           mesh.cells,
-                                           mesh.boundary);
+        create_along_curve(mesh.points,
+                           std::move(mesh.cells),
+                           mesh.boundary,
+                           triangulation);
       }
     catch (const std::exception &)
       {

@@ -168,9 +168,9 @@ namespace Ricochet
       "functions of gaps, pressures and slips in points (not active sets), and, on one "
       "MPI rank, for bodies before each other with any treatment (those that are not "
       "linear in the plane, with Type = automatic, above 1000 unknowns), where all "
-      "contacts are of these kinds: Newton's method looks at these alone. A linear body is solved for twice in each stage of "
-      "a time step, instead of twice in each iteration; for one that is not linear, "
-      "the tangent at the last state serves in all iterations of a step, which are more "
+      "contacts are of these kinds: Newton's method looks at these alone. A linear "
+      "body is solved for twice in each stage of a time step, instead of twice in each "
+      "iteration; for one that is not linear, the tangent at the last state serves in all iterations of a step, which are more "
       "and much cheaper, and Newton's method takes over where they are too slow. "
       "Results are the same to the tolerance of Newton's method.");
     parameters.leave_subsection();

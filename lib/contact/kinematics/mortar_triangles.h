@@ -191,11 +191,11 @@ namespace Ricochet
     std::vector<std::vector<Support>> supports;
     /// What is farther from the slave is not cut, besides twice a triangle's size: the
     /// way of a step (m).
-    double                    way = 0.;
-    Positions                 old_positions, new_positions;
-    mutable std::vector<Rows> all_rows;
+    double    way = 0.;
+    Positions old_positions, new_positions;
     /// See softness().
     std::vector<double>               softnesses;
+    mutable std::vector<Rows>         all_rows;
     mutable std::vector<bool>         up_to_date;
     mutable std::vector<unsigned int> slave_places, master_places;
     mutable std::vector<unsigned int> places, coordinates;

@@ -92,7 +92,7 @@ namespace Ricochet
     double
     softness(const unsigned int p) const override
     {
-      return steps[p].is_double ? 1e-9 : 0.;
+      return steps[p].is_double ? this->softness_of_doubles : 0.;
     }
 
   private:

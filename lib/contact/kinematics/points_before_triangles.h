@@ -64,7 +64,7 @@ namespace Ricochet
     double
     softness(const unsigned int p) const override
     {
-      return steps[p].is_double ? 1e-9 : 0.;
+      return steps[p].is_double ? softness_of_doubles : 0.;
     }
 
     std::vector<Index>

@@ -226,6 +226,9 @@ namespace Ricochet
       std::vector<Position> slave, master;
     };
 
+    /// softness() of a point that is a node on another one.
+    static constexpr double softness_of_doubles = 1e-9;
+
     /// What is known of a point over a step.
     struct Gaps
     {
