@@ -187,12 +187,22 @@ namespace Ricochet
                   dealii::ExcMessage("This contact has no functionals."));
     }
 
+    /// Where contact takes rows: how the coefficients of force_change() follow from
+    /// the forces along the functionals that are there without contact, see
+    /// Tangent::contact_excess_change. @p change as above.
+    virtual void
+    excess_change(std::vector<FunctionalRow> & /*change*/) const
+    {}
+
     /// Where the structure has functionals: look at the state where their values (of
     /// this rank) differ by @p change from those at the last complete_residual(), as
     /// complete_residual() does. Until that is called again, all but contact_force(),
     /// friction_force(), and works speak of this state.
+    /// @param excess the residual without contact along them (N); only looked at
+    /// where contact takes rows.
     virtual void
-    look_at_change(const std::vector<double> & /*change*/)
+    look_at_change(const std::vector<double> & /*change*/,
+                   const std::vector<double> & /*excess*/)
     {
       AssertThrow(false,
                   dealii::ExcMessage("This contact has no functionals."));
@@ -200,7 +210,8 @@ namespace Ricochet
 
     /// The contact force less what open contact makes of the same state, times the
     /// stage's weight, as a sum of the functionals: the coefficient of each of this
-    /// rank's (N). Its derivatives are those of tangent_change().
+    /// rank's (N). Its derivatives are those of tangent_change() and
+    /// excess_change().
     virtual void
     force_change(std::vector<double> & /*coefficients*/) const
     {

@@ -55,6 +55,10 @@ namespace Ricochet
     add_functionals(const std::vector<double> &coefficients,
                     Vector                    &vector) const = 0;
 
+    /// @return @p vector along this rank's functionals: its products with them.
+    virtual std::vector<double>
+    along_functionals(const Vector &vector) = 0;
+
     /// Add @p factor times the compliance times @p coefficients to @p values, which
     /// may be those of the first places only.
     virtual void
@@ -65,12 +69,13 @@ namespace Ricochet
     /// With the derivatives @p change (see Tangent::contact_change) of the
     /// coefficients with respect to the values of the functionals, solve
     ///
-    ///     (1 + change compliance) z = @p coefficients - change @p values;
+    ///     (1 + excess_change + change compliance) z = @p coefficients - change @p values;
     ///
-    /// the coefficients become z.
+    /// the coefficients become z. @p excess_change: see Tangent::contact_excess_change.
     /// @throws NewtonFailure when the matrix is singular.
     virtual void
     solve_contact(const std::vector<FunctionalRow> &change,
+                  const std::vector<FunctionalRow> &excess_change,
                   std::vector<double>              &coefficients,
                   const std::vector<double>        &values) = 0;
   };

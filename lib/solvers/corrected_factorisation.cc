@@ -185,10 +185,11 @@ namespace Ricochet
       }
     else
       {
-        change.resize(contact.functionals->functionals.size());
-        for (LowRankCorrection::Row &row : change)
-          row.clear();
+        const unsigned int n = contact.functionals->functionals.size();
+        change.assign(n, {});
+        excess_change.assign(n, {});
         tangent.contact_change(change);
+        tangent.contact_excess_change(excess_change);
         set_change_of_functionals(false);
         return;
       }
@@ -202,10 +203,11 @@ namespace Ricochet
   CorrectedFactorisation::set_change_of_functionals(const bool may_update)
   {
     const Stopwatch stopwatch(spent.factorising);
-    for (LowRankCorrection::Row &row : change)
-      for (auto &entry : row)
-        entry.first = correction->place(entry.first);
-    correction->set_change(change, *factorisation, may_update);
+    for (auto *const rows_of_all : {&change, &excess_change})
+      for (LowRankCorrection::Row &row : *rows_of_all)
+        for (auto &entry : row)
+          entry.first = correction->place(entry.first);
+    correction->set_change(change, *factorisation, may_update, excess_change);
   }
 
 
@@ -290,6 +292,19 @@ namespace Ricochet
 
 
 
+  std::vector<double>
+  CorrectedFactorisation::along_functionals(const Vector &vector)
+  {
+    std::vector<double> all(correction->n_places());
+    correction->observe(vector, all);
+    std::vector<double> own(contact.functionals->functionals.size());
+    for (unsigned int f = 0; f < own.size(); ++f)
+      own[f] = all[correction->place(f)];
+    return own;
+  }
+
+
+
   void
   CorrectedFactorisation::add_compliance(
     const double               factor,
@@ -305,10 +320,12 @@ namespace Ricochet
   void
   CorrectedFactorisation::solve_contact(
     const std::vector<FunctionalRow> &new_change,
+    const std::vector<FunctionalRow> &new_excess_change,
     std::vector<double>              &coefficients,
     const std::vector<double>        &values)
   {
-    change = new_change;
+    change        = new_change;
+    excess_change = new_excess_change;
     // The states of one stage are near each other; what is left of another stage
     // would not be there in a resumed run.
     set_change_of_functionals(has_seen_contact);

@@ -96,6 +96,9 @@ namespace Ricochet
     void
     finish(const std::vector<double> &coefficients, Vector &solution) override;
 
+    std::vector<double>
+    along_functionals(const Vector &vector) override;
+
     void
     add_functionals(const std::vector<double> &coefficients,
                     Vector                    &vector) const override
@@ -110,6 +113,7 @@ namespace Ricochet
 
     void
     solve_contact(const std::vector<FunctionalRow> &change,
+                  const std::vector<FunctionalRow> &excess_change,
                   std::vector<double>              &coefficients,
                   const std::vector<double>        &values) override;
 
@@ -137,8 +141,8 @@ namespace Ricochet
     void
     make_row_correction();
 
-    /// The rows of #change are those between this rank's functionals; give it to
-    /// the correction.
+    /// The rows of #change and #excess_change are those between this rank's
+    /// functionals; give them to the correction.
     void
     set_change_of_functionals(const bool may_update);
 
@@ -156,7 +160,7 @@ namespace Ricochet
     const LowRankCorrection::Options     options;
     TangentSolver::Costs                &spent;
     std::vector<OwnedRow>                rows;
-    std::vector<LowRankCorrection::Row>  change;
+    std::vector<LowRankCorrection::Row>  change, excess_change;
     std::unique_ptr<LowRankCorrection>   correction;
     // The solution of begin(), or half of it.
     Vector body_solution, work;

@@ -164,9 +164,9 @@ namespace Ricochet
     parameters.add_parameter(
       "Condense to contact",
       condense,
-      "With Type = corrected before planes at rest, with treatments whose forces are "
-      "functions of gaps, pressures and slips in points (not active sets), and, on one "
-      "MPI rank, for bodies before each other with any treatment (those that are not "
+      "With Type = corrected before planes at rest (friction with laws of the gap or "
+      "active sets only), "
+      "and, on one MPI rank, for bodies before each other (those that are not "
       "linear in the plane, with Type = automatic, above 1000 unknowns), where all "
       "contacts are of these kinds: Newton's method looks at these alone. A linear "
       "body is solved for twice in each stage of a time step, instead of twice in each "

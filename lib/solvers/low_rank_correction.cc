@@ -301,9 +301,14 @@ namespace Ricochet
       return false;
     // Each direction observes itself: then V^T A^{-1} U is symmetric.
     for (unsigned int i = 0; i < changed.size(); ++i)
-      if (rows[i].size() != 1 || !(rows[i][0].second > 0.) ||
-          rows[i][0].first != changed[i])
-        return false;
+      {
+        if (rows[i].size() != 1 || !(rows[i][0].second > 0.) ||
+            rows[i][0].first != changed[i])
+          return false;
+        for (const auto &[place, value] : excess_rows[i])
+          if (place != changed[i] || value < -1.)
+            return false;
+      }
     return true;
   }
 
@@ -312,20 +317,28 @@ namespace Ricochet
   void
   LowRankCorrection::set_change(const std::vector<Row> &my_rows,
                                 Factorisation          &factorisation,
-                                const bool              may_update)
+                                const bool              may_update,
+                                const std::vector<Row> &my_excess_rows)
   {
     const bool same = has_change && my_rows == my_last_rows &&
+      my_excess_rows == my_last_excess_rows &&
       (may_update || !small_is_positive || !positive_small.is_updated());
     if (Utilities::MPI::min(same ? 1 : 0, communicator) == 1)
       return;
-    has_change   = false;
-    my_last_rows = my_rows;
+    has_change          = false;
+    my_last_rows        = my_rows;
+    my_last_excess_rows = my_excess_rows;
 
     // All ranks get all rows, by place.
-    std::vector<std::pair<unsigned int, Row>> all;
+    std::vector<std::pair<unsigned int, std::pair<Row, Row>>> all;
     for (unsigned int d = 0; d < my_rows.size(); ++d)
-      if (!my_rows[d].empty())
-        all.emplace_back(place_of_direction[d], my_rows[d]);
+      {
+        const Row &excess_row =
+          my_excess_rows.empty() ? Row() : my_excess_rows[d];
+        if (!my_rows[d].empty() || !excess_row.empty())
+          all.emplace_back(place_of_direction[d],
+                           std::make_pair(my_rows[d], excess_row));
+      }
     if (Utilities::MPI::n_mpi_processes(communicator) > 1)
       {
         const auto lists = Utilities::MPI::all_gather(communicator, all);
@@ -338,10 +351,14 @@ namespace Ricochet
     });
     changed.clear();
     rows.clear();
-    for (auto &[place, row] : all)
+    excess_rows.clear();
+    number_of_changed.assign(n_places(), -1);
+    for (auto &[place, both] : all)
       {
+        number_of_changed[place] = changed.size();
         changed.push_back(place);
-        rows.push_back(std::move(row));
+        rows.push_back(std::move(both.first));
+        excess_rows.push_back(std::move(both.second));
       }
     if (!changed.empty())
       {
@@ -368,8 +385,13 @@ namespace Ricochet
         // Divided by C, the system is symmetric and positive definite; or not, if
         // the body's own matrix is indefinite.
         std::vector<double> diagonal;
-        for (const Row &row : rows)
-          diagonal.push_back(1. / row[0].second);
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            double own = 1.;
+            for (const auto &entry : excess_rows[i])
+              own += entry.second;
+            diagonal.push_back(own / rows[i][0].second);
+          }
         small_is_positive =
           positive_small.set(changed, diagonal, columns, may_update);
         if (small_is_positive)
@@ -400,6 +422,10 @@ namespace Ricochet
               (*small)(i, begin + j) = sum[j] + (i == begin + j ? 1. : 0.);
           }
       }
+    for (unsigned int i = 0; i < n; ++i)
+      for (const auto &[place, value] : excess_rows[i])
+        if (const int j = number_of_changed[place]; j >= 0)
+          (*small)(i, j) += value;
     try
       {
         small->compute_lu_factorization();
@@ -439,6 +465,16 @@ namespace Ricochet
     for (unsigned int i = 0; i < changed.size(); ++i)
       for (const auto &[o, value] : rows[i])
         y[i] += (small_is_positive ? 1. : value) * observed[o];
+    if (std::any_of(excess_rows.begin(), excess_rows.end(), [](const Row &row) {
+          return !row.empty();
+        }))
+      {
+        observe(right_hand_side, observed);
+        for (unsigned int i = 0; i < changed.size(); ++i)
+          for (const auto &[place, value] : excess_rows[i])
+            y[i] += value / (small_is_positive ? rows[i][0].second : 1.) *
+              observed[place];
+      }
     solve_with_small(y);
     if (options.group_size == 0)
       {
@@ -519,6 +555,8 @@ namespace Ricochet
         z[i] = coefficients[changed[i]];
         for (const auto &[o, value] : rows[i])
           z[i] -= value * seen[o];
+        for (const auto &[place, value] : excess_rows[i])
+          z[i] -= value * known[place];
         if (small_is_positive)
           z[i] /= rows[i][0].second;
       }

@@ -26,7 +26,10 @@ namespace Ricochet
    *     A^{-1},
    *
    * the formula of Sherman, Morrison and Woodbury. Only directions with a row in
-   * C count. The observables V^T A^{-1} u_i of their columns are solved for once
+   * C count. Changes of the form U E U^T A, which take rows of A out, may come
+   * besides, where the directions are orthonormal and the observables.
+   *
+   * The observables V^T A^{-1} u_i of their columns are solved for once
    * and kept: a new state of contact costs a small dense factorisation, a
    * solution two back-substitutions.
    *
@@ -92,12 +95,14 @@ namespace Ricochet
     forget_columns();
 
     /// The change C, one row for each direction of this rank.
+    /// @param my_excess_rows those of E; empty for none on any rank.
     /// @param may_update use the dense factorisation of the last one, see
     /// PositiveSystem. Without it, the digits do not depend on what came before.
     void
     set_change(const std::vector<Row> &my_rows,
                Factorisation          &factorisation,
-               const bool              may_update = false);
+               const bool              may_update     = false,
+               const std::vector<Row> &my_excess_rows = {});
 
     /// @return the number of solutions with the factorisation that it took.
     unsigned int
@@ -155,7 +160,7 @@ namespace Ricochet
                    Factorisation             &factorisation);
 
     /**
-     * Solve (1 + C V^T A^{-1} U) z = @p coefficients - C @p values with the change
+     * Solve (1 + E + C V^T A^{-1} U) z = @p coefficients - C @p values with the change
      * of the last set_change(); coefficients of all directions by place, which
      * become z.
      */
@@ -193,7 +198,8 @@ namespace Ricochet
                        const std::vector<unsigned int> &places,
                        Factorisation                   &factorisation);
 
-    /// Whether C is diagonal and positive, and A symmetric.
+    /// Whether C is diagonal and positive, E diagonal with 1 + E not negative, and A
+    /// symmetric.
     bool
     is_positive() const;
 
@@ -228,12 +234,14 @@ namespace Ricochet
     // By group.
     std::map<unsigned int, Factorisation::HalfColumns> half_columns;
 
-    // The rows of C of this rank as given last, and of all ranks by place of
+    // The rows of C and E of this rank as given last, and of all ranks by place of
     // the direction.
-    std::vector<Row>                                  my_last_rows;
-    bool                                              has_change = false;
-    std::vector<unsigned int>                         changed;
-    std::vector<Row>                                  rows;
+    std::vector<Row>          my_last_rows, my_last_excess_rows;
+    bool                      has_change = false;
+    std::vector<unsigned int> changed;
+    std::vector<Row>          rows, excess_rows;
+    // Number of each place among those that change; -1 for none.
+    std::vector<int>                                  number_of_changed;
     std::unique_ptr<dealii::LAPACKFullMatrix<double>> small;
     PositiveSystem                                    positive_small;
     bool                                              small_is_positive = false;

@@ -53,7 +53,7 @@ namespace Ricochet
     : contact(contact)
     , clamped(clamped)
     , is_sum(linear_body && contact.functionals.has_value() &&
-             coarse_space.prolongation.m() > 0)
+             !contact.takes_rows && coarse_space.prolongation.m() > 0)
     , multigrid(std::move(coarse_space), linear_body && contact.is_symmetric)
   {
     return_freed_memory();

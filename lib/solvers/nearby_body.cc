@@ -159,6 +159,20 @@ namespace Ricochet
 
 
 
+  std::vector<double>
+  NearbyBody::along_functionals(const Vector &vector)
+  {
+    const double       *values = vector.trilinos_vector()[0];
+    std::vector<double> products(functionals.size(), 0.);
+    for (unsigned int f = 0; f < functionals.size(); ++f)
+      for (std::size_t k = functionals.begin[f]; k < functionals.begin[f + 1];
+           ++k)
+        products[f] += functionals.value[k] * values[functionals.index[k]];
+    return products;
+  }
+
+
+
   void
   NearbyBody::add_compliance(const double               weight,
                              const std::vector<double> &coefficients,
@@ -177,6 +191,7 @@ namespace Ricochet
 
   void
   NearbyBody::solve_contact(const std::vector<FunctionalRow> &change,
+                            const std::vector<FunctionalRow> &excess_change,
                             std::vector<double>              &coefficients,
                             const std::vector<double>        &values)
   {
@@ -186,7 +201,7 @@ namespace Ricochet
     for (unsigned int place = 0; place < change.size(); ++place)
       {
         const FunctionalRow &row = change[functional_at[place]];
-        if (!row.empty())
+        if (!row.empty() || !excess_change[functional_at[place]].empty())
           changed.push_back(place);
         for (const auto &entry : row)
           n_seen = std::max(n_seen, places[entry.first] + 1);
@@ -204,6 +219,9 @@ namespace Ricochet
     const unsigned int       n = changed.size();
     LAPACKFullMatrix<double> small(n, n);
     dealii::Vector<double>   z(n);
+    std::vector<int>         number(change.size(), -1);
+    for (unsigned int i = 0; i < n; ++i)
+      number[changed[i]] = i;
     for (unsigned int j = 0; j < n; ++j)
       {
         const std::vector<double> &compliance = column(changed[j], n_seen);
@@ -220,6 +238,11 @@ namespace Ricochet
         z[i] = coefficients[changed[i]];
         for (const auto &[f, value] : change[functional_at[changed[i]]])
           z[i] -= value * seen[places[f]];
+        for (const auto &[f, value] : excess_change[functional_at[changed[i]]])
+          if (const int j = number[places[f]]; j >= 0)
+            small(i, j) += value;
+          else
+            z[i] -= value * known[places[f]];
       }
     try
       {

@@ -62,6 +62,9 @@ namespace Ricochet
     add_functionals(const std::vector<double> &coefficients,
                     Vector                    &vector) const override;
 
+    std::vector<double>
+    along_functionals(const Vector &vector) override;
+
     void
     add_compliance(const double               factor,
                    const std::vector<double> &coefficients,
@@ -69,6 +72,7 @@ namespace Ricochet
 
     void
     solve_contact(const std::vector<FunctionalRow> &change,
+                  const std::vector<FunctionalRow> &excess_change,
                   std::vector<double>              &coefficients,
                   const std::vector<double>        &values) override;
 

@@ -26,7 +26,7 @@ namespace Ricochet
   public:
     /**
      * @param places of the set, ascending.
-     * @param diagonal d of each of them, positive.
+     * @param diagonal d of each of them, not negative.
      * @param columns of C, by place.
      * @param may_update use the factorisation of another set; without it, the
      * result does not depend on what came before.

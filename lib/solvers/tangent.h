@@ -20,7 +20,8 @@ namespace Ricochet
     std::vector<dealii::types::global_dof_index> rows;
 
     /// The functionals through which contact acts, and the order in which it is
-    /// expected to spread; none if only the rows are known.
+    /// expected to spread; none if only the rows are known. Those of contact that
+    /// takes rows are orthonormal.
     struct ActsThrough
     {
       Functionals         functionals;
@@ -39,6 +40,8 @@ namespace Ricochet
     bool has_multipliers = false;
     /// It couples unknowns that the body does not couple, and not always the same.
     bool couplings_change = false;
+    /// It takes rows of the body out, and puts its own there.
+    bool takes_rows = false;
   };
 
   /// What names the body's part of a tangent: the weights of its terms.
@@ -82,6 +85,9 @@ namespace Ricochet
     /// The difference of the two as the rows of a matrix C between this rank's
     /// functionals f_i: the sum of C_ij f_i f_j^T.
     std::function<void(std::vector<FunctionalRow> &)> contact_change;
+    /// Where contact takes rows, besides that of E_ij f_i f_j^T K, with the body's
+    /// matrix K.
+    std::function<void(std::vector<FunctionalRow> &)> contact_excess_change;
   };
 } // namespace Ricochet
 

@@ -30,6 +30,8 @@ namespace Ricochet
     for (double &force : forces)
       force = -force;
     system.add_functionals(forces, open_residual);
+    if (contact.takes_rows())
+      open_excess = system.along_functionals(open_residual);
     system.begin(open_residual);
     look_around(all);
   }
@@ -106,7 +108,10 @@ namespace Ricochet
     for (unsigned int f = 0; f < change.size(); ++f)
       change[f] =
         system.place(f) < values.size() ? values[system.place(f)] : 0.;
-    contact.look_at_change(change);
+    std::vector<double> excess(open_excess);
+    for (unsigned int f = 0; f < excess.size(); ++f)
+      excess[f] = (1. - unknowns.share) * excess[f] - unknowns.coefficients[f];
+    contact.look_at_change(change, excess);
     contact.force_change(forces);
     for (unsigned int f = 0; f < change.size(); ++f)
       unknowns.coefficients[f] = forces[f] - unknowns.coefficients[f];
@@ -141,12 +146,17 @@ namespace Ricochet
     Unknowns                   rest = read(right_hand_side);
     std::vector<FunctionalRow> change(rest.coefficients.size());
     contact.tangent_change(change);
+    std::vector<FunctionalRow> excess_change(change.size());
+    contact.excess_change(excess_change);
+    for (unsigned int f = 0; f < open_excess.size(); ++f)
+      for (const auto &[g, value] : excess_change[f])
+        rest.coefficients[f] -= value * rest.share * open_excess[g];
     std::vector<double> coefficients = of_all_ranks(rest.coefficients);
     std::vector<double> values(flight_values);
     for (double &value : values)
       value *= -rest.share;
     values.resize(system.n_functionals(), 0.);
-    system.solve_contact(change, coefficients, values);
+    system.solve_contact(change, excess_change, coefficients, values);
     for (unsigned int f = 0; f < rest.coefficients.size(); ++f)
       rest.coefficients[f] = -coefficients[system.place(f)];
     rest.share = -rest.share;

@@ -214,6 +214,10 @@ namespace Ricochet
       const Stopwatch stopwatch(parts.tangent_seconds);
       parts.contact.tangent_change(change);
     };
+    tangent.contact_excess_change = [this](std::vector<FunctionalRow> &change) {
+      const Stopwatch stopwatch(parts.tangent_seconds);
+      parts.contact.excess_change(change);
+    };
     return tangent;
   }
 

@@ -100,8 +100,110 @@ namespace Ricochet
 
 
   void
+  ActiveSetContact::make_functionals()
+  {
+    const ContactPoints &coefficients = evaluator.coefficients();
+    functionals.emplace();
+    for (const ContactPoint &point : coefficients.points)
+      {
+        const auto add = [&](const Tensor<1, 3> &direction) {
+          for (unsigned int k = point.begin; k < point.end; ++k)
+            functionals->functionals.add(coefficients.index[k],
+                                         direction[coefficients.component[k]]);
+          functionals->functionals.end_functional();
+          functionals->order.push_back(point.initial_gap);
+        };
+        add(point.obstacle_normal);
+        along_plane.emplace_back();
+        if (friction_coefficient > 0.)
+          along_plane.back() = directions_along_plane(point.obstacle_normal,
+                                                      point.end - point.begin);
+        for (const Tensor<1, 3> &direction : along_plane.back())
+          add(direction);
+      }
+  }
+
+
+
+  template <typename Use>
+  void
+  ActiveSetContact::for_each_node(const Use &use) const
+  {
+    unsigned int functional = 0;
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      {
+        use(p,
+            functional,
+            evaluator.contact_points()[p].obstacle_normal,
+            along_plane[p]);
+        functional += 1 + along_plane[p].size();
+      }
+  }
+
+
+
+  void
+  ActiveSetContact::choose_status(const unsigned int p)
+  {
+    Node &node  = nodes[p];
+    node.status = Status::open;
+    if (!node.candidate)
+      return;
+    const Tensor<1, 3> &normal = kinematics->geometry(p).normal;
+    const double        scale  = constraint_scale(p);
+
+    // The reaction of the last iterate: what the equation of motion leaves
+    // over in the nodes that were active. In the first iteration it is the
+    // reaction of the last step.
+    if (first_in_stage)
+      node.reaction = node.initial_reaction;
+    else if (node.accepted_status == Status::open)
+      node.reaction = 0.;
+    else
+      node.reaction = node.excess / weight;
+    const double normal_reaction = normal * node.reaction;
+    if (friction_coefficient == 0.)
+      node.reaction = normal_reaction * normal;
+
+    if (!(normal_reaction - scale * node.closing > 0.))
+      return;
+
+    node.status             = Status::slip;
+    node.friction_direction = 0.;
+    node.friction_ratio     = 0.;
+    if (friction_coefficient > 0.)
+      {
+        const Tensor<1, 3> friction_trial =
+          node.reaction - normal_reaction * normal - scale * node.slip;
+        const double size = friction_trial.norm();
+        if (size < friction_coefficient * normal_reaction)
+          node.status = Status::stick;
+        else if (size > 0. && normal_reaction >= 0.)
+          {
+            // A node that just became active has no reaction yet, and
+            // already the direction of its friction.
+            node.friction_direction = friction_trial / size;
+            node.friction_ratio = friction_coefficient * normal_reaction / size;
+          }
+      }
+
+    // Replace the normal component, and the tangential ones as well.
+    const double normal_excess = normal * node.excess;
+    node.exchange = (scale * node.closing - normal_excess) * normal;
+    if (node.status == Status::stick)
+      node.exchange +=
+        scale * node.slip - (node.excess - normal_excess * normal);
+    else
+      node.exchange -=
+        friction_coefficient * normal_excess * node.friction_direction;
+  }
+
+
+
+  void
   ActiveSetContact::complete_residual(const Vector &solution, Vector &residual)
   {
+    looks_at_change = false;
     kinematics->evaluate(solution, state);
     const ContactPoints &coefficients = evaluator.coefficients();
 
@@ -109,70 +211,25 @@ namespace Ricochet
     friction_part = 0.;
     for (unsigned int p = 0; p < nodes.size(); ++p)
       {
-        Node &node  = nodes[p];
-        node.status = Status::open;
-        if (!node.candidate)
-          continue;
-        kinematics->update_geometry(p);
-        const PointGeometry &geometry = kinematics->geometry(p);
-        const ContactPoint  &point    = coefficients.points[p];
-        const Tensor<1, 3>  &normal   = geometry.normal;
-        const double         scale    = constraint_scale(p);
-
-        // The reaction of the last iterate: what the equation of motion leaves
-        // over in the nodes that were active. In the first iteration it is the
-        // reaction of the last step.
-        const Tensor<1, 3> excess = evaluator.at_node(p, residual);
-        if (first_in_stage)
-          node.reaction = node.initial_reaction;
-        else if (node.accepted_status == Status::open)
-          node.reaction = 0.;
-        else
-          node.reaction = excess / weight;
-        const double normal_reaction = normal * node.reaction;
-        if (friction_coefficient == 0.)
-          node.reaction = normal_reaction * normal;
-
-        const double trial = normal_reaction - scale * closing(p);
-        if (!(trial > 0.))
-          continue;
-
-        node.excess             = excess;
-        node.status             = Status::slip;
-        node.friction_direction = 0.;
-        node.friction_ratio     = 0.;
-        const Tensor<1, 3> tangential_reaction =
-          node.reaction - normal_reaction * normal;
-        const Tensor<1, 3> slip = geometry.slip();
-        if (friction_coefficient > 0.)
+        Node &node = nodes[p];
+        if (node.candidate)
           {
-            const Tensor<1, 3> friction_trial =
-              tangential_reaction - scale * slip;
-            const double size = friction_trial.norm();
-            if (size < friction_coefficient * normal_reaction)
-              node.status = Status::stick;
-            else if (size > 0. && normal_reaction >= 0.)
-              {
-                // A node that just became active has no reaction yet, and
-                // already the direction of its friction.
-                node.friction_direction = friction_trial / size;
-                node.friction_ratio =
-                  friction_coefficient * normal_reaction / size;
-              }
+            kinematics->update_geometry(p);
+            node.closing = closing(p);
+            node.excess  = evaluator.at_node(p, residual);
+            if (friction_coefficient > 0.)
+              node.slip = kinematics->geometry(p).slip();
           }
-
-        // Replace the normal component, and the tangential ones as well.
-        const double normal_excess = normal * excess;
-        Tensor<1, 3> new_residual  = scale * closing(p) * normal;
-        if (node.status == Status::stick)
-          new_residual += scale * slip;
-        else
-          new_residual += excess - normal_excess * normal -
-            friction_coefficient * normal_excess * node.friction_direction;
+        choose_status(p);
+        if (node.status == Status::open)
+          continue;
+        const ContactPoint &point = coefficients.points[p];
+        const Tensor<1, 3>  tangential_reaction =
+          tangent_plane(kinematics->geometry(p).normal) * node.reaction;
         for (unsigned int k = point.begin; k < point.end; ++k)
           {
             const unsigned int c = coefficients.component[k];
-            residual(coefficients.index[k]) += new_residual[c] - excess[c];
+            residual(coefficients.index[k]) += node.exchange[c];
             force(coefficients.index[k]) = -node.reaction[c];
             if (friction_coefficient > 0.)
               friction_part(coefficients.index[k]) = -tangential_reaction[c];
@@ -185,30 +242,152 @@ namespace Ricochet
 
 
 
+  ActiveSetContact::ExchangeDerivatives
+  ActiveSetContact::exchange_derivatives(
+    const unsigned int  p,
+    const Tensor<1, 3> &normal,
+    const Tensor<1, 3> &friction_direction) const
+  {
+    // The normal component n.e of the excess e is taken out and replaced by the
+    // constraint. The tangential ones stay (no friction), are replaced too (stick),
+    // or lose
+    //   ratio (P - d d^T) (e - scale weight way) + mu d n.e
+    // (slip, d being the direction of friction, P the projection on the tangent
+    // plane).
+    const Node         &node  = nodes[p];
+    const double        scale = constraint_scale(p);
+    const Tensor<2, 3>  plane = tangent_plane(normal);
+    ExchangeDerivatives derivatives;
+    const Tensor<2, 3>  along_normal = outer_product(normal, normal);
+    derivatives.with_excess          = -along_normal;
+    derivatives.with_displacement = closing_derivative() * scale * along_normal;
+    if (node.status == Status::stick)
+      {
+        derivatives.with_excess -= plane;
+        derivatives.with_displacement += scale * plane;
+      }
+    else if (friction_coefficient > 0.)
+      {
+        const Tensor<1, 3> &d = friction_direction;
+        const Tensor<2, 3>  across =
+          node.friction_ratio * (plane - outer_product(d, d));
+        derivatives.with_excess -=
+          across + friction_coefficient * outer_product(d, normal);
+        derivatives.with_displacement += scale * weight * across;
+      }
+    return derivatives;
+  }
+
+
+
+  void
+  ActiveSetContact::change_of_functionals(
+    const Tensor<2, 3> ExchangeDerivatives::*derivative,
+    std::vector<FunctionalRow>              &change) const
+  {
+    // In the frame of the directions, where ones and zeros are exact.
+    for_each_node([&](const unsigned int p,
+                      const unsigned int first,
+                      const Tensor<1, 3> & /*normal*/,
+                      const auto &tangential) {
+      if (nodes[p].status == Status::open)
+        return;
+      Tensor<1, 3> normal, friction_direction;
+      normal[0] = 1.;
+      for (unsigned int t = 0; t < tangential.size(); ++t)
+        friction_direction[t + 1] = nodes[p].friction_direction * tangential[t];
+      const Tensor<2, 3> entries =
+        exchange_derivatives(p, normal, friction_direction).*derivative;
+      for (unsigned int a = 0; a <= tangential.size(); ++a)
+        for (unsigned int b = 0; b <= tangential.size(); ++b)
+          if (entries[a][b] != 0.)
+            change[first + a].emplace_back(first + b, entries[a][b]);
+    });
+  }
+
+
+
+  void
+  ActiveSetContact::tangent_change(std::vector<FunctionalRow> &change) const
+  {
+    change_of_functionals(&ExchangeDerivatives::with_displacement, change);
+  }
+
+
+
+  void
+  ActiveSetContact::excess_change(std::vector<FunctionalRow> &change) const
+  {
+    change_of_functionals(&ExchangeDerivatives::with_excess, change);
+  }
+
+
+
+  void
+  ActiveSetContact::look_at_change(const std::vector<double> &change,
+                                   const std::vector<double> &excess)
+  {
+    if (!looks_at_change)
+      for (unsigned int p = 0; p < nodes.size(); ++p)
+        {
+          nodes[p].gap_before     = state[p].gap;
+          nodes[p].closing_before = nodes[p].closing;
+          nodes[p].slip_before    = nodes[p].slip;
+        }
+    looks_at_change = true;
+    for_each_node([&](const unsigned int  p,
+                      const unsigned int  first,
+                      const Tensor<1, 3> &normal,
+                      const auto         &tangential) {
+      Node &node   = nodes[p];
+      state[p].gap = node.gap_before + change[first];
+      node.closing = node.closing_before + closing_derivative() * change[first];
+      node.excess  = excess[first] * normal;
+      node.slip    = node.slip_before;
+      for (unsigned int t = 0; t < tangential.size(); ++t)
+        {
+          node.slip += change[first + t + 1] * tangential[t];
+          node.excess += excess[first + t + 1] * tangential[t];
+        }
+      choose_status(p);
+    });
+  }
+
+
+
+  void
+  ActiveSetContact::force_change(std::vector<double> &coefficients) const
+  {
+    coefficients.assign(functionals->order.size(), 0.);
+    for_each_node([&](const unsigned int  p,
+                      const unsigned int  first,
+                      const Tensor<1, 3> &normal,
+                      const auto         &tangential) {
+      const Node &node = nodes[p];
+      if (node.status == Status::open)
+        return;
+      coefficients[first] = node.exchange * normal;
+      for (unsigned int t = 0; t < tangential.size(); ++t)
+        coefficients[first + t + 1] = node.exchange * tangential[t];
+    });
+  }
+
+
+
   void
   ActiveSetContact::complete_tangent(Matrix &tangent) const
   {
-    // In place, on the rows of the active nodes. With the normal n and the rows
-    // T of a node, its normal row n.T is taken out and replaced by that of the
-    // constraint; the tangential rows stay (no friction), are replaced too
-    // (stick), or become
-    //   (P - ratio (P - d d^T)) T + ratio scale weight (P - d d^T) - mu d n.T
-    // (slip, d being the direction of friction, P the projection on the tangent
-    // plane). The rows of one node have the same columns in the same order,
-    // because cells couple all components.
+    // In place, on the rows of the active nodes, which have the same columns in the
+    // same order, because cells couple all components.
     const ContactPoints &coefficients = evaluator.coefficients();
     const auto          &epetra       = tangent.trilinos_matrix();
-    const double         closing_derivative =
-      closing_kind() == Closing::mean_gap ? .5 : 1.;
     for (unsigned int p = 0; p < nodes.size(); ++p)
       {
         const Node &node = nodes[p];
         if (node.status == Status::open)
           continue;
         const ContactPoint     &point  = coefficients.points[p];
-        const Tensor<1, 3>     &normal = kinematics->geometry(p).normal;
         const unsigned int      n_rows = point.end - point.begin;
-        const double            scale  = constraint_scale(p);
         std::array<double *, 3> rows{};
         std::array<int, 3>      own_columns{};
         int                     n_entries = 0;
@@ -226,22 +405,16 @@ namespace Ricochet
             own_columns[a] = epetra.LCID(unknown);
           }
 
-        // What multiplies T in the new rows, and what stands in the columns of
-        // the node itself.
-        Tensor<2, 3>       from_rows, own;
-        const Tensor<2, 3> plane = tangent_plane(normal);
-        own = closing_derivative * scale * outer_product(normal, normal);
-        if (node.status == Status::stick)
-          own += scale * plane;
-        else
-          {
-            const Tensor<1, 3> &d = node.friction_direction;
-            const Tensor<2, 3>  across =
-              node.friction_ratio * (plane - outer_product(d, d));
-            from_rows =
-              plane - across - friction_coefficient * outer_product(d, normal);
-            own += scale * weight * across;
-          }
+        // What multiplies the old rows in the new ones, and what stands in the
+        // columns of the node itself.
+        const ExchangeDerivatives derivatives =
+          exchange_derivatives(p,
+                               kinematics->geometry(p).normal,
+                               node.friction_direction);
+        const Tensor<2, 3> from_rows =
+          Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) +
+          derivatives.with_excess;
+        Tensor<2, 3> own = derivatives.with_displacement;
         if (!kinematics->has_constant_rows())
           add_turning(p, own);
         new_rows.assign(n_rows * n_entries, 0.);
@@ -273,11 +446,9 @@ namespace Ricochet
 
     // scale closing n: the gap has a gradient of its own, and n turns.
     const Tensor<2, 3> turning = geometry.normal_derivative();
-    const double       closing_derivative =
-      closing_kind() == Closing::mean_gap ? .5 : 1.;
-    own += closing_derivative * scale *
+    own += closing_derivative() * scale *
         outer_product(normal, geometry.gap_gradient - normal) +
-      scale * closing(p) * turning;
+      scale * node.closing * turning;
 
     // The slip instead of the way of the node alone.
     const Tensor<2, 3> plane = tangent_plane(normal);
@@ -396,7 +567,7 @@ namespace Ricochet
     double sum = 0.;
     for (unsigned int p = 0; p < nodes.size(); ++p)
       if (nodes[p].status != Status::open)
-        sum -= nodes[p].reaction * kinematics->geometry(p).slip();
+        sum -= nodes[p].reaction * nodes[p].slip;
     return dealii::Utilities::MPI::sum(sum, evaluator.communicator);
   }
 

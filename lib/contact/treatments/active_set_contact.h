@@ -4,6 +4,7 @@
 
 #include <contact/contact_operator.h>
 #include <contact/treatments/closing_condition.h>
+#include <contact/treatments/closing_functionals.h>
 
 #include <memory>
 
@@ -62,6 +63,8 @@ namespace Ricochet
       , nodes(evaluator.contact_points().size())
     {
       scaling = 1.;
+      if (kinematics->has_constant_rows())
+        make_functionals();
     }
 
     void
@@ -88,9 +91,24 @@ namespace Ricochet
     tangent_structure() const override
     {
       ContactStructure structure;
-      structure.rows = evaluator.unknowns();
+      structure.rows        = evaluator.unknowns();
+      structure.functionals = functionals;
+      structure.takes_rows  = true;
       return structure;
     }
+
+    void
+    tangent_change(std::vector<FunctionalRow> &change) const override;
+
+    void
+    excess_change(std::vector<FunctionalRow> &change) const override;
+
+    void
+    look_at_change(const std::vector<double> &change,
+                   const std::vector<double> &excess) override;
+
+    void
+    force_change(std::vector<double> &coefficients) const override;
 
     std::optional<std::uint64_t>
     tangent_signature() const override;
@@ -182,13 +200,23 @@ namespace Ricochet
       bool candidate = true;
       /// Reaction (N) on the body with which the sets were chosen.
       dealii::Tensor<1, 3> reaction;
+      /// What the condition keeps at zero (m).
+      double closing = 0.;
+      /// Zero without friction (m).
+      dealii::Tensor<1, 3> slip;
       /// What the residual of the body leaves over in the node (N).
       dealii::Tensor<1, 3> excess;
+      /// What an active node has in its residual instead, less that (N).
+      dealii::Tensor<1, 3> exchange;
       /// Unit vector of tangential reaction - r slip; zero without friction.
       dealii::Tensor<1, 3> friction_direction;
       /// mu times the normal reaction over |tangential reaction - r slip|, at
       /// most 1.
       double friction_ratio = 0.;
+
+      // Where look_at_change() begins.
+      double               gap_before = 0., closing_before = 0.;
+      dealii::Tensor<1, 3> slip_before;
 
       // At the last accepted iterate, or the beginning of the stage.
       Status               accepted_status = Status::open;
@@ -210,13 +238,56 @@ namespace Ricochet
     Closing
     closing_kind() const;
 
+    /// Its derivative with respect to the gap.
+    double
+    closing_derivative() const
+    {
+      return closing_kind() == Closing::mean_gap ? .5 : 1.;
+    }
+
+    /// The functionals: displacement of each node along the normal, and with friction
+    /// along the plane.
+    void
+    make_functionals();
+
+    /// Call @p use with node, number of the functional along its normal, that normal
+    /// and the directions along the plane, which have the next functionals.
+    template <typename Use>
+    void
+    for_each_node(const Use &use) const;
+
+    /// Choose the status of node @p p from what the node has of closing, slip and
+    /// excess, and make what it has in the residual.
+    void
+    choose_status(const unsigned int p);
+
+    /// Derivatives of Node::exchange with respect to the excess, and to the
+    /// displacement as far as planes at rest go (N/m).
+    struct ExchangeDerivatives
+    {
+      dealii::Tensor<2, 3> with_excess, with_displacement;
+    };
+
+    /// Those of the active node @p p, in a frame in which normal and direction of
+    /// friction are these.
+    ExchangeDerivatives
+    exchange_derivatives(const unsigned int          p,
+                         const dealii::Tensor<1, 3> &normal,
+                         const dealii::Tensor<1, 3> &friction_direction) const;
+
+    /// Those with the excess or with the displacement, between functionals.
+    void
+    change_of_functionals(
+      const dealii::Tensor<2, 3> ExchangeDerivatives::*derivative,
+      std::vector<FunctionalRow>                      &change) const;
+
     /// What curved or moving obstacles add to the rows of an active node in the
     /// columns of the node, beside what planes have: normal and gap depend on
     /// where the node is.
     void
     add_turning(const unsigned int p, dealii::Tensor<2, 3> &own) const;
 
-    /// @return what the condition keeps at zero (m).
+    /// @return what the condition keeps at zero, at the last complete_residual() (m).
     double
     closing(const unsigned int p) const;
 
@@ -238,6 +309,11 @@ namespace Ricochet
     std::vector<ContactPointState<>> state, old_state, stress_state;
     Vector                           force, friction_part, scaling;
     std::vector<Node>                nodes;
+    // Before planes at rest: the functionals, and of each node the directions of those
+    // that follow the one along its normal.
+    std::optional<ContactStructure::ActsThrough>   functionals;
+    std::vector<std::vector<dealii::Tensor<1, 3>>> along_plane;
+    bool                                           looks_at_change = false;
     // Work space of complete_tangent(): the rows of a node.
     mutable std::vector<double> normal_row, new_rows;
   };

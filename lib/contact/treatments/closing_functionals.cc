@@ -51,6 +51,30 @@ namespace Ricochet
 
 
 
+  std::vector<dealii::Tensor<1, 3>>
+  directions_along_plane(const dealii::Tensor<1, 3> &normal,
+                         const unsigned int          n_axes)
+  {
+    // The longest projections of the axes.
+    dealii::Tensor<2, 3> plane = tangent_plane(normal);
+    for (unsigned int axis = 0; axis < n_axes; ++axis)
+      for (unsigned int c = n_axes; c < 3; ++c)
+        plane[axis][c] = plane[c][axis] = 0.;
+    std::vector<dealii::Tensor<1, 3>> directions;
+    for (unsigned int t = 0; t + 1 < n_axes; ++t)
+      {
+        unsigned int longest = 0;
+        for (unsigned int axis = 1; axis < n_axes; ++axis)
+          if (plane[axis].norm() > plane[longest].norm())
+            longest = axis;
+        directions.push_back(plane[longest] / plane[longest].norm());
+        plane -= outer_product(directions.back(), directions.back());
+      }
+    return directions;
+  }
+
+
+
   ClosingFunctionals::ClosingFunctionals(const ContactLaw    &law,
                                          const bool           with_friction,
                                          const ContactPoints &contact_points)
@@ -83,30 +107,16 @@ namespace Ricochet
         own.first_tangential = functionals.size();
         if (with_friction)
           {
-            // Two directions across the normal, or one in the plane: the
-            // longest projections of the axes.
-            dealii::Tensor<2, 3> plane  = tangent_plane(point.obstacle_normal);
-            unsigned int         n_axes = 0;
+            unsigned int n_axes = 0;
             for (unsigned int k = point.begin; k < point.end; ++k)
               n_axes = std::max(n_axes, contact_points.component[k] + 1);
-            for (unsigned int axis = 0; axis < n_axes; ++axis)
-              for (unsigned int c = n_axes; c < 3; ++c)
-                plane[axis][c] = plane[c][axis] = 0.;
-            for (unsigned int t = 0; t + 1 < n_axes; ++t)
-              {
-                unsigned int longest = 0;
-                for (unsigned int axis = 1; axis < n_axes; ++axis)
-                  if (plane[axis].norm() > plane[longest].norm())
-                    longest = axis;
-                const dealii::Tensor<1, 3> tangential =
-                  plane[longest] / plane[longest].norm();
-                add([&](const unsigned int k) {
-                  return tangential[contact_points.component[k]] *
-                    contact_points.shape_value[k];
-                });
-                own.tangential.push_back(tangential);
-                plane -= outer_product(tangential, tangential);
-              }
+            own.tangential =
+              directions_along_plane(point.obstacle_normal, n_axes);
+            for (const dealii::Tensor<1, 3> &tangential : own.tangential)
+              add([&](const unsigned int k) {
+                return tangential[contact_points.component[k]] *
+                  contact_points.shape_value[k];
+              });
           }
         points.push_back(own);
       }

@@ -27,6 +27,12 @@ namespace Ricochet
     dealii::Tensor<1, 3> test, trial;
   };
 
+  /// Unit vectors across @p normal in a space of @p n_axes dimensions: two, one in the
+  /// plane, or none.
+  std::vector<dealii::Tensor<1, 3>>
+  directions_along_plane(const dealii::Tensor<1, 3> &normal,
+                         const unsigned int          n_axes);
+
   /// None if the law's tangent changes by more than one direction.
   std::optional<Closing>
   closing_directions(const ContactLaw &law, const double cell_diameter);

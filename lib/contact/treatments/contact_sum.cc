@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace Ricochet
 {
@@ -27,18 +28,42 @@ namespace Ricochet
         has_friction = has_friction || contact->friction_force();
         scaling.scale(contact->row_scaling());
       }
-    first_functional.push_back(0);
+    std::vector<ContactStructure> structures;
     for (const ContactOperator *contact : in_order)
+      structures.push_back(contact->tangent_structure());
+    if (!std::all_of(structures.begin(),
+                     structures.end(),
+                     [](const ContactStructure &structure) {
+                       return structure.functionals.has_value();
+                     }) ||
+        !keeps_rows_apart(structures, force.get_mpi_communicator()))
+      return;
+    first_functional.push_back(0);
+    for (const ContactStructure &structure : structures)
+      first_functional.push_back(first_functional.back() +
+                                 structure.functionals->functionals.size());
+  }
+
+
+
+  bool
+  ContactSum::keeps_rows_apart(const std::vector<ContactStructure> &structures,
+                               const MPI_Comm communicator)
+  {
+    bool are_apart = true;
+    for (unsigned int k = 0; k < structures.size(); ++k)
       {
-        const auto own = contact->tangent_structure().functionals;
-        if (!own)
-          {
-            first_functional.clear();
-            break;
-          }
-        first_functional.push_back(first_functional.back() +
-                                   own->functionals.size());
+        if (!structures[k].takes_rows)
+          continue;
+        const std::set<types::global_dof_index> rows(structures[k].rows.begin(),
+                                                     structures[k].rows.end());
+        for (unsigned int other = 0; other < structures.size(); ++other)
+          if (other != k)
+            for (const auto index :
+                 structures[other].functionals->functionals.index)
+              are_apart = are_apart && rows.count(index) == 0;
       }
+    return Utilities::MPI::min(are_apart ? 1 : 0, communicator) == 1;
   }
 
 
@@ -199,6 +224,7 @@ namespace Ricochet
         sum.is_symmetric     = sum.is_symmetric && own.is_symmetric;
         sum.has_multipliers  = sum.has_multipliers || own.has_multipliers;
         sum.couplings_change = sum.couplings_change || own.couplings_change;
+        sum.takes_rows       = sum.takes_rows || own.takes_rows;
         if (!sum.functionals)
           continue;
         sum.functionals->functionals.add(own.functionals->functionals);
@@ -227,13 +253,15 @@ namespace Ricochet
 
 
   void
-  ContactSum::tangent_change(std::vector<FunctionalRow> &change) const
+  ContactSum::gather_change(
+    void (TangentContact::*ask)(std::vector<FunctionalRow> &) const,
+    std::vector<FunctionalRow> &change) const
   {
     for (unsigned int k = 0; k < in_order.size(); ++k)
       {
         const unsigned int         first = first_functional[k];
         std::vector<FunctionalRow> own(first_functional[k + 1] - first);
-        in_order[k]->tangent_change(own);
+        (in_order[k]->*ask)(own);
         for (unsigned int f = 0; f < own.size(); ++f)
           {
             for (auto &entry : own[f])
@@ -246,11 +274,35 @@ namespace Ricochet
 
 
   void
-  ContactSum::look_at_change(const std::vector<double> &change)
+  ContactSum::tangent_change(std::vector<FunctionalRow> &change) const
+  {
+    gather_change(&TangentContact::tangent_change, change);
+  }
+
+
+
+  void
+  ContactSum::excess_change(std::vector<FunctionalRow> &change) const
+  {
+    gather_change(&TangentContact::excess_change, change);
+  }
+
+
+
+  void
+  ContactSum::look_at_change(const std::vector<double> &change,
+                             const std::vector<double> &excess)
   {
     for (unsigned int k = 0; k < in_order.size(); ++k)
-      in_order[k]->look_at_change({change.begin() + first_functional[k],
-                                   change.begin() + first_functional[k + 1]});
+      {
+        const auto own = [&](const std::vector<double> &all) {
+          return all.empty()
+            ? all
+            : std::vector<double>(all.begin() + first_functional[k],
+                                  all.begin() + first_functional[k + 1]);
+        };
+        in_order[k]->look_at_change(own(change), own(excess));
+      }
   }
 
 

@@ -91,8 +91,14 @@ namespace Ricochet
     void
     complete_open_tangent(Matrix &tangent) const override;
 
+    bool
+    takes_rows() const override
+    {
+      return in_order.back()->takes_rows();
+    }
+
     /// The functionals are those of all contacts, one contact after the other; there
-    /// are none if one of them has none.
+    /// are none if one of them has none, or if one takes rows in which another acts.
     ContactStructure
     tangent_structure() const override;
 
@@ -100,7 +106,11 @@ namespace Ricochet
     tangent_change(std::vector<FunctionalRow> &change) const override;
 
     void
-    look_at_change(const std::vector<double> &change) override;
+    excess_change(std::vector<FunctionalRow> &change) const override;
+
+    void
+    look_at_change(const std::vector<double> &change,
+                   const std::vector<double> &excess) override;
 
     void
     force_change(std::vector<double> &coefficients) const override;
@@ -142,6 +152,18 @@ namespace Ricochet
     summary(const ContactInstant &instant) override;
 
   private:
+    /// Whether contact that takes rows has all of them for itself.
+    static bool
+    keeps_rows_apart(const std::vector<ContactStructure> &structures,
+                     const MPI_Comm                       communicator);
+
+    /// Ask each contact for a @p change between its functionals, and put them one
+    /// behind the other.
+    void
+    gather_change(void (TangentContact::*ask)(std::vector<FunctionalRow> &)
+                    const,
+                  std::vector<FunctionalRow> &change) const;
+
     /// The share of contact @p k at an instant.
     static const Vector &
     share(const ContactInstant &instant, const unsigned int k)

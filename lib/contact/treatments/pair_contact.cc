@@ -459,7 +459,8 @@ namespace Ricochet
 
   template <int dim>
   void
-  PairContact<dim>::look_at_change(const std::vector<double> &change)
+  PairContact<dim>::look_at_change(const std::vector<double> &change,
+                                   const std::vector<double> & /*excess*/)
   {
     for (unsigned int f = 0; f < skin.size(); ++f)
       point_of_change(skin[f]) = skin_values[f] + change[f];

@@ -136,7 +136,8 @@ namespace Ricochet
     tangent_change(std::vector<FunctionalRow> &change) const override;
 
     void
-    look_at_change(const std::vector<double> &change) override;
+    look_at_change(const std::vector<double> &change,
+                   const std::vector<double> &excess) override;
 
     void
     force_change(std::vector<double> &coefficients) const override;

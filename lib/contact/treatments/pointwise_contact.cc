@@ -181,7 +181,8 @@ namespace Ricochet
 
 
   void
-  PointwiseContact::look_at_change(const std::vector<double> &change)
+  PointwiseContact::look_at_change(const std::vector<double> &change,
+                                   const std::vector<double> & /*excess*/)
   {
     if (!looks_at_change)
       {

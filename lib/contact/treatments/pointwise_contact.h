@@ -85,7 +85,8 @@ namespace Ricochet
     tangent_structure() const override;
 
     void
-    look_at_change(const std::vector<double> &change) override;
+    look_at_change(const std::vector<double> &change,
+                   const std::vector<double> &excess) override;
 
     void
     force_change(std::vector<double> &coefficients) const override;
