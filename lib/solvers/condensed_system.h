@@ -67,11 +67,14 @@ namespace Ricochet
                    std::vector<double>       &values) = 0;
 
     /// With the derivatives @p change (see Tangent::contact_change) of the
-    /// coefficients with respect to the values of the functionals, solve
+    /// coefficients with respect to the values of the functionals, and @p excess_change
+    /// (see Tangent::contact_excess_change) with respect to what the residual leaves
+    /// over along them, solve
     ///
-    ///     (1 + excess_change + change compliance) z = @p coefficients - change @p values;
+    ///     (1 + excess_change products + change compliance) z
+    ///       = @p coefficients - change @p values
     ///
-    /// the coefficients become z. @p excess_change: see Tangent::contact_excess_change.
+    /// with the products f_i . f_j; the coefficients become z.
     /// @throws NewtonFailure when the matrix is singular.
     virtual void
     solve_contact(const std::vector<FunctionalRow> &change,

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/serialization/array.hpp>
 #include <boost/serialization/utility.hpp>
 
 #include <algorithm>
@@ -27,6 +28,7 @@ namespace Ricochet
     , own_observables(std::move(observables_))
     , observables(own_observables ? *own_observables : directions)
     , options(options)
+    , products(directions)
     , work(owned, communicator)
   {
     const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
@@ -305,11 +307,25 @@ namespace Ricochet
         if (rows[i].size() != 1 || !(rows[i][0].second > 0.) ||
             rows[i][0].first != changed[i])
           return false;
-        for (const auto &[place, value] : excess_rows[i])
+        for (const auto &[place, value] : taken_rows[i])
           if (place != changed[i] || value < -1.)
             return false;
       }
     return true;
+  }
+
+
+
+  LowRankCorrection::Row
+  LowRankCorrection::taken_by(const Row &excess_row)
+  {
+    Row row(excess_row);
+    for (auto &entry : row)
+      entry.first = direction_at_place[entry.first];
+    row = products.times(row);
+    for (auto &entry : row)
+      entry.first = place_of_direction[entry.first];
+    return row;
   }
 
 
@@ -330,14 +346,14 @@ namespace Ricochet
     my_last_excess_rows = my_excess_rows;
 
     // All ranks get all rows, by place.
-    std::vector<std::pair<unsigned int, std::pair<Row, Row>>> all;
+    std::vector<std::pair<unsigned int, std::array<Row, 3>>> all;
     for (unsigned int d = 0; d < my_rows.size(); ++d)
       {
-        const Row &excess_row =
+        const Row excess_row =
           my_excess_rows.empty() ? Row() : my_excess_rows[d];
         if (!my_rows[d].empty() || !excess_row.empty())
-          all.emplace_back(place_of_direction[d],
-                           std::make_pair(my_rows[d], excess_row));
+          all.push_back({place_of_direction[d],
+                         {{my_rows[d], excess_row, taken_by(excess_row)}}});
       }
     if (Utilities::MPI::n_mpi_processes(communicator) > 1)
       {
@@ -352,13 +368,15 @@ namespace Ricochet
     changed.clear();
     rows.clear();
     excess_rows.clear();
+    taken_rows.clear();
     number_of_changed.assign(n_places(), -1);
-    for (auto &[place, both] : all)
+    for (auto &[place, own] : all)
       {
         number_of_changed[place] = changed.size();
         changed.push_back(place);
-        rows.push_back(std::move(both.first));
-        excess_rows.push_back(std::move(both.second));
+        rows.push_back(std::move(own[0]));
+        excess_rows.push_back(std::move(own[1]));
+        taken_rows.push_back(std::move(own[2]));
       }
     if (!changed.empty())
       {
@@ -388,7 +406,7 @@ namespace Ricochet
         for (unsigned int i = 0; i < n; ++i)
           {
             double own = 1.;
-            for (const auto &entry : excess_rows[i])
+            for (const auto &entry : taken_rows[i])
               own += entry.second;
             diagonal.push_back(own / rows[i][0].second);
           }
@@ -423,7 +441,7 @@ namespace Ricochet
           }
       }
     for (unsigned int i = 0; i < n; ++i)
-      for (const auto &[place, value] : excess_rows[i])
+      for (const auto &[place, value] : taken_rows[i])
         if (const int j = number_of_changed[place]; j >= 0)
           (*small)(i, j) += value;
     try
@@ -555,7 +573,7 @@ namespace Ricochet
         z[i] = coefficients[changed[i]];
         for (const auto &[o, value] : rows[i])
           z[i] -= value * seen[o];
-        for (const auto &[place, value] : excess_rows[i])
+        for (const auto &[place, value] : taken_rows[i])
           z[i] -= value * known[place];
         if (small_is_positive)
           z[i] /= rows[i][0].second;

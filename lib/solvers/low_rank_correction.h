@@ -4,7 +4,7 @@
 
 #include <base/types.h>
 #include <solvers/factorisation.h>
-#include <solvers/functionals.h>
+#include <solvers/functional_products.h>
 #include <solvers/positive_system.h>
 
 #include <deal.II/base/index_set.h>
@@ -26,8 +26,8 @@ namespace Ricochet
    *     A^{-1},
    *
    * the formula of Sherman, Morrison and Woodbury. Only directions with a row in
-   * C count. Changes of the form U E U^T A, which take rows of A out, may come
-   * besides, where the directions are orthonormal and the observables.
+   * C count. A change U E U^T A, which takes rows of A out, may come besides, where the
+   * observables are the directions; then 1 + E U^T U takes the place of 1.
    *
    * The observables V^T A^{-1} u_i of their columns are solved for once
    * and kept: a new state of contact costs a small dense factorisation, a
@@ -95,7 +95,8 @@ namespace Ricochet
     forget_columns();
 
     /// The change C, one row for each direction of this rank.
-    /// @param my_excess_rows those of E; empty for none on any rank.
+    /// @param my_excess_rows those of E; empty for none on any rank. Directions with
+    /// such a row have no products with those of other ranks.
     /// @param may_update use the dense factorisation of the last one, see
     /// PositiveSystem. Without it, the digits do not depend on what came before.
     void
@@ -160,7 +161,7 @@ namespace Ricochet
                    Factorisation             &factorisation);
 
     /**
-     * Solve (1 + E + C V^T A^{-1} U) z = @p coefficients - C @p values with the change
+     * Solve (1 + E U^T U + C V^T A^{-1} U) z = @p coefficients - C @p values with the change
      * of the last set_change(); coefficients of all directions by place, which
      * become z.
      */
@@ -198,8 +199,12 @@ namespace Ricochet
                        const std::vector<unsigned int> &places,
                        Factorisation                   &factorisation);
 
-    /// Whether C is diagonal and positive, E diagonal with 1 + E not negative, and A
-    /// symmetric.
+    /// A row of E U^T U from one of E.
+    Row
+    taken_by(const Row &excess_row);
+
+    /// Whether C is diagonal and positive, and A symmetric; and E U^T U diagonal and
+    /// not below -1.
     bool
     is_positive() const;
 
@@ -234,12 +239,13 @@ namespace Ricochet
     // By group.
     std::map<unsigned int, Factorisation::HalfColumns> half_columns;
 
-    // The rows of C and E of this rank as given last, and of all ranks by place of
-    // the direction.
+    // The rows of C and E of this rank as given last, and those of C, E and E U^T U of
+    // all ranks by place of the direction.
     std::vector<Row>          my_last_rows, my_last_excess_rows;
     bool                      has_change = false;
     std::vector<unsigned int> changed;
-    std::vector<Row>          rows, excess_rows;
+    std::vector<Row>          rows, excess_rows, taken_rows;
+    FunctionalProducts        products;
     // Number of each place among those that change; -1 for none.
     std::vector<int>                                  number_of_changed;
     std::unique_ptr<dealii::LAPACKFullMatrix<double>> small;

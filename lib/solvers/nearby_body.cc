@@ -17,6 +17,7 @@ namespace Ricochet
                          TangentSolver::Costs                &spent)
     : factorisation(std::move(factorisation))
     , functionals(contact.functionals)
+    , products(functionals)
     , spent(spent)
     , places(functionals.size())
     , functional_at(functionals.size())
@@ -238,7 +239,8 @@ namespace Ricochet
         z[i] = coefficients[changed[i]];
         for (const auto &[f, value] : change[functional_at[changed[i]]])
           z[i] -= value * seen[places[f]];
-        for (const auto &[f, value] : excess_change[functional_at[changed[i]]])
+        for (const auto &[f, value] :
+             products.times(excess_change[functional_at[changed[i]]]))
           if (const int j = number[places[f]]; j >= 0)
             small(i, j) += value;
           else

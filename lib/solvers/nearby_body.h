@@ -3,6 +3,7 @@
 #define ricochet_solvers_nearby_body_h
 
 #include <solvers/condensed_system.h>
+#include <solvers/functional_products.h>
 #include <solvers/factorisation.h>
 #include <solvers/tangent_solver.h>
 #include <solvers/triangular_factor.h>
@@ -88,6 +89,7 @@ namespace Ricochet
     Matrix                               matrix;
     const std::unique_ptr<Factorisation> factorisation;
     const Functionals                   &functionals;
+    FunctionalProducts                   products;
     TangentSolver::Costs                &spent;
     const TriangularFactor              *factor = nullptr;
     // Of each functional, and the other way round.

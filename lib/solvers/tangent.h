@@ -20,7 +20,7 @@ namespace Ricochet
     std::vector<dealii::types::global_dof_index> rows;
 
     /// The functionals through which contact acts, and the order in which it is
-    /// expected to spread; none if only the rows are known. Those of contact that
+    /// expected to spread; none if only the rows are known. Those of a contact that
     /// takes rows are orthonormal.
     struct ActsThrough
     {
@@ -85,7 +85,7 @@ namespace Ricochet
     /// The difference of the two as the rows of a matrix C between this rank's
     /// functionals f_i: the sum of C_ij f_i f_j^T.
     std::function<void(std::vector<FunctionalRow> &)> contact_change;
-    /// Where contact takes rows, besides that of E_ij f_i f_j^T K, with the body's
+    /// Where contact takes rows, besides the sum of E_ij f_i f_j^T K, with the body's
     /// matrix K.
     std::function<void(std::vector<FunctionalRow> &)> contact_excess_change;
   };

@@ -108,9 +108,14 @@ namespace Ricochet
     for (unsigned int f = 0; f < change.size(); ++f)
       change[f] =
         system.place(f) < values.size() ? values[system.place(f)] : 0.;
-    std::vector<double> excess(open_excess);
-    for (unsigned int f = 0; f < excess.size(); ++f)
-      excess[f] = (1. - unknowns.share) * excess[f] - unknowns.coefficients[f];
+    if (contact.takes_rows())
+      {
+        work = 0.;
+        system.add_functionals(unknowns.coefficients, work);
+        excess = system.along_functionals(work);
+        for (unsigned int f = 0; f < excess.size(); ++f)
+          excess[f] = (1. - unknowns.share) * open_excess[f] - excess[f];
+      }
     contact.look_at_change(change, excess);
     contact.force_change(forces);
     for (unsigned int f = 0; f < change.size(); ++f)

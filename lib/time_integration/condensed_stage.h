@@ -18,7 +18,7 @@ namespace Ricochet
    *     x = x_g + s (x_0 - x_g) - K^{-1} f z,
    *
    * and where contact takes rows and puts others there, it goes by what the residual
-   * without contact leaves over along the functionals, (1 - s) f R(x_g) - z.
+   * without contact leaves over along the functionals, f ((1 - s) R(x_g) - f z).
    *
    * where s = 1 after the first full step. So its unknowns are the coefficients z and
    * s: with full steps it makes the same iterates as NewtonSolver with the whole
@@ -95,7 +95,7 @@ namespace Ricochet
     Vector              open_residual, work;
     std::vector<double> flight_values;
     // What the former has along the functionals (N), where contact takes rows.
-    std::vector<double> open_excess;
+    std::vector<double> open_excess, excess;
     std::vector<double> forces;
   };
 } // namespace Ricochet

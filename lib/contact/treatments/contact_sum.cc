@@ -35,13 +35,21 @@ namespace Ricochet
                      structures.end(),
                      [](const ContactStructure &structure) {
                        return structure.functionals.has_value();
-                     }) ||
-        !keeps_rows_apart(structures, force.get_mpi_communicator()))
+                     }))
       return;
+    const MPI_Comm communicator = force.get_mpi_communicator();
+    if (!keeps_rows_apart(structures, communicator))
+      {
+        if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+          return;
+        products.emplace(functionals);
+      }
     first_functional.push_back(0);
     for (const ContactStructure &structure : structures)
-      first_functional.push_back(first_functional.back() +
-                                 structure.functionals->functionals.size());
+      {
+        functionals.add(structure.functionals->functionals);
+        first_functional.push_back(functionals.size());
+      }
   }
 
 
@@ -268,6 +276,16 @@ namespace Ricochet
               entry.first += first;
             change[first + f] = std::move(own[f]);
           }
+        if (!products || !in_order[k]->takes_rows())
+          continue;
+        std::vector<FunctionalRow> with_excess(own.size());
+        in_order[k]->excess_change(with_excess);
+        for (unsigned int f = 0; f < own.size(); ++f)
+          for (const auto &[g, value] : with_excess[f])
+            for (const auto &[other, product] : products->of(first + g))
+              if (other < first)
+                for (const auto &[h, entry] : change[other])
+                  change[first + f].emplace_back(h, value * product * entry);
       }
   }
 
@@ -293,6 +311,8 @@ namespace Ricochet
   ContactSum::look_at_change(const std::vector<double> &change,
                              const std::vector<double> &excess)
   {
+    // Those that take rows see the forces of others before them.
+    std::vector<double> forces;
     for (unsigned int k = 0; k < in_order.size(); ++k)
       {
         const auto own = [&](const std::vector<double> &all) {
@@ -301,7 +321,19 @@ namespace Ricochet
             : std::vector<double>(all.begin() + first_functional[k],
                                   all.begin() + first_functional[k + 1]);
         };
-        in_order[k]->look_at_change(own(change), own(excess));
+        std::vector<double> own_excess = own(excess);
+        if (products && in_order[k]->takes_rows())
+          for (unsigned int f = 0; f < own_excess.size(); ++f)
+            for (const auto &[other, product] :
+                 products->of(first_functional[k] + f))
+              if (other < first_functional[k])
+                own_excess[f] += product * forces[other];
+        in_order[k]->look_at_change(own(change), own_excess);
+        if (!products)
+          continue;
+        std::vector<double> own_forces;
+        in_order[k]->force_change(own_forces);
+        forces.insert(forces.end(), own_forces.begin(), own_forces.end());
       }
   }
 

@@ -3,6 +3,7 @@
 #define ricochet_contact_treatments_contact_sum_h
 
 #include <contact/contact_operator.h>
+#include <solvers/functional_products.h>
 
 #include <memory>
 #include <vector>
@@ -98,7 +99,8 @@ namespace Ricochet
     }
 
     /// The functionals are those of all contacts, one contact after the other; there
-    /// are none if one of them has none, or if one takes rows in which another acts.
+    /// are none if one of them has none, or, on several ranks, if one takes rows in
+    /// which another acts.
     ContactStructure
     tangent_structure() const override;
 
@@ -158,7 +160,7 @@ namespace Ricochet
                      const MPI_Comm                       communicator);
 
     /// Ask each contact for a @p change between its functionals, and put them one
-    /// behind the other.
+    /// behind the other. One that takes rows follows those before it in them.
     void
     gather_change(void (TangentContact::*ask)(std::vector<FunctionalRow> &)
                     const,
@@ -177,8 +179,11 @@ namespace Ricochet
     // Where the functionals of each of these begin among all of this rank, and where
     // the last one's end; empty without functionals.
     std::vector<unsigned int> first_functional;
-    bool                      has_friction = false;
-    Vector                    force, friction, scaling;
+    Functionals               functionals;
+    // Where one takes rows in which another acts.
+    mutable std::optional<FunctionalProducts> products;
+    bool                                      has_friction = false;
+    Vector                                    force, friction, scaling;
     // After force_at() these are the shares; otherwise contacts know them.
     std::vector<Vector> instant_forces;
     bool                at_instant = false;
