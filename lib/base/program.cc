@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <new>
@@ -287,6 +288,11 @@ namespace Ricochet
   {
     // Beyond the limit on the size of files, writing fails as on a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
+
+    // Without mpirun Open MPI would start a process that could start others, which
+    // takes a third of all start-up and which nobody asks for. Other MPIs do not know
+    // this name, and mpirun does not look at it.
+    ::setenv("OMPI_MCA_ess_singleton_isolated", "1", /* overwrite */ 0);
 
     // One thread per rank: the parallelism of Ricochet is MPI. Our options are not shown
     // to the libraries of deal.II: PETSc would warn that it does not know them.

@@ -121,13 +121,14 @@ namespace Ricochet
 
   template <int dim>
   Tensor<2, dim>
-  FollowerPressure<dim>::deformation_gradient(const QuadraturePoint &point,
-                                              const Vector &ghosted) const
+  FollowerPressure<dim>::deformation_gradient(
+    const QuadraturePoint &point,
+    const GhostedVector   &ghosted) const
   {
     Tensor<2, dim> result = unit_symmetric_tensor<dim>();
     for (const Node &node : point.nodes)
       for (unsigned int c = 0; c < dim; ++c)
-        result[c] += ghosted(node.unknowns[c]) * node.gradient;
+        result[c] += ghosted.vector()(node.unknowns[c]) * node.gradient;
     return result;
   }
 
@@ -141,9 +142,9 @@ namespace Ricochet
                                     const double  end,
                                     Vector       &force) const
   {
-    ghosted_old = old_solution;
-    ghosted_new = new_solution;
-    force       = 0.;
+    ghosted_old.import(old_solution);
+    ghosted_new.import(new_solution);
+    force = 0.;
     for (const QuadraturePoint &point : points)
       {
         const Tensor<1, dim> traction =
@@ -169,8 +170,8 @@ namespace Ricochet
                                                const double  end,
                                                Matrix       &tangent) const
   {
-    ghosted_old = old_solution;
-    ghosted_new = new_solution;
+    ghosted_old.import(old_solution);
+    ghosted_new.import(new_solution);
     for (const QuadraturePoint &point : points)
       {
         const double pressure =

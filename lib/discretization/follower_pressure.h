@@ -2,6 +2,7 @@
 #ifndef ricochet_discretization_follower_pressure_h
 #define ricochet_discretization_follower_pressure_h
 
+#include <base/ghosted_vector.h>
 #include <discretization/body.h>
 #include <discretization/follower_load.h>
 
@@ -75,13 +76,13 @@ namespace Ricochet
     /// F, with the solution in #ghosted.
     dealii::Tensor<2, dim>
     deformation_gradient(const QuadraturePoint &point,
-                         const Vector          &ghosted) const;
+                         const GhostedVector   &ghosted) const;
 
     const Body<dim>                         &body;
     const std::vector<BoundaryPressure<dim>> pressures;
     // On the cells of this rank.
     std::vector<QuadraturePoint> points;
-    mutable Vector               ghosted_old, ghosted_new;
+    mutable GhostedVector        ghosted_old, ghosted_new;
   };
 } // namespace Ricochet
 

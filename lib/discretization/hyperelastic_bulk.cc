@@ -88,7 +88,7 @@ namespace Ricochet
     n_nodes  = element.n_dofs_per_cell() / dim;
 
     const unsigned int n   = dim * n_nodes;
-    const auto        &map = ghosted_new.trilinos_vector().Map();
+    const auto        &map = ghosted_new.vector().trilinos_vector().Map();
     struct Cell
     {
       typename DoFHandler<dim>::active_cell_iterator iterator;
@@ -240,7 +240,7 @@ namespace Ricochet
 
     constexpr unsigned int n_lanes = Lanes::size();
     const unsigned int     n       = dim * n_nodes;
-    const auto            &map     = ghosted_new.trilinos_vector().Map();
+    const auto            &map = ghosted_new.vector().trilinos_vector().Map();
     matrix_entry.reserve(n_batches * n * n * n_lanes);
     std::vector<int> column(n * n_lanes);
     for (unsigned int batch = 0; batch < n_batches; ++batch)
@@ -277,18 +277,8 @@ namespace Ricochet
   HyperelasticBulk<dim>::import_ghosts(const Vector &old_solution,
                                        const Vector &new_solution) const
   {
-    const Epetra_BlockMap &map = ghosted_old.trilinos_vector().Map();
-    if (!import)
-      import =
-        std::make_unique<Epetra_Import>(map,
-                                        old_solution.trilinos_vector().Map());
-    const auto fill = [&](const Vector &from, Vector &to) {
-      const int error =
-        to.trilinos_vector().Import(from.trilinos_vector(), *import, Insert);
-      AssertThrow(error == 0, ExcTrilinosError(error));
-    };
-    fill(old_solution, ghosted_old);
-    fill(new_solution, ghosted_new);
+    ghosted_old.import(old_solution);
+    ghosted_new.import(new_solution);
   }
 
 
@@ -298,8 +288,8 @@ namespace Ricochet
   HyperelasticBulk<dim>::gather(const unsigned int batch) const
   {
     constexpr unsigned int n_lanes    = Lanes::size();
-    const double          *old_values = ghosted_old.trilinos_vector()[0];
-    const double          *new_values = ghosted_new.trilinos_vector()[0];
+    const double          *old_values = ghosted_old.values();
+    const double          *new_values = ghosted_new.values();
     const int *index = &ghosted_index[batch * n_nodes * dim * n_lanes];
 
     // Relative to the first node, since the gradients of all shape functions

@@ -2,13 +2,13 @@
 #ifndef ricochet_discretization_hyperelastic_bulk_h
 #define ricochet_discretization_hyperelastic_bulk_h
 
+#include <base/ghosted_vector.h>
 #include <discretization/body.h>
 #include <discretization/bulk_operator.h>
 #include <materials/material.h>
 
 #include <deal.II/base/aligned_vector.h>
 
-#include <Epetra_Import.h>
 
 #include <array>
 #include <memory>
@@ -186,12 +186,11 @@ namespace Ricochet
 
     // Work space, so that nothing is allocated in a time step: displacements of a batch
     // relative to the first node, and their changes.
-    mutable Vector                         ghosted_old, ghosted_new;
-    mutable std::unique_ptr<Epetra_Import> import;
-    mutable dealii::AlignedVector<Lanes>   cell_old, cell_change;
-    mutable dealii::AlignedVector<Lanes>   cell_vector, cell_matrix;
-    mutable dealii::AlignedVector<Lanes>   test_strains, trial_strains;
-    mutable dealii::AlignedVector<Lanes>   stress_columns;
+    mutable GhostedVector                ghosted_old, ghosted_new;
+    mutable dealii::AlignedVector<Lanes> cell_old, cell_change;
+    mutable dealii::AlignedVector<Lanes> cell_vector, cell_matrix;
+    mutable dealii::AlignedVector<Lanes> test_strains, trial_strains;
+    mutable dealii::AlignedVector<Lanes> stress_columns;
 
     // The worst element of the last loop: det F and cell.
     mutable double       smallest_determinant = 1.;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <base/kept.h>
+#include <base/vector_operations.h>
 #include <discretization/linear_bulk.h>
 
 #include <deal.II/fe/fe_values.h>
@@ -166,6 +166,10 @@ namespace Ricochet
     for (unsigned int &one : group)
       if (one < n_parts * dim)
         one = first[one / dim] * dim + one % dim;
+    group_sizes.assign(n_parts * dim + 1, 0.);
+    for (const unsigned int one : group)
+      group_sizes[one] += 1.;
+    Utilities::MPI::sum(group_sizes, communicator, group_sizes);
 
     // W_v = eta/2 tr(strain_rate^2): the viscous stress is eta times the strain
     // rate.
@@ -194,7 +198,7 @@ namespace Ricochet
   void
   LinearBulk<dim>::force(const Vector &solution, Vector &force) const
   {
-    force = force_at(solution);
+    copy_values(force_at(solution), force);
   }
 
 
@@ -213,17 +217,27 @@ namespace Ricochet
       return Utilities::MPI::min(std::equal(values, values + n, own) ? 1 : 0,
                                  communicator) == 1;
     };
-    return find_or_make(known_forces,
-                        n_known,
-                        is_same,
-                        [&]() {
-                          KnownForce entry{solution, solution};
-                          work = solution;
-                          remove_translation();
-                          stiffness.vmult(entry.force, work);
-                          return entry;
-                        })
-      .force;
+    const auto known =
+      std::find_if(known_forces.begin(), known_forces.end(), is_same);
+    if (known != known_forces.end())
+      {
+        known_forces.splice(known_forces.begin(), known_forces, known);
+        return known_forces.front().force;
+      }
+    // The one not used for longest makes room.
+    if (known_forces.size() < n_known)
+      known_forces.emplace_front();
+    else
+      known_forces.splice(known_forces.begin(),
+                          known_forces,
+                          std::prev(known_forces.end()));
+    KnownForce &entry = known_forces.front();
+    copy_values(solution, entry.displacement);
+    copy_values(solution, entry.force);
+    copy_values(solution, work);
+    remove_translation();
+    stiffness.vmult(entry.force, work);
+    return entry.force;
   }
 
 
@@ -256,13 +270,13 @@ namespace Ricochet
                               const double  time_step,
                               Vector       &force) const
   {
-    work = old_solution;
+    copy_values(old_solution, work);
     work.sadd(.5, .5, new_solution);
     remove_translation();
     stiffness.vmult(force, work);
     if (has_viscosity)
       {
-        work = new_solution;
+        copy_values(new_solution, work);
         work -= old_solution;
         viscosity_matrix.vmult(product, work);
         force.add(1. / time_step, product);
@@ -300,19 +314,17 @@ namespace Ricochet
   void
   LinearBulk<dim>::remove_translation() const
   {
-    double             *values   = work.trilinos_vector()[0];
-    const unsigned int  n_groups = n_parts * dim;
-    std::vector<double> my_sums(2 * n_groups, 0.), sums(2 * n_groups);
+    // What belongs to no part has the last place, and is left as it is.
+    double *const       values = work.trilinos_vector()[0];
+    std::vector<double> my_sums(group_sizes.size(), 0.), means(my_sums);
     for (unsigned int i = 0; i < group.size(); ++i)
-      if (group[i] < n_groups)
-        {
-          my_sums[group[i]] += values[i];
-          my_sums[n_groups + group[i]] += 1.;
-        }
-    Utilities::MPI::sum(my_sums, communicator, sums);
+      my_sums[group[i]] += values[i];
+    my_sums.back() = 0.;
+    Utilities::MPI::sum(my_sums, communicator, means);
+    for (unsigned int g = 0; g + 1 < means.size(); ++g)
+      means[g] /= group_sizes[g];
     for (unsigned int i = 0; i < group.size(); ++i)
-      if (group[i] < n_groups)
-        values[i] -= sums[group[i]] / sums[n_groups + group[i]];
+      values[i] -= means[group[i]];
   }
 
 
@@ -322,7 +334,7 @@ namespace Ricochet
   LinearBulk<dim>::energy(const Vector &solution) const
   {
     const Vector &force = force_at(solution);
-    work                = solution;
+    copy_values(solution, work);
     remove_translation();
     return .5 * (force * work);
   }
@@ -334,7 +346,7 @@ namespace Ricochet
   LinearBulk<dim>::energies_of_parts(const Vector &solution) const
   {
     const Vector &force = force_at(solution);
-    work                = solution;
+    copy_values(solution, work);
     remove_translation();
     std::vector<double> my_energies(n_parts, 0.), energies(n_parts);
     for (unsigned int i = 0; i < group.size(); ++i)

@@ -99,9 +99,11 @@ namespace Ricochet
     // multipliers.
     unsigned int              n_parts = 1;
     std::vector<unsigned int> group;
-    BodyMatrix                stiffness;
-    BodyMatrix                viscosity_matrix;
-    double                    scale = 0.;
+    // Unknowns of each group on all ranks; the last one has what belongs to none.
+    std::vector<double> group_sizes;
+    BodyMatrix          stiffness;
+    BodyMatrix          viscosity_matrix;
+    double              scale = 0.;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, product;
     /// The forces of the last few displacements, the latest first: a scheme, its

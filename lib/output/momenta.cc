@@ -27,15 +27,53 @@ namespace Ricochet
 
 
   template <int dim>
+  void
+  Momenta<dim>::move_rigidly() const
+  {
+    if (!of_translations.empty())
+      return;
+    Vector     velocity(momentum);
+    const auto add_motion = [&](std::vector<Vector> &motions,
+                                const auto          &velocity_at) {
+      velocity = 0.;
+      for (const PartNode<dim> &node : nodes)
+        {
+          const Tensor<1, 3> of_node = velocity_at(node);
+          for (unsigned int c = 0; c < dim; ++c)
+            velocity(node.indices[c]) = of_node[c];
+        }
+      velocity.compress(VectorOperation::insert);
+      mass.vmult(momentum, velocity);
+      motions.push_back(momentum);
+    };
+    for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        Tensor<1, 3> direction;
+        direction[axis] = 1.;
+        if (axis < dim)
+          add_motion(of_translations,
+                     [&](const PartNode<dim> &) { return direction; });
+        if (dim == 3 || axis == 2)
+          add_motion(of_rotations, [&](const PartNode<dim> &node) {
+            Tensor<1, 3> arm;
+            for (unsigned int c = 0; c < dim; ++c)
+              arm[c] = node.position[c];
+            return cross_product_3d(direction, arm);
+          });
+      }
+  }
+
+
+
+  template <int dim>
   Tensor<1, dim>
   Momenta<dim>::linear(const Vector &velocity) const
   {
-    mass.vmult(momentum, velocity);
+    move_rigidly();
     Tensor<1, dim> sum;
-    for (const PartNode<dim> &node : nodes)
-      for (unsigned int c = 0; c < dim; ++c)
-        sum[c] += momentum(node.indices[c]);
-    return Utilities::MPI::sum(sum, communicator);
+    for (unsigned int c = 0; c < dim; ++c)
+      sum[c] = of_translations[c] * velocity;
+    return sum;
   }
 
 
@@ -44,20 +82,25 @@ namespace Ricochet
   Tensor<1, 3>
   Momenta<dim>::angular(const Vector &solution, const Vector &velocity) const
   {
-    mass.vmult(momentum, velocity);
+    move_rigidly();
     Tensor<1, 3> sum;
+    for (unsigned int axis = 3 - of_rotations.size(); axis < 3; ++axis)
+      sum[axis] = of_rotations[axis - (3 - of_rotations.size())] * velocity;
+    if (small_strains)
+      return sum;
+    mass.vmult(momentum, velocity);
+    Tensor<1, 3> of_displacements;
     for (const PartNode<dim> &node : nodes)
       {
         Tensor<1, 3> arm, node_momentum;
         for (unsigned int c = 0; c < dim; ++c)
           {
-            arm[c] = node.position[c] +
-              (small_strains ? 0. : solution(node.indices[c]));
+            arm[c]           = solution(node.indices[c]);
             node_momentum[c] = momentum(node.indices[c]);
           }
-        sum += cross_product_3d(arm, node_momentum);
+        of_displacements += cross_product_3d(arm, node_momentum);
       }
-    return Utilities::MPI::sum(sum, communicator);
+    return sum + Utilities::MPI::sum(of_displacements, communicator);
   }
 
 

@@ -39,11 +39,19 @@ namespace Ricochet
     angular(const Vector &solution, const Vector &velocity) const;
 
   private:
+    /// Make #of_translations and #of_rotations.
+    void
+    move_rigidly() const;
+
     const MPI_Comm                   communicator;
     const BodyMatrix                &mass;
     const bool                       small_strains;
     const std::vector<PartNode<dim>> nodes;
-    mutable Vector                   momentum;
+    // Momenta of the motions with unit velocity along each axis and unit angular
+    // velocity about it, made when first asked for: their products with a velocity
+    // are its momenta.
+    mutable std::vector<Vector> of_translations, of_rotations;
+    mutable Vector              momentum;
   };
 } // namespace Ricochet
 

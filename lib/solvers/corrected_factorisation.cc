@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <base/stopwatch.h>
 #include <solvers/corrected_factorisation.h>
 
@@ -189,7 +190,8 @@ namespace Ricochet
         change.assign(n, {});
         excess_change.assign(n, {});
         tangent.contact_change(change);
-        tangent.contact_excess_change(excess_change);
+        if (contact.takes_rows)
+          tangent.contact_excess_change(excess_change);
         set_change_of_functionals(false);
         return;
       }
@@ -276,7 +278,7 @@ namespace Ricochet
         factorisation->go_backwards(half, solution);
         return;
       }
-    solution           = body_solution;
+    copy_values(body_solution, solution);
     const bool pressed = std::any_of(coefficients.begin(),
                                      coefficients.end(),
                                      [](const double z) { return z != 0.; });

@@ -483,14 +483,12 @@ namespace Ricochet
                   {
                     const double *entry = node.values +
                       static_cast<std::size_t>(column) * node.n_rows;
-                    double sum = own[column];
-                    for (int i = column + 1; i < node.n_columns; ++i)
-                      sum -= entry[i] * own[i];
-                    const double diagonal = entry[column];
-                    entry += node.n_columns;
-                    for (int i = 0; i < n_below; ++i)
-                      sum -= entry[i] * below[i];
-                    own[column] = sum / diagonal;
+                    const int n_later = node.n_columns - column - 1;
+                    own[column] =
+                      (own[column] -
+                       product(entry + column + 1, own + column + 1, n_later) -
+                       product(entry + node.n_columns, below.data(), n_below)) /
+                      entry[column];
                   }
                 continue;
               }
@@ -574,6 +572,13 @@ namespace Ricochet
           return n_rows * n_columns <= 2048;
         }
       };
+
+      static double
+      product(const double *a, const double *b, const int n)
+      {
+        return Eigen::Map<const Eigen::VectorXd>(a, n).dot(
+          Eigen::Map<const Eigen::VectorXd>(b, n));
+      }
 
       /// None where the factor has none.
       void

@@ -35,10 +35,9 @@ namespace Ricochet
 
     IndexSet relevant = owned;
     relevant.add_indices(observables.index.begin(), observables.index.end());
-    ghosted.reinit(owned, relevant, communicator);
+    ghosted = GhostedVector(Vector(owned, relevant, communicator));
     for (const Index index : observables.index)
-      local_index.push_back(ghosted.trilinos_vector().Map().LID(
-        static_cast<TrilinosWrappers::types::int_type>(index)));
+      local_index.push_back(ghosted.local_index(index));
 
     for (const Index index : directions.index)
       owned_index.push_back(owned.is_element(index)
@@ -100,8 +99,8 @@ namespace Ricochet
   void
   LowRankCorrection::observe(const Vector &vector, std::vector<double> &values)
   {
-    ghosted             = vector;
-    const double *value = ghosted.trilinos_vector()[0];
+    ghosted.import(vector);
+    const double *value = ghosted.values();
     std::fill(values.begin(), values.end(), 0.);
     for (unsigned int o = 0; o < observables.size(); ++o)
       {

@@ -2,6 +2,7 @@
 #ifndef ricochet_solvers_low_rank_correction_h
 #define ricochet_solvers_low_rank_correction_h
 
+#include <base/ghosted_vector.h>
 #include <base/types.h>
 #include <solvers/factorisation.h>
 #include <solvers/functional_products.h>
@@ -251,7 +252,8 @@ namespace Ricochet
     std::unique_ptr<dealii::LAPACKFullMatrix<double>> small;
     PositiveSystem                                    positive_small;
     bool                                              small_is_positive = false;
-    Vector                                            ghosted, work;
+    GhostedVector                                     ghosted;
+    Vector                                            work;
     std::vector<double>                               observed;
   };
 } // namespace Ricochet

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <base/exceptions.h>
 #include <solvers/newton.h>
 
@@ -142,13 +143,13 @@ namespace Ricochet
                 std::clamp(.01 * parameters.tolerance / norm, 1e-8, 1e-2);
           }
         problem.solve(residual, update, may_reuse, tolerance);
-        trial = solution;
+        copy_values(solution, trial);
         trial.add(-1., update);
         double     new_norm    = evaluate(problem, trial);
         double     step_length = 1.;
         const auto shorten     = [&]() {
           step_length *= .5;
-          trial = solution;
+          copy_values(solution, trial);
           trial.add(-step_length, update);
           new_norm = evaluate(problem, trial);
         };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/vector_operations.h>
 #include <time_integration/condensed_stage.h>
 
 #include <deal.II/base/mpi.h>
@@ -124,7 +125,7 @@ namespace Ricochet
       {
         work = 0.;
         system.add_functionals(forces, work);
-        contact_force_scale = work.l2_norm();
+        contact_force_scale = l2_norm(work);
       }
     unknowns.share = 1. - unknowns.share;
     write(unknowns, result);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <time_integration/hht.h>
 
 #include <cmath>
@@ -24,9 +25,9 @@ namespace Ricochet
     new_state.time  = old_state.time + dt;
 
     // u_new = inertia_origin + beta dt^2 a_new
-    stage.inertia        = 1. / (beta * dt * dt);
-    stage.end_time       = new_state.time;
-    stage.inertia_origin = old_state.solution;
+    stage.inertia  = 1. / (beta * dt * dt);
+    stage.end_time = new_state.time;
+    copy_values(old_state.solution, stage.inertia_origin);
     stage.inertia_origin.add(dt,
                              old_state.velocity,
                              (.5 - beta) * dt * dt,
@@ -38,7 +39,7 @@ namespace Ricochet
     load.reinit(old_state.solution, true);
     system.external_load(old_state.time, work);
     system.external_load(new_state.time, load);
-    stage.load = load;
+    copy_values(load, stage.load);
     stage.load.sadd(1. - alpha, alpha, work);
 
     // The guess is free flight over the step.
@@ -50,7 +51,7 @@ namespace Ricochet
     report.newton_iterations = system.solve_stage(stage, old_state, new_state);
     report.linear_solves     = report.newton_iterations;
 
-    new_state.acceleration = new_state.solution;
+    copy_values(new_state.solution, new_state.acceleration);
     new_state.acceleration -= stage.inertia_origin;
     new_state.acceleration *= stage.inertia;
     new_state.velocity.add((1. - gamma) * dt,
@@ -73,20 +74,20 @@ namespace Ricochet
                        new_state.contact_force,
                        new_state.time,
                        new_force);
-    new_state.scheme_force = new_force;
+    copy_values(new_force, new_state.scheme_force);
     new_state.scheme_force.sadd(1. - alpha, alpha, old_force);
 
     // (mean scheme force - mean force) . (u_new - u_old)
-    work = new_state.scheme_force;
+    copy_values(new_state.scheme_force, work);
     work += old_state.scheme_force;
     work -= new_force;
     work -= old_force;
     work *= .5;
-    increment = new_state.solution;
+    copy_values(new_state.solution, increment);
     increment -= old_state.solution;
     double dissipation = work * increment;
 
-    work = new_state.acceleration;
+    copy_values(new_state.acceleration, work);
     work -= old_state.acceleration;
     mass_times_jump.reinit(work, true);
     system.mass_matrix().vmult(mass_times_jump, work);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <time_integration/midpoint.h>
 
 namespace Ricochet
@@ -14,8 +15,8 @@ namespace Ricochet
     new_state.time  = old_state.time + dt;
 
     // (v_new - v_old)/dt = 2/dt^2 (u_new - u_old - dt v_old)
-    stage.inertia        = 2. / (dt * dt);
-    stage.inertia_origin = old_state.solution;
+    stage.inertia = 2. / (dt * dt);
+    copy_values(old_state.solution, stage.inertia_origin);
     stage.inertia_origin.add(dt, old_state.velocity);
     stage.time_step          = dt;
     stage.end_time           = new_state.time;
@@ -35,7 +36,7 @@ namespace Ricochet
     report.newton_iterations = system.solve_stage(stage, old_state, new_state);
     report.linear_solves     = report.newton_iterations;
 
-    work = new_state.solution;
+    copy_values(new_state.solution, work);
     work -= old_state.solution;
     new_state.velocity *= -1.;
     new_state.velocity.add(2. / dt, work);
@@ -45,7 +46,7 @@ namespace Ricochet
                                -2. / dt,
                                old_state.velocity);
 
-    new_state.mean_velocity = work;
+    copy_values(work, new_state.mean_velocity);
     new_state.mean_velocity *= 1. / dt;
 
     // The scheme dissipates nothing: M (v_new - v_old)/dt times u_new - u_old

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <base/exceptions.h>
 #include <time_integration/semi_discrete_system.h>
 #include <time_integration/stage_problem.h>
@@ -48,6 +49,27 @@ namespace Ricochet
       return structure;
     }
   } // namespace
+
+  State &
+  State::operator=(const State &other)
+  {
+    if (this == &other)
+      return *this;
+    time = other.time;
+    for (Vector State::*const part : {&State::solution,
+                                      &State::velocity,
+                                      &State::acceleration,
+                                      &State::contact_force,
+                                      &State::mean_velocity,
+                                      &State::scheme_force})
+      copy_values(other.*part, this->*part);
+    contact_shares.resize(other.contact_shares.size());
+    for (unsigned int k = 0; k < contact_shares.size(); ++k)
+      copy_values(other.contact_shares[k], contact_shares[k]);
+    return *this;
+  }
+
+
 
   SemiDiscreteSystem::SemiDiscreteSystem(
     const BodyMatrix               &mass,
@@ -197,7 +219,7 @@ namespace Ricochet
     const std::vector<const Vector *> shares = contact.shares();
     state.contact_shares.resize(shares.size());
     for (unsigned int k = 0; k < shares.size(); ++k)
-      state.contact_shares[k] = *shares[k];
+      copy_values(*shares[k], state.contact_shares[k]);
   }
 
   bool
@@ -278,7 +300,7 @@ namespace Ricochet
                          solution,
                          safe_guess);
     // Iterates keep the prescribed displacements of the guess.
-    safe_guess = old_state.solution;
+    copy_values(old_state.solution, safe_guess);
     if (unknowns.impose)
       {
         unknowns.impose(stage.end_time, solution);
@@ -353,7 +375,7 @@ namespace Ricochet
             throw NewtonFailure(newton_failure.what() + reason + "\n");
           }
       }
-    new_state.contact_force = contact.contact_force();
+    copy_values(contact.contact_force(), new_state.contact_force);
     take_shares(new_state);
     return problem.n_iterations();
   }

@@ -45,6 +45,16 @@ namespace Ricochet
     /// -M a as the scheme's own equation of motion gives it (N); only the
     /// energy balance reads it.
     Vector scheme_force;
+
+    State()              = default;
+    State(const State &) = default;
+    State(State &&)      = default;
+    State &
+    operator=(State &&) = default;
+
+    /// By copy_values().
+    State &
+    operator=(const State &other);
   };
 
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <base/stopwatch.h>
 #include <time_integration/stage_problem.h>
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace Ricochet
 {
@@ -33,7 +33,7 @@ namespace Ricochet
     if (stage.contact_weight_old != 0.)
       constant_part.add(stage.contact_weight_old, old_contact_force);
     constant_part.add(-1., stage.load);
-    constant_scale = constant_part.l2_norm();
+    constant_scale = l2_norm(constant_part);
   }
 
   double
@@ -48,7 +48,7 @@ namespace Ricochet
       {
         parts.mass.vmult(parts.work, stage.inertia_origin);
         bulk_round_off = 4. * std::numeric_limits<double>::epsilon() *
-            (stage.inertia * parts.work.l2_norm() +
+            (stage.inertia * l2_norm(parts.work) +
              parts.bulk.stiffness_scale() *
                displacement_norm(stage.inertia_origin)) +
           parts.bulk.strain_round_off();
@@ -100,18 +100,18 @@ namespace Ricochet
   StageProblem::residual(const Vector &point, Vector &result)
   {
     const Stopwatch stopwatch(parts.residual_seconds);
-    parts.work = point;
+    copy_values(point, parts.work);
     parts.work -= stage.inertia_origin;
     parts.mass.vmult(result, parts.work);
     result *= stage.inertia;
-    force_scale = constant_scale + result.l2_norm();
+    force_scale = constant_scale + l2_norm(result);
     if (stage.bulk_step_force)
       {
         parts.bulk.step_force(old_solution,
                               point,
                               stage.time_step,
                               parts.force);
-        force_scale += parts.force.l2_norm();
+        force_scale += l2_norm(parts.force);
         result += parts.force;
         if (parts.follower)
           {
@@ -120,20 +120,20 @@ namespace Ricochet
                                        stage.end_time - stage.time_step,
                                        stage.end_time,
                                        parts.force);
-            force_scale += parts.force.l2_norm();
+            force_scale += l2_norm(parts.force);
             result -= parts.force;
           }
       }
     else
       {
         parts.bulk.force(point, parts.force);
-        force_scale += parts.force.l2_norm();
+        force_scale += l2_norm(parts.force);
         result.add(stage.bulk_weight_new, parts.force);
       }
     result += parts.constant_part;
     parts.contact.complete_residual(point, result);
     contact_scale =
-      stage.contact_weight_new * parts.contact.contact_force().l2_norm();
+      stage.contact_weight_new * l2_norm(parts.contact.contact_force());
     force_scale += contact_scale;
     for (const auto i : parts.clamped)
       parts.reaction(i) = result(i);
@@ -245,20 +245,16 @@ namespace Ricochet
   double
   StageProblem::norm(const Vector &result)
   {
-    parts.work = result;
+    copy_values(result, parts.work);
     parts.work.scale(parts.contact.row_scaling());
-    return parts.work.l2_norm() +
+    return l2_norm(parts.work) +
       stage.contact_weight_new * parts.contact.linearisation_error();
   }
 
   double
   StageProblem::displacement_norm(const Vector &vector) const
   {
-    const double      *values = vector.trilinos_vector()[0];
-    const unsigned int n = vector.locally_owned_size() - parts.n_multipliers;
-    const double square  = std::inner_product(values, values + n, values, 0.);
-    return std::sqrt(
-      Utilities::MPI::sum(square, parts.mass.get_mpi_communicator()));
+    return l2_norm(vector, vector.locally_owned_size() - parts.n_multipliers);
   }
 
   void

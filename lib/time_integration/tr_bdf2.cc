@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <time_integration/tr_bdf2.h>
 
 #include <cmath>
@@ -42,7 +43,7 @@ namespace Ricochet
     const double rate_step = a_rate * dt;
     stage.inertia          = 1. / (rate_step * rate_step);
     stage.end_time         = new_state.time;
-    stage.inertia_origin   = middle.solution;
+    copy_values(middle.solution, stage.inertia_origin);
     stage.inertia_origin.sadd(a_middle, -a_old, old_state.solution);
     stage.inertia_origin.add(a_rate * dt, new_state.velocity);
     stage.load.reinit(old_state.solution, true);
@@ -54,7 +55,7 @@ namespace Ricochet
     report.newton_iterations += iterations;
     report.linear_solves += iterations;
 
-    new_state.acceleration = new_state.solution;
+    copy_values(new_state.solution, new_state.acceleration);
     new_state.acceleration -= stage.inertia_origin;
     new_state.acceleration *= stage.inertia;
     new_state.velocity.add(a_rate * dt, new_state.acceleration);
@@ -74,18 +75,18 @@ namespace Ricochet
                        new_state.contact_force,
                        new_state.time,
                        new_force);
-    new_state.scheme_force = new_force;
+    copy_values(new_force, new_state.scheme_force);
 
-    increment = new_state.solution;
+    copy_values(new_state.solution, increment);
     increment -= middle.solution;
-    work = new_force;
+    copy_values(new_force, work);
     work -= middle_force;
     double gain = -.5 * (work * increment);
-    increment   = middle.solution;
+    copy_values(middle.solution, increment);
     increment -= old_state.solution;
     gain += a_old * (new_force * increment);
 
-    velocity_increment = middle.velocity;
+    copy_values(middle.velocity, velocity_increment);
     velocity_increment -= old_state.velocity;
     system.mass_matrix().vmult(work, velocity_increment);
     gain += a_old * (work * new_state.velocity);

@@ -173,6 +173,10 @@ namespace
         tangent.contact_change = [&](std::vector<FunctionalRow> &change) {
           contact->tangent_change(change);
         };
+        tangent.contact_excess_change =
+          [&](std::vector<FunctionalRow> &change) {
+            contact->excess_change(change);
+          };
         solver.solve(tangent, right_hand_side, result, false, 1e-11);
 
         Matrix matrix;

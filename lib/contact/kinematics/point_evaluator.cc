@@ -13,15 +13,14 @@ namespace Ricochet
   {
     unsigned int longest = 0;
     local_index.reserve(points.index.size());
-    const dealii::IndexSet owned = ghosted.locally_owned_elements();
+    const dealii::IndexSet owned = ghosted.vector().locally_owned_elements();
     for (const auto index : points.index)
       {
         owned_index.push_back(
           owned.is_element(index)
             ? static_cast<int>(owned.index_within_set(index))
             : -1);
-        local_index.push_back(ghosted.trilinos_vector().Map().LID(
-          static_cast<dealii::TrilinosWrappers::types::int_type>(index)));
+        local_index.push_back(ghosted.local_index(index));
         AssertThrow(local_index.back() >= 0,
                     dealii::ExcMessage("A contact point needs the unknown " +
                                        std::to_string(index) +
@@ -67,8 +66,8 @@ namespace Ricochet
   ContactPointEvaluator::evaluate(const Vector                     &solution,
                                   std::vector<ContactPointState<>> &states)
   {
-    ghosted             = solution;
-    const double *value = ghosted.trilinos_vector()[0];
+    ghosted.import(solution);
+    const double *value = ghosted.values();
     states.resize(points.points.size());
     for (unsigned int p = 0; p < states.size(); ++p)
       {
@@ -94,8 +93,8 @@ namespace Ricochet
     const Vector                      &solution,
     std::vector<dealii::Tensor<1, 3>> &displacements)
   {
-    ghosted             = solution;
-    const double *value = ghosted.trilinos_vector()[0];
+    ghosted.import(solution);
+    const double *value = ghosted.values();
     displacements.resize(points.points.size());
     for (unsigned int p = 0; p < displacements.size(); ++p)
       {
@@ -239,7 +238,7 @@ namespace Ricochet
   Vector
   ContactPointEvaluator::nodal_averages(const std::vector<double> &values) const
   {
-    Vector sums(ghosted.locally_owned_elements(), communicator);
+    Vector sums(ghosted.vector().locally_owned_elements(), communicator);
     Vector weights(sums);
     for (unsigned int p = 0; p < points.points.size(); ++p)
       for (unsigned int k = points.points[p].begin; k < points.points[p].end;

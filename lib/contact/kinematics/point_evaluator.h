@@ -2,6 +2,7 @@
 #ifndef ricochet_contact_kinematics_point_evaluator_h
 #define ricochet_contact_kinematics_point_evaluator_h
 
+#include <base/ghosted_vector.h>
 #include <base/types.h>
 #include <contact/laws/contact_law.h>
 #include <contact/kinematics/contact_points.h>
@@ -127,7 +128,7 @@ namespace Ricochet
     ContactPoints points;
     // Of the gap; empty where that is the direction of the force.
     std::vector<double> gap_gradient;
-    Vector              ghosted;
+    GhostedVector       ghosted;
     std::vector<int>    local_index;
     bool                some_points = false;
     // Place of each unknown among those of this rank; -1: another rank's.

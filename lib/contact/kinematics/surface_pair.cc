@@ -32,16 +32,15 @@ namespace Ricochet
 
     template <int dim>
     std::vector<std::array<int, dim>>
-    local_indices(const ContactSurface<dim> &surface, const Vector &ghosted)
+    local_indices(const ContactSurface<dim> &surface,
+                  const GhostedVector       &ghosted)
     {
       std::vector<std::array<int, dim>> local(surface.nodes.size());
       for (unsigned int n = 0;
            n < local.size() && surface.nodes[n].mean_of.empty();
            ++n)
         for (unsigned int c = 0; c < dim; ++c)
-          local[n][c] = ghosted.trilinos_vector().Map().LID(
-            static_cast<TrilinosWrappers::types::int_type>(
-              surface.nodes[n].unknowns[c]));
+          local[n][c] = ghosted.local_index(surface.nodes[n].unknowns[c]);
       return local;
     }
   } // namespace
@@ -57,7 +56,8 @@ namespace Ricochet
     IndexSet relevant = body.owned_indices();
     add_unknowns(slave, relevant);
     add_unknowns(master, relevant);
-    ghosted.reinit(body.owned_indices(), relevant, body.communicator);
+    ghosted =
+      GhostedVector(Vector(body.owned_indices(), relevant, body.communicator));
     slave_index  = local_indices(slave, ghosted);
     master_index = local_indices(master, ghosted);
 
@@ -171,8 +171,8 @@ namespace Ricochet
                                   const Positions *start,
                                   const double     time) const
   {
-    ghosted             = solution;
-    const double *value = ghosted.trilinos_vector()[0];
+    ghosted.import(solution);
+    const double *value = ghosted.values();
     const auto    get   = [&](const ContactSurface<dim>               &surface,
                          const std::vector<std::array<int, dim>> &index,
                          const std::vector<Position>             *start_x,
@@ -230,7 +230,8 @@ namespace Ricochet
     for (unsigned int p = 0; p < own_points.size(); ++p)
       for (unsigned int c = 0; c < dim; ++c)
         if (own_points[p].multipliers[c] != numbers::invalid_dof_index)
-          gaps[p].multipliers[c] = ghosted(own_points[p].multipliers[c]);
+          gaps[p].multipliers[c] =
+            ghosted.vector()(own_points[p].multipliers[c]);
   }
 
 

@@ -2,6 +2,7 @@
 #ifndef ricochet_contact_kinematics_surface_pair_h
 #define ricochet_contact_kinematics_surface_pair_h
 
+#include <base/ghosted_vector.h>
 #include <contact/kinematics/contact_kinematics.h>
 #include <contact/surfaces/contact_pair.h>
 #include <contact/surfaces/caution.h>
@@ -279,7 +280,7 @@ namespace Ricochet
     std::vector<Gaps>   gaps;
 
   private:
-    mutable Vector                    ghosted;
+    mutable GhostedVector             ghosted;
     std::vector<std::array<int, dim>> slave_index, master_index;
   };
 } // namespace Ricochet

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/ghosted_vector.h>
+
+#include <Epetra_Import.h>
+
+#include <algorithm>
+
+namespace Ricochet
+{
+  void
+  GhostedVector::import(const Vector &vector)
+  {
+    const auto &from = vector.trilinos_vector();
+    if (!knows_exchange)
+      {
+        const auto &map = ghosted.trilinos_vector().Map();
+        if (!map.SameAs(from.Map()))
+          exchange = std::make_shared<const Epetra_Import>(map, from.Map());
+        knows_exchange = true;
+      }
+    if (exchange)
+      {
+        const int error =
+          ghosted.trilinos_vector().Import(from, *exchange, Insert);
+        AssertThrow(error == 0, dealii::ExcTrilinosError(error));
+      }
+    else
+      std::copy_n(from[0], from.MyLength(), ghosted.trilinos_vector()[0]);
+  }
+
+
+
+  int
+  GhostedVector::local_index(const dealii::types::global_dof_index index) const
+  {
+    return ghosted.trilinos_vector().Map().LID(
+      static_cast<dealii::TrilinosWrappers::types::int_type>(index));
+  }
+} // namespace Ricochet

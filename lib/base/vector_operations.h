@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_base_vector_operations_h
+#define ricochet_base_vector_operations_h
+
+#include <base/types.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Ricochet
+{
+  /// @p to = @p from, two vectors of one layout without ghost values, or @p to has no
+  /// size yet. deal.II's assignment asks each time how two layouts go together, which
+  /// in a time step takes longer than to copy.
+  inline void
+  copy_values(const Vector &from, Vector &to)
+  {
+    if (to.size() != from.size() || to.has_ghost_elements() ||
+        to.locally_owned_size() != from.locally_owned_size())
+      to = from;
+    else
+      std::copy_n(from.trilinos_vector()[0],
+                  from.locally_owned_size(),
+                  to.trilinos_vector()[0]);
+  }
+
+  /// The l2 norm of the first @p n values of each rank of @p vector, several of them at a
+  /// time, which Epetra does not. Collective.
+  inline double
+  l2_norm(const Vector &vector, const unsigned int n)
+  {
+    const double square =
+      Eigen::Map<const Eigen::VectorXd>(vector.trilinos_vector()[0], n)
+        .squaredNorm();
+    return std::sqrt(
+      dealii::Utilities::MPI::sum(square, vector.get_mpi_communicator()));
+  }
+
+  /// The same of all values.
+  inline double
+  l2_norm(const Vector &vector)
+  {
+    return l2_norm(vector, vector.locally_owned_size());
+  }
+} // namespace Ricochet
+
+#endif
