@@ -9,7 +9,6 @@
 
 #include <deal.II/base/aligned_vector.h>
 
-
 #include <array>
 #include <memory>
 

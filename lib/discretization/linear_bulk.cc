@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/kept.h>
 #include <base/vector_operations.h>
 #include <discretization/linear_bulk.h>
 
@@ -217,27 +218,14 @@ namespace Ricochet
       return Utilities::MPI::min(std::equal(values, values + n, own) ? 1 : 0,
                                  communicator) == 1;
     };
-    const auto known =
-      std::find_if(known_forces.begin(), known_forces.end(), is_same);
-    if (known != known_forces.end())
-      {
-        known_forces.splice(known_forces.begin(), known_forces, known);
-        return known_forces.front().force;
-      }
-    // The one not used for longest makes room.
-    if (known_forces.size() < n_known)
-      known_forces.emplace_front();
-    else
-      known_forces.splice(known_forces.begin(),
-                          known_forces,
-                          std::prev(known_forces.end()));
-    KnownForce &entry = known_forces.front();
-    copy_values(solution, entry.displacement);
-    copy_values(solution, entry.force);
-    copy_values(solution, work);
-    remove_translation();
-    stiffness.vmult(entry.force, work);
-    return entry.force;
+    const auto fill = [&](KnownForce &entry) {
+      copy_values(solution, entry.displacement);
+      copy_values(solution, entry.force);
+      copy_values(solution, work);
+      remove_translation();
+      stiffness.vmult(entry.force, work);
+    };
+    return find_or_refill(known_forces, n_known, is_same, fill).force;
   }
 
 
