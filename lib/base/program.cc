@@ -279,6 +279,25 @@ namespace Ricochet
         folder.log(note);
       program.run(folder);
     }
+
+
+
+    // Without mpirun, Open MPI would start a process that could start others, which takes
+    // a third of all start-up and which nobody asks for. Processes that are alone in this
+    // way all call themselves job 0, so that they would share a folder of temporary files
+    // and one that ends would take it from under one that starts: none has such a folder.
+    // Other MPIs do not know these names. Started by a launcher (mpirun, srun), Open MPI
+    // is left as it is.
+    void
+    start_alone_unless_launched()
+    {
+      for (const char *const rank :
+           {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
+        if (std::getenv(rank) != nullptr)
+          return;
+      ::setenv("OMPI_MCA_ess_singleton_isolated", "1", /* overwrite */ 0);
+      ::setenv("OMPI_MCA_orte_create_session_dirs", "0", /* overwrite */ 0);
+    }
   } // namespace
 
 
@@ -289,10 +308,7 @@ namespace Ricochet
     // Beyond the limit on the size of files, writing fails as on a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
 
-    // Without mpirun Open MPI would start a process that could start others, which
-    // takes a third of all start-up and which nobody asks for. Other MPIs do not know
-    // this name, and mpirun does not look at it.
-    ::setenv("OMPI_MCA_ess_singleton_isolated", "1", /* overwrite */ 0);
+    start_alone_unless_launched();
 
     // One thread per rank: the parallelism of Ricochet is MPI. Our options are not shown
     // to the libraries of deal.II: PETSc would warn that it does not know them.

@@ -8,7 +8,6 @@ import shlex
 import shutil
 import signal
 import subprocess
-import tempfile
 import threading
 import time
 from dataclasses import dataclass
@@ -50,8 +49,7 @@ class Context:
 
     def _environment(self):
         """As little as possible from outside, so that a case is the same
-        everywhere; and as the scripts set it for Open MPI. A run without mpirun
-        starts no daemon: it would outlive a kill, and starts slowly."""
+        everywhere; and as the scripts set it for Open MPI."""
         environment = {
             "PATH": os.environ.get("PATH", "/usr/bin:/bin"),
             "HOME": str(self.work),
@@ -62,18 +60,11 @@ class Context:
             "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
             "OMPI_MCA_rmaps_base_oversubscribe": "1",
             "OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self,vader",
-            "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-            "OMPI_MCA_ess_singleton_isolated": "1"}
+            "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
         if "LD_LIBRARY_PATH" in os.environ:
             environment["LD_LIBRARY_PATH"] = os.environ["LD_LIBRARY_PATH"]
         (self.work / "tmp").mkdir(parents=True)
         return environment
-
-    def process_environment(self):
-        """That of one process. Open MPI's session folder is its own: processes
-        without a daemon would share one, and the first to end takes it away."""
-        folder = tempfile.mkdtemp(dir=self.work / "tmp")
-        return dict(self.environment, OMPI_MCA_orte_tmpdir_base=folder)
 
     def _try_mount(self):
         """May this user mount a small file system?"""
@@ -197,7 +188,7 @@ class Case:
         They go to files: whoever outlives the process cannot hold them open."""
         if self.context.verbose:
             print("$ " + shlex.join(words), flush=True)
-        everything = self.context.process_environment()
+        everything = dict(self.context.environment)
         everything.update(environment or {})
         self.commands.append(self._shell_line(words, cwd, environment))
         number = len(list(self.folder.glob("stdout-*")))
@@ -253,7 +244,7 @@ class Case:
         self.commands.append(self._shell_line(words, None, None))
         began = time.monotonic()
         process = subprocess.Popen(
-            words, cwd=self.folder, env=self.context.process_environment(),
+            words, cwd=self.folder, env=self.context.environment,
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.PIPE, start_new_session=True)
         timed_out = False
@@ -302,7 +293,7 @@ class Case:
             began = time.monotonic()
             with open(folder / "output", "wb") as output:
                 code = subprocess.run(words, cwd=folder, stdout=output,
-                                      env=self.context.process_environment(),
+                                      env=self.context.environment,
                                       stderr=output, timeout=300).returncode
             return folder / "run", code, time.monotonic() - began
 

@@ -330,9 +330,7 @@ class Scenes(ProgramTest):
                     [program_path("ricochet"), str(scene_file), "--validate",
                      "--set", f"Body shoe/Mesh size={size}"],
                     capture_output=True, text=True, cwd=self.folder,
-                    # Open MPI would make the folder.
-                    env={**os.environ, "TMPDIR": str(folder),
-                         "OMPI_MCA_orte_tmpdir_base": str(self.folder / "ompi")})
+                    env={**os.environ, "TMPDIR": str(folder)})
                 self.assertEqual(result.returncode, code,
                                  msg=result.stdout + result.stderr)
                 self.assertIn(message, result.stderr)

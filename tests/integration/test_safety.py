@@ -19,15 +19,9 @@ class Safety(ProgramTest):
         """Run with a limit on the size of files, which fails as a full disk."""
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE,
                                            (largest_file, largest_file))
-        # Open MPI's own daemon, which has large files, cannot live with the limit;
-        # without it, each run needs a session folder of its own.
-        session = tempfile.mkdtemp(prefix="s", dir="/tmp")
-        self.addCleanup(shutil.rmtree, session, ignore_errors=True)
-        environment = dict(os.environ, OMPI_MCA_ess_singleton_isolated="1",
-                           OMPI_MCA_orte_tmpdir_base=session)
         result = subprocess.run(self.command(*args, **kwargs), preexec_fn=limit,
                                 capture_output=True, text=True, timeout=300,
-                                cwd=ROOT, env=environment)
+                                cwd=ROOT)
         return result.returncode, result.stderr
 
     def whole_files_only(self, run):
@@ -42,6 +36,16 @@ class Safety(ProgramTest):
                 ends = file.read_text().rstrip()
                 self.assertTrue(ends.endswith("</VTKFile>"), msg=file)
             self.assertNotEqual(file.suffix, ".new", msg=file)
+
+    def test_programs_that_start_at_once_share_no_folder(self):
+        """One that ended took away what another had just begun to use: now they
+        need no folder of temporary files, and start without one."""
+        (self.folder / "file").touch()
+        environment = dict(os.environ, TMPDIR=str(self.folder / "file" / "below"))
+        result = subprocess.run(self.command("bar_sd", SHORT, self.folder / "run"),
+                                capture_output=True, text=True, timeout=300,
+                                cwd=ROOT, env=environment)
+        self.assertEqual(result.returncode, 0, msg=result.stderr)
 
     def test_a_full_disk_ends_with_the_name_of_the_file(self):
         ball = BALL + ["Time/Final time=0.005", "Output/Fields every=1"]
