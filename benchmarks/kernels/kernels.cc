@@ -33,6 +33,7 @@
 #include <base/program.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
+#include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/neo_hookean.h>
 #include <solvers/factorisation_choice.h>
 #include <solvers/multigrid.h>

@@ -284,8 +284,9 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  HyperelasticBulk<dim>::gather(const unsigned int batch) const
+  inline void
+  HyperelasticBulk<dim>::gather(const unsigned int batch,
+                                const unsigned int n_nodes) const
   {
     constexpr unsigned int n_lanes    = Lanes::size();
     const double          *old_values = ghosted_old.values();
@@ -316,14 +317,12 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  HyperelasticBulk<dim>::deformation(const unsigned int batch,
-                                     const unsigned int q,
-                                     Gradient          &old_f,
-                                     Gradient          &difference) const
+  inline void
+  HyperelasticBulk<dim>::deformation(const Tensor<1, dim, Lanes> *gradients,
+                                     const unsigned int           n_nodes,
+                                     Gradient                    &old_f,
+                                     Gradient &difference) const
   {
-    const Tensor<1, dim, Lanes> *gradients =
-      &shape_gradients[(batch * n_points + q) * n_nodes];
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -347,6 +346,9 @@ namespace Ricochet
                               Gradient          &difference) const
   {
     const Lanes det = determinant(Gradient(old_f + difference));
+    if (!is_not_less_somewhere(Lanes(std::max(flat, smallest_determinant)),
+                               det))
+      return Lanes(1.);
     for (unsigned int lane = 0; lane < Lanes::size(); ++lane)
       if (!std::isnan(smallest_determinant) &&
           !(det[lane] >= smallest_determinant))
@@ -374,31 +376,50 @@ namespace Ricochet
 
 
   template <int dim>
-  template <typename StressFunction>
+  template <typename Action>
   void
-  HyperelasticBulk<dim>::assemble_force(const double          new_weight,
-                                        const StressFunction &stress_function,
-                                        const Vector         &old_solution,
-                                        const Vector         &new_solution,
-                                        Vector               &force) const
+  HyperelasticBulk<dim>::with_cell_size(const Action &action) const
   {
-    import_ghosts(old_solution, new_solution);
-    force          = 0.;
-    double *values = force.trilinos_vector()[0];
+    constexpr unsigned int n_corners = 1 << dim;
+    if (n_points == 1 && n_nodes == dim + 1)
+      action(CellSize<1, dim + 1>());
+    else if (n_points == n_corners && n_nodes == n_corners)
+      action(CellSize<n_corners, n_corners>());
+    else
+      action(CellSize<0, 0>());
+  }
 
+
+
+  template <int dim>
+  template <unsigned int n_points_of_cell,
+            unsigned int n_nodes_of_cell,
+            typename StressFunction>
+  void
+  HyperelasticBulk<dim>::add_forces(
+    const CellSize<n_points_of_cell, n_nodes_of_cell> /*size*/,
+    const double          new_weight,
+    const StressFunction &stress_function,
+    double               *values) const
+  {
+    const unsigned int n_points =
+      n_points_of_cell > 0 ? n_points_of_cell : this->n_points;
+    const unsigned int n_nodes =
+      n_nodes_of_cell > 0 ? n_nodes_of_cell : this->n_nodes;
     constexpr unsigned int n_lanes = Lanes::size();
     const unsigned int     n       = dim * n_nodes;
     Gradient               old_f, difference_f;
     Symmetric2             stress;
-    smallest_determinant = std::numeric_limits<double>::max();
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
         const Material<dim> &material = materials[batch_part[batch]];
-        gather(batch);
-        std::fill(cell_vector.begin(), cell_vector.end(), Lanes(0.));
+        gather(batch, n_nodes);
+        std::fill_n(cell_vector.begin(), n, Lanes(0.));
         for (unsigned int q = 0; q < n_points; ++q)
           {
-            deformation(batch, q, old_f, difference_f);
+            const Tensor<1, dim, Lanes> *gradients =
+              &shape_gradients[(batch * n_points + q) * n_nodes];
+            deformation(gradients, n_nodes, old_f, difference_f);
             const Lanes exists = mend(batch, old_f, difference_f);
 
             // C_new - C_old = 2 sym(F_mean^T (F_new - F_old)), without
@@ -417,8 +438,8 @@ namespace Ricochet
               weight * (test_f * Gradient(stress));
             for (unsigned int a = 0; a < n_nodes; ++a)
               {
-                const Tensor<1, dim, Lanes> node_force = first_piola_kirchhoff *
-                  shape_gradients[(batch * n_points + q) * n_nodes + a];
+                const Tensor<1, dim, Lanes> node_force =
+                  first_piola_kirchhoff * gradients[a];
                 for (unsigned int i = 0; i < dim; ++i)
                   cell_vector[a * dim + i] += node_force[i];
               }
@@ -429,9 +450,6 @@ namespace Ricochet
             if (index[i * n_lanes + lane] >= 0)
               values[index[i * n_lanes + lane]] += cell_vector[i][lane];
       }
-
-    if (!(smallest_determinant > flat) && force.locally_owned_size() > 0)
-      values[0] = std::numeric_limits<double>::quiet_NaN();
   }
 
 
@@ -439,22 +457,41 @@ namespace Ricochet
   template <int dim>
   template <typename StressFunction>
   void
-  HyperelasticBulk<dim>::add_matrix(const double          factor,
-                                    const double          new_weight,
-                                    const StressFunction &stress_function,
-                                    const Vector         &old_solution,
-                                    const Vector         &new_solution,
-                                    Matrix               &tangent) const
+  HyperelasticBulk<dim>::assemble_force(const double          new_weight,
+                                        const StressFunction &stress_function,
+                                        const Vector         &old_solution,
+                                        const Vector         &new_solution,
+                                        Vector               &force) const
   {
     import_ghosts(old_solution, new_solution);
-    int      *row_begin = nullptr, *columns = nullptr;
-    double   *values = nullptr;
-    const int error =
-      tangent.trilinos_matrix().ExtractCrsDataPointers(row_begin,
-                                                       columns,
-                                                       values);
-    AssertThrow(error == 0, ExcTrilinosError(error));
+    double *values = force.trilinos_vector()[0];
+    std::fill_n(values, force.locally_owned_size(), 0.);
+    smallest_determinant = std::numeric_limits<double>::max();
+    with_cell_size([&](const auto size) {
+      add_forces(size, new_weight, stress_function, values);
+    });
+    if (!(smallest_determinant > flat) && force.locally_owned_size() > 0)
+      values[0] = std::numeric_limits<double>::quiet_NaN();
+  }
 
+
+
+  template <int dim>
+  template <unsigned int n_points_of_cell,
+            unsigned int n_nodes_of_cell,
+            typename StressFunction>
+  void
+  HyperelasticBulk<dim>::add_matrices(
+    const CellSize<n_points_of_cell, n_nodes_of_cell> /*size*/,
+    const double          factor,
+    const double          new_weight,
+    const StressFunction &stress_function,
+    double               *values) const
+  {
+    const unsigned int n_points =
+      n_points_of_cell > 0 ? n_points_of_cell : this->n_points;
+    const unsigned int n_nodes =
+      n_nodes_of_cell > 0 ? n_nodes_of_cell : this->n_nodes;
     constexpr auto         indices = component_indices<dim>();
     constexpr unsigned int n_c     = n_components<dim>;
     constexpr unsigned int n_lanes = Lanes::size();
@@ -466,11 +503,13 @@ namespace Ricochet
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
         const Material<dim> &material = materials[batch_part[batch]];
-        gather(batch);
-        std::fill(cell_matrix.begin(), cell_matrix.end(), Lanes(0.));
+        gather(batch, n_nodes);
+        std::fill_n(cell_matrix.begin(), n * n, Lanes(0.));
         for (unsigned int q = 0; q < n_points; ++q)
           {
-            deformation(batch, q, old_f, difference_f);
+            const Tensor<1, dim, Lanes> *gradients =
+              &shape_gradients[(batch * n_points + q) * n_nodes];
+            deformation(gradients, n_nodes, old_f, difference_f);
             const Gradient mean_f = old_f + Lanes(.5) * difference_f;
             stress_function(material,
                             Symmetric2(symmetrize(transpose(old_f) * old_f)),
@@ -489,8 +528,6 @@ namespace Ricochet
             // dC = F_new^T dF + dF^T F_new.
             const Gradient new_f  = old_f + difference_f;
             const Gradient test_f = old_f + Lanes(new_weight) * difference_f;
-            const Tensor<1, dim, Lanes> *gradients =
-              &shape_gradients[(batch * n_points + q) * n_nodes];
             for (unsigned int a = 0; a < n_nodes; ++a)
               {
                 node_strains<dim>(test_f,
@@ -542,6 +579,32 @@ namespace Ricochet
 
 
   template <int dim>
+  template <typename StressFunction>
+  void
+  HyperelasticBulk<dim>::add_matrix(const double          factor,
+                                    const double          new_weight,
+                                    const StressFunction &stress_function,
+                                    const Vector         &old_solution,
+                                    const Vector         &new_solution,
+                                    Matrix               &tangent) const
+  {
+    import_ghosts(old_solution, new_solution);
+    int      *row_begin = nullptr, *columns = nullptr;
+    double   *values = nullptr;
+    const int error =
+      tangent.trilinos_matrix().ExtractCrsDataPointers(row_begin,
+                                                       columns,
+                                                       values);
+    AssertThrow(error == 0, ExcTrilinosError(error));
+
+    with_cell_size([&](const auto size) {
+      add_matrices(size, factor, new_weight, stress_function, values);
+    });
+  }
+
+
+
+  template <int dim>
   template <typename Density>
   std::vector<double>
   HyperelasticBulk<dim>::integrate(const Density &density,
@@ -553,10 +616,13 @@ namespace Ricochet
     Gradient            old_f, difference_f;
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
-        gather(batch);
+        gather(batch, n_nodes);
         for (unsigned int q = 0; q < n_points; ++q)
           {
-            deformation(batch, q, old_f, difference_f);
+            deformation(&shape_gradients[(batch * n_points + q) * n_nodes],
+                        n_nodes,
+                        old_f,
+                        difference_f);
             const Gradient mean_f = old_f + Lanes(.5) * difference_f;
             const Lanes    part   = owned_jxw[batch * n_points + q] *
               density(materials[batch_part[batch]],
@@ -614,9 +680,7 @@ namespace Ricochet
                                                 stress,
                                                 *tangent);
       else
-        stress = GonzalezStress<dim>::stress(*material.hyperelastic,
-                                             old_c,
-                                             difference);
+        stress = material.hyperelastic->step_stress(old_c, difference);
       if (material.viscosity.is_active())
         stress += viscous_stress(*material.hyperelastic,
                                  material.viscosity,

@@ -114,6 +114,27 @@ namespace Ricochet
                    const Vector         &new_solution,
                    Vector               &force) const;
 
+    /// Numbers of points and nodes of a cell that are known when the loops are
+    /// compiled: of all elements of degree 1. 0: of any cell.
+    template <unsigned int n_points_of_cell, unsigned int n_nodes_of_cell>
+    struct CellSize
+    {};
+
+    /// Call @p action with the CellSize of the body.
+    template <typename Action>
+    void
+    with_cell_size(const Action &action) const;
+
+    /// The loop of assemble_force().
+    template <unsigned int n_points_of_cell,
+              unsigned int n_nodes_of_cell,
+              typename StressFunction>
+    void
+    add_forces(const CellSize<n_points_of_cell, n_nodes_of_cell> size,
+               const double                                      new_weight,
+               const StressFunction                             &stress,
+               double                                           *values) const;
+
     /// @p tangent += @p factor times the derivative of assemble_force().
     template <typename StressFunction>
     void
@@ -123,6 +144,17 @@ namespace Ricochet
                const Vector         &old_solution,
                const Vector         &new_solution,
                Matrix               &tangent) const;
+
+    /// The loop of add_matrix().
+    template <unsigned int n_points_of_cell,
+              unsigned int n_nodes_of_cell,
+              typename StressFunction>
+    void
+    add_matrices(const CellSize<n_points_of_cell, n_nodes_of_cell> size,
+                 const double                                      factor,
+                 const double                                      new_weight,
+                 const StressFunction                             &stress,
+                 double *values) const;
 
     /// Sum over the owned cells of @p density, a function of the material, C_old
     /// and the difference of C, on all ranks and for each part.
@@ -136,16 +168,18 @@ namespace Ricochet
     void
     import_ghosts(const Vector &old_solution, const Vector &new_solution) const;
 
-    /// #cell_old and #cell_change of a batch, from the ghosted vectors.
+    /// #cell_old and #cell_change of a batch of cells with @p n_nodes, from the ghosted
+    /// vectors.
     void
-    gather(const unsigned int batch) const;
+    gather(const unsigned int batch, const unsigned int n_nodes) const;
 
-    /// F_old and F_new - F_old in point @p q of @p batch, the last one of gather().
+    /// F_old and F_new - F_old in a point of the batch of the last gather(), with the
+    /// shape @p gradients of its nodes there.
     void
-    deformation(const unsigned int batch,
-                const unsigned int q,
-                Gradient          &old_f,
-                Gradient          &difference) const;
+    deformation(const dealii::Tensor<1, dim, Lanes> *gradients,
+                const unsigned int                   n_nodes,
+                Gradient                            &old_f,
+                Gradient                            &difference) const;
 
     /// Where elements are flat or turned inside out, which it remembers, take the body
     /// at rest. @return 1 elsewhere.

@@ -2,8 +2,10 @@
 #ifndef ricochet_materials_gonzalez_h
 #define ricochet_materials_gonzalez_h
 
-#include <materials/hyperelastic.h>
+#include <materials/lanes.h>
 #include <materials/viscosity.h>
+
+#include <deal.II/base/symmetric_tensor.h>
 
 namespace Ricochet
 {
@@ -19,6 +21,8 @@ namespace Ricochet
    * difference of energies. The numerator is of third order in the difference
    * while its round-off is of first order: below the threshold the quotient
    * is dropped.
+   *
+   * Energy is what gives W and its derivatives: Hyperelastic, or ReducedEnergy of a law.
    */
   template <int dim>
   struct GonzalezStress
@@ -34,9 +38,9 @@ namespace Ricochet
     static constexpr double threshold = 1e-7;
 
     /// S (Pa).
-    template <typename Number>
+    template <typename Energy, typename Number>
     static Symmetric2<Number>
-    stress(const Hyperelastic<dim>  &material,
+    stress(const Energy             &material,
            const Symmetric2<Number> &old_c,
            const Symmetric2<Number> &difference)
     {
@@ -49,9 +53,9 @@ namespace Ricochet
 
     /// S (Pa) and its exact derivative with respect to C_new, which has no
     /// major symmetry.
-    template <typename Number>
+    template <typename Energy, typename Number>
     static void
-    stress_and_tangent(const Hyperelastic<dim>  &material,
+    stress_and_tangent(const Energy             &material,
                        const Symmetric2<Number> &old_c,
                        const Symmetric2<Number> &difference,
                        Symmetric2<Number>       &stress,
@@ -94,9 +98,9 @@ namespace Ricochet
                         1. / where_less(square, smallest, Number(1.), square));
     }
 
-    template <typename Number>
+    template <typename Energy, typename Number>
     static Number
-    energy_quotient(const Hyperelastic<dim>  &material,
+    energy_quotient(const Energy             &material,
                     const Symmetric2<Number> &old_c,
                     const Symmetric2<Number> &difference,
                     const Symmetric2<Number> &derivative)
@@ -118,9 +122,9 @@ namespace Ricochet
    * volume. If @p tangent is given, its derivative with respect to C_new is
    * added to it.
    */
-  template <int dim, typename Number>
+  template <int dim, typename Energy, typename Number>
   dealii::SymmetricTensor<2, dim, Number>
-  viscous_stress(const Hyperelastic<dim>                       &material,
+  viscous_stress(const Energy                                  &material,
                  const Viscosity                               &viscosity,
                  const dealii::SymmetricTensor<2, dim, Number> &old_c,
                  const dealii::SymmetricTensor<2, dim, Number> &difference,

@@ -4,6 +4,7 @@
 
 #include <materials/hyperelastic_law.h>
 #include <materials/plane_state.h>
+#include <materials/reduced_energy.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -12,13 +13,8 @@
 namespace Ricochet
 {
   /**
-   * A hyperelastic law in @p dim dimensions, as a function of the right
-   * Cauchy-Green tensor C (dim x dim).
-   *
-   * In 2D the energy is a function of the trace and the determinant of C in the
-   * plane. C_33 is 1 in plane strain; in plane stress it minimises W, so that
-   * the reduced energy is hyperelastic again: its first derivative is that of W
-   * at fixed C_33, its second one is condensed.
+   * A hyperelastic law of any kind in @p dim dimensions, as a function of the right
+   * Cauchy-Green tensor C (dim x dim); see ReducedEnergy for plane strain and stress.
    *
    * In all functions det C must be positive.
    */
@@ -70,6 +66,14 @@ namespace Ricochet
     trace(const Symmetric2<Number> &right_cauchy_green,
           Symmetric2<Number>       &derivative) const;
 
+    /// See GonzalezStress::stress().
+    Symmetric2<Lanes>
+    step_stress(const Symmetric2<Lanes> &old_c,
+                const Symmetric2<Lanes> &difference) const
+    {
+      return law->step_stress(plane_state, old_c, difference);
+    }
+
     /// Cauchy stress (Pa).
     Symmetric2<double>
     cauchy_stress(const dealii::Tensor<2, dim> &deformation_gradient) const;
@@ -81,25 +85,13 @@ namespace Ricochet
       const dealii::Tensor<2, dim> &deformation_gradient) const;
 
   private:
-    /// C_33 in 2D.
-    template <typename Number>
-    Number
-    c33(const Number &trace, const Number &determinant) const;
+    using Reduced = ReducedEnergy<dim, HyperelasticLaw>;
 
-    /// The derivatives of the (reduced) energy with respect to its dim
-    /// invariants, and of C_33.
-    template <typename Number>
-    struct Reduced
+    Reduced
+    reduced() const
     {
-      std::array<Number, dim>                  gradient{};
-      std::array<std::array<Number, dim>, dim> hessian{};
-      std::array<Number, dim>                  c33_gradient{};
-    };
-
-    template <typename Number>
-    Reduced<Number>
-    reduce(const std::array<Number, dim> &invariants,
-           const bool                     with_hessian) const;
+      return {*law, plane_state};
+    }
 
     const std::shared_ptr<const HyperelasticLaw> law;
     const PlaneState                             plane_state;

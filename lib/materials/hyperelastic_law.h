@@ -3,6 +3,9 @@
 #define ricochet_materials_hyperelastic_law_h
 
 #include <materials/lanes.h>
+#include <materials/plane_state.h>
+
+#include <deal.II/base/symmetric_tensor.h>
 
 #include <array>
 
@@ -77,87 +80,20 @@ namespace Ricochet
 
     virtual Lanes
     plane_stress_c33(const Lanes &trace, const Lanes &determinant) const = 0;
-  };
 
-  /**
-   * Turns a struct with templated functions into a HyperelasticLaw. The templates
-   * serve one point and several at once, and let the tests differentiate the very
-   * energy that the programs use.
-   */
-  template <typename Law>
-  class HyperelasticLawImplementation : public HyperelasticLaw
-  {
-  public:
-    explicit HyperelasticLawImplementation(const Law &law)
-      : law(law)
-    {}
+    /// GonzalezStress::stress() in several points (Pa): what most of the time of a time
+    /// step goes into is one function for each law.
+    virtual dealii::SymmetricTensor<2, 2, Lanes>
+    step_stress(
+      const PlaneState                            plane_state,
+      const dealii::SymmetricTensor<2, 2, Lanes> &old_c,
+      const dealii::SymmetricTensor<2, 2, Lanes> &difference) const = 0;
 
-    double
-    energy(const Invariants<> &invariants) const override
-    {
-      return law.template energy<double>(invariants);
-    }
-
-    double
-    energy_difference(const Invariants<> &invariants,
-                      const Invariants<> &difference) const override
-    {
-      return law.energy_difference(invariants, difference);
-    }
-
-    std::array<double, 3>
-    gradient(const Invariants<> &invariants) const override
-    {
-      return law.gradient(invariants);
-    }
-
-    std::array<std::array<double, 3>, 3>
-    hessian(const Invariants<> &invariants) const override
-    {
-      return law.hessian(invariants);
-    }
-
-    double
-    plane_stress_c33(const double &trace,
-                     const double &determinant) const override
-    {
-      return law.plane_stress_c33(trace, determinant);
-    }
-
-    Lanes
-    energy(const Invariants<Lanes> &invariants) const override
-    {
-      return law.template energy<Lanes>(invariants);
-    }
-
-    Lanes
-    energy_difference(const Invariants<Lanes> &invariants,
-                      const Invariants<Lanes> &difference) const override
-    {
-      return law.energy_difference(invariants, difference);
-    }
-
-    std::array<Lanes, 3>
-    gradient(const Invariants<Lanes> &invariants) const override
-    {
-      return law.gradient(invariants);
-    }
-
-    std::array<std::array<Lanes, 3>, 3>
-    hessian(const Invariants<Lanes> &invariants) const override
-    {
-      return law.hessian(invariants);
-    }
-
-    Lanes
-    plane_stress_c33(const Lanes &trace,
-                     const Lanes &determinant) const override
-    {
-      return law.plane_stress_c33(trace, determinant);
-    }
-
-  private:
-    const Law law;
+    virtual dealii::SymmetricTensor<2, 3, Lanes>
+    step_stress(
+      const PlaneState                            plane_state,
+      const dealii::SymmetricTensor<2, 3, Lanes> &old_c,
+      const dealii::SymmetricTensor<2, 3, Lanes> &difference) const = 0;
   };
 } // namespace Ricochet
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
+#include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/ciarlet_geymonat.h>
 #include <materials/laws/neo_hookean.h>
 #include <materials/laws/saint_venant_kirchhoff.h>

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <solvers/force_mixing.h>
+#include <solvers/single_precision.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <numeric>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace Ricochet
 {
@@ -25,29 +26,97 @@ namespace Ricochet
   {
     // So many entries at once stay near while all columns pass.
     constexpr std::size_t stretch = 2048;
+
+    // Four at once, wherever they lie.
+    using Quad __attribute__((vector_size(16), aligned(4), may_alias)) = float;
+
+    Quad
+    quad(const float *values)
+    {
+      return *reinterpret_cast<const Quad *>(values);
+    }
+
+    double
+    largest(const std::vector<double> &values)
+    {
+      double size = 0.;
+      for (const double value : values)
+        size = std::max(size, std::abs(value));
+      return size;
+    }
+
+    /// @p sum += @p factors times @p columns, the first @p n_columns from entry @p
+    /// begin to @p end on.
+    void
+    add_columns(const std::vector<std::vector<float>> &columns,
+                const std::vector<float>              &factors,
+                const unsigned int                     n_columns,
+                const std::size_t                      begin,
+                const std::size_t                      end,
+                float                                 *sum)
+    {
+      const auto add = [&](const unsigned int k, const auto n_at_once) {
+        const float *column[n_at_once];
+        for (unsigned int c = 0; c < n_at_once; ++c)
+          column[c] = columns[k + c].data() + begin;
+        const std::size_t n = end - begin;
+        std::size_t       i = 0;
+        for (; i + 4 <= n; i += 4)
+          {
+            Quad value = quad(sum + i);
+            for (unsigned int c = 0; c < n_at_once; ++c)
+              value += factors[k + c] * quad(column[c] + i);
+            *reinterpret_cast<Quad *>(sum + i) = value;
+          }
+        for (; i < n; ++i)
+          for (unsigned int c = 0; c < n_at_once; ++c)
+            sum[i] += factors[k + c] * column[c][i];
+      };
+      unsigned int k = 0;
+      for (; k + 4 <= n_columns; k += 4)
+        add(k, std::integral_constant<unsigned int, 4>());
+      for (; k < n_columns; ++k)
+        add(k, std::integral_constant<unsigned int, 1>());
+    }
+
+    float
+    product(const float *a, const float *b, const std::size_t n)
+    {
+      // Several sums do not wait for each other.
+      Quad        sums[4] = {};
+      std::size_t i       = 0;
+      for (; i + 16 <= n; i += 16)
+        for (unsigned int s = 0; s < 4; ++s)
+          sums[s] += quad(a + i + 4 * s) * quad(b + i + 4 * s);
+      const Quad sum    = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+      float      result = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+      for (; i < n; ++i)
+        result += a[i] * b[i];
+      return result;
+    }
   } // namespace
 
 
 
   std::vector<double>
-  ForceMixing::products(const double *values) const
+  ForceMixing::products(const std::vector<double> &vector,
+                        const unsigned int         first) const
   {
-    std::vector<double> result(n_changes, 0.);
-    const std::size_t   n = last_residual.size();
-    for (std::size_t begin = 0; begin < n; begin += stretch)
-      for (unsigned int k = 0; k < n_changes; ++k)
-        {
-          const std::size_t end = std::min(n, begin + stretch);
-          // Several sums do not wait for each other.
-          std::array<double, 4> sums{};
-          std::size_t           i = begin;
-          for (; i + 4 <= end; i += 4)
-            for (unsigned int s = 0; s < 4; ++s)
-              sums[s] += values[i + s] * changes[k][i + s];
-          for (; i < end; ++i)
-            sums[0] += values[i] * changes[k][i];
-          result[k] += (sums[0] + sums[1]) + (sums[2] + sums[3]);
-        }
+    std::vector<double> result(n_changes - first, 0.);
+    // Of about one, whatever the units.
+    const double size = size_for_single_precision(
+      Utilities::MPI::max(largest(vector), communicator));
+    const double               scale = 1. / size;
+    std::array<float, stretch> values;
+    for (std::size_t begin = 0; begin < vector.size(); begin += stretch)
+      {
+        const std::size_t n = std::min(vector.size() - begin, stretch);
+        for (std::size_t i = 0; i < n; ++i)
+          values[i] = static_cast<float>(scale * vector[begin + i]);
+        for (unsigned int k = first; k < n_changes; ++k)
+          result[k - first] +=
+            size * product(values.data(), changes[k].data() + begin, n);
+      }
     Utilities::MPI::sum(result, communicator, result);
     return result;
   }
@@ -55,15 +124,44 @@ namespace Ricochet
 
 
   void
-  ForceMixing::add(const std::vector<double> &factors,
-                   const std::vector<Column> &columns,
-                   double                    *values) const
+  ForceMixing::add(const std::vector<Column> &columns,
+                   const std::vector<double> &factors,
+                   std::vector<double>       &vector,
+                   const std::vector<double> &other_factors,
+                   std::vector<double>       &other_vector) const
   {
-    const std::size_t n = last_residual.size();
-    for (std::size_t begin = 0; begin < n; begin += stretch)
-      for (unsigned int k = 0; k < n_changes; ++k)
-        for (std::size_t i = begin; i < std::min(n, begin + stretch); ++i)
-          values[i] += factors[k] * columns[k][i];
+    struct Sum
+    {
+      Sum(const std::vector<double> &exact, std::vector<double> &vector)
+        : vector(vector)
+        , size(size_for_single_precision(largest(exact)))
+      {
+        for (const double factor : exact)
+          factors.push_back(static_cast<float>(factor / size));
+      }
+
+      std::vector<double>       &vector;
+      const double               size;
+      std::vector<float>         factors;
+      std::array<float, stretch> sum;
+    };
+    std::array<Sum, 2> sums{{{factors, vector}, {other_factors, other_vector}}};
+    for (std::size_t begin = 0; begin < vector.size(); begin += stretch)
+      {
+        const std::size_t end = std::min(vector.size(), begin + stretch);
+        for (Sum &sum : sums)
+          {
+            sum.sum.fill(0.F);
+            add_columns(columns,
+                        sum.factors,
+                        sum.factors.size(),
+                        begin,
+                        end,
+                        sum.sum.data());
+            for (std::size_t i = begin; i < end; ++i)
+              sum.vector[i] += sum.size * sum.sum[i - begin];
+          }
+      }
   }
 
 
@@ -72,31 +170,27 @@ namespace Ricochet
   ForceMixing::next(const Vector &residual, Vector &step)
   {
     const double     *r = residual.trilinos_vector()[0];
-    double           *s = step.trilinos_vector()[0];
     const std::size_t n = residual.locally_owned_size();
     communicator        = residual.get_mpi_communicator();
+    residual_now.assign(r, r + n);
+    step_now.resize(n);
+    for (std::size_t i = 0; i < n; ++i)
+      step_now[i] = -r[i];
+    std::vector<double> parts = products(residual_now, 0);
     if (has_last)
       {
-        if (n_changes == n_kept)
+        // The last step, and what it changed, without what earlier ones say of it. In
+        // the same pass, what earlier ones say of this step.
+        std::vector<double> minus_earlier, minus_parts;
+        for (unsigned int k = 0; k < n_changes; ++k)
           {
-            // Without the oldest one the others stay orthogonal.
-            std::rotate(changes.begin(), changes.begin() + 1, changes.end());
-            std::rotate(steps.begin(), steps.begin() + 1, steps.end());
-            --n_changes;
+            minus_earlier.push_back(last_products[k] - parts[k]);
+            minus_parts.push_back(-parts[k]);
           }
-        if (changes.size() == n_changes)
-          {
-            changes.emplace_back();
-            steps.emplace_back();
-          }
-        // The last residual and step become the change and its step.
         for (std::size_t i = 0; i < n; ++i)
           last_residual[i] = r[i] - last_residual[i];
-        std::vector<double> parts = products(last_residual.data());
-        for (double &part : parts)
-          part = -part;
-        add(parts, changes, last_residual.data());
-        add(parts, steps, last_step.data());
+        add(changes, minus_earlier, last_residual, parts, step_now);
+        add(steps, minus_earlier, last_step, minus_parts, step_now);
         const double square =
           Utilities::MPI::sum(std::inner_product(last_residual.begin(),
                                                  last_residual.end(),
@@ -105,26 +199,44 @@ namespace Ricochet
                               communicator);
         if (square > 0.)
           {
+            if (n_changes == n_kept)
+              {
+                // Without the oldest one the others stay orthogonal; this step still
+                // knows of it.
+                std::rotate(changes.begin(),
+                            changes.begin() + 1,
+                            changes.begin() + n_changes);
+                std::rotate(steps.begin(),
+                            steps.begin() + 1,
+                            steps.begin() + n_changes);
+                parts.erase(parts.begin());
+                --n_changes;
+              }
+            if (changes.size() == n_changes)
+              {
+                changes.emplace_back();
+                steps.emplace_back();
+              }
+            Column &change = changes[n_changes], &its_step = steps[n_changes];
             const double scale = 1. / std::sqrt(square);
-            changes[n_changes].resize(n);
-            steps[n_changes].resize(n);
+            change.resize(n);
+            its_step.resize(n);
             for (std::size_t i = 0; i < n; ++i)
               {
-                changes[n_changes][i] = scale * last_residual[i];
-                steps[n_changes][i]   = scale * last_step[i];
+                change[i]   = scale * last_residual[i];
+                its_step[i] = scale * last_step[i];
               }
             ++n_changes;
+            const double part = products(residual_now, n_changes - 1)[0];
+            for (std::size_t i = 0; i < n; ++i)
+              step_now[i] += part * (change[i] - its_step[i]);
+            parts.push_back(part);
           }
       }
-    last_residual.assign(r, r + n);
-    std::vector<double> parts = products(r);
-    for (std::size_t i = 0; i < n; ++i)
-      s[i] = -r[i];
-    add(parts, changes, s);
-    for (double &part : parts)
-      part = -part;
-    add(parts, steps, s);
-    last_step.assign(s, s + n);
+    last_residual.swap(residual_now);
+    last_products.swap(parts);
+    std::copy(step_now.begin(), step_now.end(), step.trilinos_vector()[0]);
+    last_step.swap(step_now);
     has_last = true;
   }
 } // namespace Ricochet

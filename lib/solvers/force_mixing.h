@@ -15,11 +15,14 @@ namespace Ricochet
    * residual r(f) is what the wanted system leaves over. Plain steps are f - r; mixed
    * ones begin where the residual would be smallest if it were linear in what the last
    * steps span, as GMRES does.
+   *
+   * What is remembered, and all that is done with it, is in single precision: what is
+   * lost by that, the next residual shows.
    */
   class ForceMixing
   {
   public:
-    /// @param n_kept how many steps are remembered; then it begins anew.
+    /// @param n_kept how many steps are remembered; then the oldest one is forgotten.
     explicit ForceMixing(const unsigned int n_kept)
       : n_kept(n_kept)
     {}
@@ -33,26 +36,30 @@ namespace Ricochet
     next(const Vector &residual, Vector &step);
 
   private:
-    // In single precision: what is forgotten by that, the next residual shows.
     using Column = std::vector<float>;
 
-    /// The products of @p values with the changes kept, on all ranks.
+    /// The products of the changes from number @p first on with @p vector, on all ranks.
     std::vector<double>
-    products(const double *values) const;
+    products(const std::vector<double> &vector, const unsigned int first) const;
 
-    /// @p values += sum of @p factors times @p columns
+    /// Add the sums of @p columns with two sets of factors to two vectors: what is
+    /// read once serves both.
     void
-    add(const std::vector<double> &factors,
-        const std::vector<Column> &columns,
-        double                    *values) const;
+    add(const std::vector<Column> &columns,
+        const std::vector<double> &factors,
+        std::vector<double>       &vector,
+        const std::vector<double> &other_factors,
+        std::vector<double>       &other_vector) const;
 
     const unsigned int n_kept;
     // Orthonormal changes of the residual, and the steps of the force that make them.
     std::vector<Column> changes, steps;
     unsigned int        n_changes = 0;
-    // Of the last call.
+    // Of the last call, and what the changes have of the residual.
     bool                has_last = false;
-    std::vector<double> last_residual, last_step;
+    std::vector<double> last_residual, last_step, last_products;
+    // Work space.
+    std::vector<double> residual_now, step_now;
     MPI_Comm            communicator = MPI_COMM_SELF;
   };
 } // namespace Ricochet

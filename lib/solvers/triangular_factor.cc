@@ -21,6 +21,12 @@ namespace Ricochet
                                        values),
                                      DoublePair);
     }
+
+    DoublePair &
+    at(double *values)
+    {
+      return *reinterpret_cast<DoublePair *>(values);
+    }
   } // namespace
 
 
@@ -48,12 +54,11 @@ namespace Ricochet
         const int  n_below = columns.n_entries[last] - 1;
         Block      block{first,
                     end - first,
-                    rows.size(),
-                    rows.size() + n_below,
+                    first_rows.size(),
+                    0,
                     values.size(),
                     0,
-                    -1};
-        rows.insert(rows.end(), below, below + n_below);
+                    n_below > 0 ? below[0] : -1};
         for (int column = first; column < end; ++column)
           {
             block_of[column]         = blocks.size();
@@ -61,35 +66,43 @@ namespace Ricochet
             inverse_diagonal[column] = columns.sign[columns.order[column]] /
               (columns.diagonal_is_of_l ? diagonal * diagonal : diagonal);
           }
-        const auto add_row = [&](const int row, const int width) {
-          for (int c = 0; c < width; ++c)
-            {
-              const int column = first + c;
-              // Rows of the block itself come first in all of its columns.
-              const int     k     = columns.begin[column] + row - column;
-              const double *value = columns.values + k;
-              values.push_back(columns.diagonal_is_of_l ? *value /
-                                   columns.values[columns.begin[column]]
-                                                        : *value);
-            }
+        // Of a row of the block, those of its own columns being the first.
+        const auto entry = [&](const int row, const int column) {
+          const double value = columns.values[columns.begin[column] + row];
+          return static_cast<float>(columns.diagonal_is_of_l ? value /
+                                        columns.values[columns.begin[column]]
+                                                             : value);
         };
         for (int row = first + 1; row < end; ++row)
-          add_row(row, row - first);
+          for (int column = first; column < row; ++column)
+            values.push_back(entry(row - column, column));
         block.below = values.size();
-        for (int k = 0; k < n_below; ++k)
+        for (int k = 0; k < n_below;)
           {
-            add_row(end + k, end - first);
-            if (block.width % 2 == 1)
-              values.push_back(0.f);
+            const bool has_second =
+              k + 1 < n_below && below[k + 1] == below[k] + 1;
+            // The last row of all stands behind the one before it.
+            const bool is_second = !has_second && below[k] + 1 == columns.n;
+            first_rows.push_back(is_second ? below[k] - 1 : below[k]);
+            for (int column = first; column < end; ++column)
+              {
+                const int row = end + k - column;
+                values.push_back(is_second ? 0.F : entry(row, column));
+                values.push_back(is_second      ? entry(row, column)
+                                   : has_second ? entry(row + 1, column)
+                                                : 0.F);
+              }
+            k += has_second ? 2 : 1;
           }
-        if (own_values.size() < std::size_t(block.width) + 1)
-          own_values.resize(block.width + 1);
+        block.end = first_rows.size();
+        if (sums.size() < 2 * std::size_t(block.width))
+          sums.resize(2 * block.width);
         blocks.push_back(block);
         first = end;
       }
     for (Block &block : blocks)
-      if (block.end > block.begin)
-        block.parent = block_of[rows[block.begin]];
+      if (block.parent >= 0)
+        block.parent = block_of[block.parent];
     is_needed.assign(blocks.size(), 0);
   }
 
@@ -109,17 +122,13 @@ namespace Ricochet
         own[i] -= sum;
         value += i;
       }
-    double *copy = own_values.data();
-    std::copy(own, own + width, copy);
-    copy[width]      = 0.;
-    const int stride = width + width % 2;
-    value            = values.data() + block.below;
-    for (std::size_t k = block.begin; k < block.end; ++k, value += stride)
+    value = values.data() + block.below;
+    for (std::size_t k = block.begin; k < block.end; ++k, value += 2 * width)
       {
-        DoublePair sum{};
-        for (int c = 0; c < stride; c += 2)
-          sum += pair(value + c) * *reinterpret_cast<DoublePair *>(copy + c);
-        half[rows[k]] -= sum[0] + sum[1];
+        DoublePair sum = pair(value) * own[0];
+        for (int c = 1; c < width; ++c)
+          sum += pair(value + 2 * c) * own[c];
+        at(half + first_rows[k]) -= sum;
       }
   }
 
@@ -128,32 +137,42 @@ namespace Ricochet
   void
   TriangularFactor::substitute(const Block &block, double *half) const
   {
-    const int    width  = block.width;
-    const int    stride = width + width % 2;
-    double      *own    = half + block.first;
-    double      *copy   = own_values.data();
-    const float *value  = values.data() + block.below;
-    std::copy(own, own + width, copy);
-    copy[width]   = 0.;
-    std::size_t k = block.begin;
-    for (; k + 1 < block.end; k += 2, value += 2 * stride)
+    const int    width = block.width;
+    double      *own   = half + block.first;
+    const float *value = values.data() + block.below;
+    // A node in the plane has two unknowns, and most blocks are one node.
+    if (width == 2)
       {
-        const double one = half[rows[k]], other = half[rows[k + 1]];
-        for (int c = 0; c < stride; c += 2)
-          *reinterpret_cast<DoublePair *>(copy + c) -=
-            pair(value + c) * one + pair(value + stride + c) * other;
+        DoublePair sum[2] = {};
+        for (std::size_t k = block.begin; k < block.end; ++k, value += 4)
+          {
+            const DoublePair rows = at(half + first_rows[k]);
+            sum[0] += pair(value) * rows;
+            sum[1] += pair(value + 2) * rows;
+          }
+        for (int c = 0; c < 2; ++c)
+          own[c] -= sum[c][0] + sum[c][1];
       }
-    if (k < block.end)
-      for (int c = 0; c < width; ++c)
-        copy[c] -= value[c] * half[rows[k]];
+    else
+      {
+        std::fill_n(sums.begin(), 2 * width, 0.);
+        for (std::size_t k = block.begin; k < block.end;
+             ++k, value += 2 * width)
+          {
+            const DoublePair rows = at(half + first_rows[k]);
+            for (int c = 0; c < width; ++c)
+              at(&sums[2 * c]) += pair(value + 2 * c) * rows;
+          }
+        for (int c = 0; c < width; ++c)
+          own[c] -= sums[2 * c] + sums[2 * c + 1];
+      }
     const float *triangle = values.data() + block.triangle;
     for (int i = width - 1; i > 0; --i)
       {
         const float *row = triangle + i * (i - 1) / 2;
         for (int c = 0; c < i; ++c)
-          copy[c] -= row[c] * copy[i];
+          own[c] -= row[c] * own[i];
       }
-    std::copy(copy, copy + width, own);
   }
 
 

@@ -13,8 +13,8 @@ namespace Ricochet
    * precision: those of a matrix that differs from A by as much. For that one, all is
    * done in double precision.
    *
-   * Columns of L with the same rows below them make blocks, whose rows are stored one
-   * behind the other.
+   * Columns of L with the same rows below them make blocks. The rows below are stored
+   * in pairs of rows that follow each other, as those of a node do.
    */
   class TriangularFactor
   {
@@ -117,10 +117,11 @@ namespace Ricochet
     struct Block
     {
       int first, width;
-      /// Rows below among #rows.
+      /// Pairs of rows below among #first_rows.
       std::size_t begin, end;
-      /// Of the strict lower triangle in #values, row by row, and of the rows below,
-      /// each with an even number of values, the last one zero if need be.
+      /// Of the strict lower triangle in #values, row by row, and of the pairs of rows
+      /// below: of each the two values of one column behind those of the other. A row
+      /// that is not there has zeros.
       std::size_t triangle, below;
       /// The one of the first row below; -1: none.
       int parent;
@@ -153,13 +154,13 @@ namespace Ricochet
 
     std::vector<int>    place, block_of;
     std::vector<Block>  blocks;
-    std::vector<int>    rows;
+    std::vector<int>    first_rows;
     std::vector<float>  values;
     std::vector<double> inverse_diagonal;
     // Work space: zero between calls.
     mutable std::vector<double> dense;
-    // The unknowns of a block, with one more.
-    mutable std::vector<double> own_values;
+    // Two sums for each unknown of a block.
+    mutable std::vector<double> sums;
     mutable std::vector<char>   is_needed;
   };
 } // namespace Ricochet

@@ -16,16 +16,20 @@ namespace Ricochet
                                  CondensedSystem             &system,
                                  ContactOperator             &contact,
                                  const Vector                &residual,
-                                 const double                 contact_scale)
+                                 const double                 contact_scale,
+                                 WorkSpace                   &space)
     : problem(problem)
     , system(system)
     , contact(contact)
     , communicator(residual.get_mpi_communicator())
     , body_force_scale(problem.force_scale() - contact_scale)
     , contact_force_scale(contact_scale)
-    , open_residual(residual)
-    , work(residual)
+    , open_residual(space.open_residual)
+    , work(space.work)
   {
+    copy_values(residual, open_residual);
+    if (work.size() != residual.size())
+      work.reinit(residual);
     contact.force_change(forces);
     const std::vector<double> all = of_all_ranks(forces);
     for (double &force : forces)

@@ -29,18 +29,26 @@ namespace Ricochet
   class CondensedStage
   {
   public:
+    /// Vectors that serve in all stages: to allocate them takes longer than to fill them.
+    struct WorkSpace
+    {
+      Vector open_residual, work;
+    };
+
     /**
      * @param problem the whole stage.
      * @param system of its body.
      * @param contact has begun the stage, and looked at the guess last.
      * @param residual that of the whole stage there.
      * @param contact_force_scale what contact has of the problem's force scale (N).
+     * @param space is not used by another one as long as this one is.
      */
     CondensedStage(const NewtonSolver::Problem &problem,
                    CondensedSystem             &system,
                    ContactOperator             &contact,
                    const Vector                &residual,
-                   const double                 contact_force_scale);
+                   const double                 contact_force_scale,
+                   WorkSpace                   &space);
 
     /**
      * Solve with @p newton, from the guess @p solution to @p solution; where it gets
@@ -92,7 +100,7 @@ namespace Ricochet
     double body_force_scale, contact_force_scale;
     // The residual at the guess with open contact (N), and what its solution makes
     // of the functionals, those near contact.
-    Vector              open_residual, work;
+    Vector             &open_residual, &work;
     std::vector<double> flight_values;
     // What the former has along the functionals (N), where contact takes rows.
     std::vector<double> open_excess, excess;

@@ -291,6 +291,7 @@ namespace Ricochet
                           work,
                           force,
                           constant_part,
+                          condensed_space,
                           reaction,
                           body_matrix,
                           follower},

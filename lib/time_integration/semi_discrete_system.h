@@ -10,6 +10,7 @@
 #include <solvers/linear_solver.h>
 #include <solvers/mass_solver.h>
 #include <solvers/newton.h>
+#include <time_integration/condensed_stage.h>
 #include <time_integration/quasi_newton.h>
 #include <time_integration/stage.h>
 
@@ -276,7 +277,8 @@ namespace Ricochet
     /// On any rank.
     const bool has_multipliers;
     // Work space, so that nothing is allocated in a time step.
-    mutable Vector work, constant_part, force;
+    mutable Vector            work, constant_part, force;
+    CondensedStage::WorkSpace condensed_space;
     // What the equations leave over in prescribed displacements (N), where
     // Newton's method may begin, and the residual at the guess (N).
     Vector        reaction, safe_guess, residual;

@@ -86,7 +86,8 @@ namespace Ricochet
             parts.linear_solver.condensed(tangent(true)),
             parts.contact,
             residual,
-            contact_scale};
+            contact_scale,
+            parts.condensed_space};
   }
 
   void

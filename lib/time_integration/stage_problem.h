@@ -43,7 +43,8 @@ namespace Ricochet
       /// Where contact couples what the body does not.
       UnitedPattern &united_pattern;
       // Work space, so that nothing is allocated in a time step.
-      Vector &work, &force, &constant_part;
+      Vector                    &work, &force, &constant_part;
+      CondensedStage::WorkSpace &condensed_space;
       /// Gets what the equations leave over in clamped unknowns (N).
       Vector &reaction;
       Matrix &body_matrix;

@@ -13,6 +13,7 @@
 #include <contact/surfaces/point_passing_triangles.h>
 #include <discretization/curved_geometry.h>
 #include <discretization/distributed_mesh.h>
+#include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/neo_hookean.h>
 #include <output/momenta.h>
 #include <problems/ball_mesh.h>

@@ -8,6 +8,7 @@
 
 #include <base/exceptions.h>
 #include <discretization/hyperelastic_bulk.h>
+#include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/ciarlet_geymonat.h>
 
 #include <boost/test/unit_test.hpp>

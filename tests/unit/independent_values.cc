@@ -18,6 +18,7 @@
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
 #include <materials/gonzalez.h>
+#include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/ciarlet_geymonat.h>
 #include <materials/laws/neo_hookean.h>
 #include <materials/laws/saint_venant_kirchhoff.h>

@@ -12,6 +12,7 @@
 #include <contact/treatments/contact_treatment.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
+#include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/ciarlet_geymonat.h>
 #include <solvers/linear_solver.h>
 #include <solvers/multigrid.h>

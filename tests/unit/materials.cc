@@ -7,6 +7,7 @@
 
 #include <base/exceptions.h>
 #include <materials/gonzalez.h>
+#include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/ciarlet_geymonat.h>
 #include <materials/laws/neo_hookean.h>
 #include <materials/laws/saint_venant_kirchhoff.h>
@@ -303,6 +304,38 @@ namespace
           }
   }
 
+  template <int dim>
+  void
+  check_several_points(const Hyperelastic<dim> &material)
+  {
+    for (const double change : {0., 1e-9, 1e-4, .05, .3})
+      {
+        dealii::SymmetricTensor<2, dim, Lanes>       old_c, difference;
+        std::vector<dealii::SymmetricTensor<2, dim>> stress;
+        for (unsigned int lane = 0; lane < Lanes::size(); ++lane)
+          {
+            const auto f = deformation_gradient<dim>(.1, lane);
+            const auto c = cauchy_green(f);
+            const auto d =
+              cauchy_green(f +
+                           change * deformation_gradient<dim>(.5, 100 + lane)) -
+              c;
+            stress.push_back(GonzalezStress<dim>::stress(material, c, d));
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = i; j < dim; ++j)
+                {
+                  old_c[i][j][lane]      = c[i][j];
+                  difference[i][j][lane] = d[i][j];
+                }
+          }
+        const auto all = material.step_stress(old_c, difference);
+        for (unsigned int lane = 0; lane < Lanes::size(); ++lane)
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = i; j < dim; ++j)
+              BOOST_CHECK_SMALL(all[i][j][lane] - stress[lane][i][j], 1e-11);
+      }
+  }
+
   template <typename Function>
   void
   for_all_materials(const Function &function)
@@ -391,6 +424,24 @@ BOOST_AUTO_TEST_CASE(small_strains_are_linear)
 BOOST_AUTO_TEST_CASE(gonzalez_stress_keeps_the_energy)
 {
   for_all_materials([](const auto &material) { check_gonzalez(material); });
+}
+
+BOOST_AUTO_TEST_CASE(several_points_at_once_are_as_one)
+{
+  // The function that steps take their stress from, against the same formula for one
+  // point.
+  for_all_materials(
+    [](const auto &material) { check_several_points(material); });
+
+  // Its logarithm, to round-off of the result, where it is a series and where not.
+  for (double x = 1e-16; x < 10.; x *= 1.3)
+    for (const double sign : {1., -1.})
+      if (sign * x > -.999)
+        {
+          const double exact = std::log1p(sign * x);
+          const double error = log_of_one_plus(Lanes(sign * x))[0] / exact - 1.;
+          BOOST_CHECK_SMALL(error, 8e-16);
+        }
 }
 
 BOOST_AUTO_TEST_CASE(viscosity_dissipates)

@@ -12,6 +12,7 @@
 #include <contact/obstacles/level_set.h>
 #include <contact/obstacles/sphere_shape.h>
 #include <contact/obstacles/torus_shape.h>
+#include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/neo_hookean.h>
 #include <output/momenta.h>
 #include <output/obstacle_work.h>

@@ -9,6 +9,7 @@
 
 #include <base/exceptions.h>
 #include <discretization/boundary_load.h>
+#include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/neo_hookean.h>
 #include <output/momenta.h>
 #include <problems/impact.h>

@@ -18,6 +18,7 @@
 #include <contact/treatments/pointwise_contact.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
+#include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/neo_hookean.h>
 #include <time_integration/semi_discrete_system.h>
 
