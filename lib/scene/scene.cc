@@ -103,8 +103,8 @@ namespace Ricochet
     parameters.add_parameter(
       "Degree",
       degree,
-      "Polynomial degree of the displacement, of all bodies; 2 not with mortar, cut "
-      "faces and surfaces that touch themselves.",
+      "Polynomial degree of the displacement, of all bodies; 2 not with mortar and cut "
+      "faces.",
       Patterns::Integer(1, 2));
     parameters.leave_subsection();
     parameters.enter_subsection("Start");
@@ -217,11 +217,10 @@ namespace Ricochet
                                "' takes the stress at the surface, which must "
                                "be of one material.");
         if (touching.obstacles.empty() && degree > 1 &&
-            (touching.is_self || contact.parameters.coupling != "points"))
-          throw InputError(
-            contact.section.where +
-            ": with Mesh/Degree = 2 contact between bodies takes "
-            "Coupling = points, and a surface cannot touch itself.");
+            contact.parameters.coupling != "points")
+          throw InputError(contact.section.where +
+                           ": with Mesh/Degree = 2 contact between bodies takes "
+                           "Coupling = points.");
       }
     ImpactSetup<dim> setup{parts.front().material.template make<dim>()};
     for (const ConditionSection<dim> &condition : conditions)

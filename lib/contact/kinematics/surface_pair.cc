@@ -61,9 +61,6 @@ namespace Ricochet
     slave_index  = local_indices(slave, ghosted);
     master_index = local_indices(master, ghosted);
 
-    if (is_self && body.dof_handler().get_fe().degree > 1)
-      throw InputError(
-        "Contact of a surface with itself takes displacements of degree 1.");
     bool is_same = false;
     for (const auto id : pair.slave)
       is_same = is_same || pair.master.count(id) > 0;
