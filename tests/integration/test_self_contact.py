@@ -54,9 +54,6 @@ def setUpModule():
         # A condition on the velocity, and one on the gap.
         for name in ("Ayyad-Barboteu two-step", "improved normal compliance"):
             del TREATMENTS[name]
-        # It has touched itself for a while.
-        for name in TREATMENTS:
-            SHARED[name].append("Time/Final time=1.75")
 
 
 class SelfContactTest(ProgramTest):
