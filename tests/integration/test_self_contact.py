@@ -211,7 +211,6 @@ class Nodes(SelfContactTest):
                 energy = self.shared_run(name)["energy"]
                 self.assertLess(max(increments(energy)), 1e-11 * energy[0])
 
-    @needs_numpy
     def test_degree_2(self):
         """Nodes between vertices touch and are touched as others are: what the ring does
         to itself changes neither energy nor momentum."""
@@ -231,6 +230,7 @@ class Nodes(SelfContactTest):
         self.assertGreater(max(ledger["contact_force_inner_circle"]), 1e6)
         self.assertLess(max(self.depths(ledger)), .2)
 
+    @needs_numpy
     def test_conditions_on_the_velocity(self):
         """Nodes are as deep as they come in the step in which they touch: at most by
         the way of two nodes towards each other."""
