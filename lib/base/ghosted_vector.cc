@@ -7,25 +7,38 @@
 
 namespace Ricochet
 {
+  GhostedVector::GhostedVector(const Vector &layout)
+    : ghosted(std::make_unique<Epetra_Vector>(layout.trilinos_vector().Map()))
+  {}
+
+
+
+  GhostedVector::GhostedVector(const dealii::IndexSet &indices,
+                               const MPI_Comm          communicator)
+    : ghosted(std::make_unique<Epetra_Vector>(
+        indices.make_trilinos_map(communicator, true)))
+  {}
+
+
+
   void
   GhostedVector::import(const Vector &vector)
   {
     const auto &from = vector.trilinos_vector();
     if (!knows_exchange)
       {
-        const auto &map = ghosted.trilinos_vector().Map();
+        const auto &map = ghosted->Map();
         if (!map.SameAs(from.Map()))
           exchange = std::make_shared<const Epetra_Import>(map, from.Map());
         knows_exchange = true;
       }
     if (exchange)
       {
-        const int error =
-          ghosted.trilinos_vector().Import(from, *exchange, Insert);
+        const int error = ghosted->Import(from, *exchange, Insert);
         AssertThrow(error == 0, dealii::ExcTrilinosError(error));
       }
     else
-      std::copy_n(from[0], from.MyLength(), ghosted.trilinos_vector()[0]);
+      std::copy_n(from[0], from.MyLength(), ghosted->Values());
   }
 
 
@@ -33,7 +46,7 @@ namespace Ricochet
   int
   GhostedVector::local_index(const dealii::types::global_dof_index index) const
   {
-    return ghosted.trilinos_vector().Map().LID(
+    return ghosted->Map().LID(
       static_cast<dealii::TrilinosWrappers::types::int_type>(index));
   }
 } // namespace Ricochet

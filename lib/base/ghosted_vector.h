@@ -4,6 +4,10 @@
 
 #include <base/types.h>
 
+#include <deal.II/base/index_set.h>
+
+#include <Epetra_Vector.h>
+
 #include <memory>
 
 class Epetra_Import;
@@ -20,9 +24,10 @@ namespace Ricochet
     GhostedVector() = default;
 
     /// @param layout a vector with ghost values.
-    explicit GhostedVector(Vector layout)
-      : ghosted(std::move(layout))
-    {}
+    explicit GhostedVector(const Vector &layout);
+
+    /// The values of @p indices alone, whoever owns them. Collective.
+    GhostedVector(const dealii::IndexSet &indices, const MPI_Comm communicator);
 
     /// Take all values from @p vector, which has no ghost values and always the same
     /// layout. Collective.
@@ -33,20 +38,28 @@ namespace Ricochet
     int
     local_index(const dealii::types::global_dof_index index) const;
 
+    /// The unknown at a place among the values().
+    dealii::types::global_dof_index
+    index(const int local_index) const
+    {
+      return ghosted->Map().GID(local_index);
+    }
+
     const double *
     values() const
     {
-      return ghosted.trilinos_vector()[0];
+      return ghosted->Values();
     }
 
-    const Vector &
-    vector() const
+    /// The value of the unknown @p index, which is known here.
+    double
+    operator()(const dealii::types::global_dof_index index) const
     {
-      return ghosted;
+      return values()[local_index(index)];
     }
 
   private:
-    Vector ghosted;
+    std::unique_ptr<Epetra_Vector> ghosted;
     // None where all values are this rank's, in the same order.
     std::shared_ptr<const Epetra_Import> exchange;
     bool                                 knows_exchange = false;

@@ -128,7 +128,7 @@ namespace Ricochet
     Tensor<2, dim> result = unit_symmetric_tensor<dim>();
     for (const Node &node : point.nodes)
       for (unsigned int c = 0; c < dim; ++c)
-        result[c] += ghosted.vector()(node.unknowns[c]) * node.gradient;
+        result[c] += ghosted(node.unknowns[c]) * node.gradient;
     return result;
   }
 

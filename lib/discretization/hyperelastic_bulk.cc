@@ -87,8 +87,7 @@ namespace Ricochet
     n_points = quadrature.size();
     n_nodes  = element.n_dofs_per_cell() / dim;
 
-    const unsigned int n   = dim * n_nodes;
-    const auto        &map = ghosted_new.vector().trilinos_vector().Map();
+    const unsigned int n = dim * n_nodes;
     struct Cell
     {
       typename DoFHandler<dim>::active_cell_iterator iterator;
@@ -119,8 +118,7 @@ namespace Ricochet
             {
               const auto index =
                 indices[element.component_to_system_index(c, a)];
-              own.ghosted.push_back(
-                map.LID(static_cast<TrilinosWrappers::types::int_type>(index)));
+              own.ghosted.push_back(ghosted_new.local_index(index));
               own.owned.push_back(
                 body.owned_indices().is_element(index)
                   ? static_cast<int>(
@@ -240,14 +238,14 @@ namespace Ricochet
 
     constexpr unsigned int n_lanes = Lanes::size();
     const unsigned int     n       = dim * n_nodes;
-    const auto            &map = ghosted_new.vector().trilinos_vector().Map();
     matrix_entry.reserve(n_batches * n * n * n_lanes);
     std::vector<int> column(n * n_lanes);
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
         for (unsigned int k = 0; k < n * n_lanes; ++k)
           column[k] =
-            epetra.LCID(map.GID(ghosted_index[batch * n * n_lanes + k]));
+            epetra.LCID(static_cast<TrilinosWrappers::types::int_type>(
+              ghosted_new.index(ghosted_index[batch * n * n_lanes + k])));
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int k = 0; k < n * n_lanes; ++k)
             {

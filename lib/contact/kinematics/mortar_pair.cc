@@ -322,29 +322,21 @@ namespace Ricochet
   void
   MortarPair::begin_step(const ContactStart &start)
   {
-    get_positions(start.solution, old_positions);
-    get_multipliers();
-    new_positions         = old_positions;
-    const bool has_length = start.time_step > 0.;
-    Positions  middle, end;
-    if (has_length)
-      {
-        get_positions(start.mean_velocity,
-                      middle,
-                      &old_positions,
-                      .5 * start.time_step);
-        get_positions(start.mean_velocity,
-                      end,
-                      &old_positions,
-                      start.time_step);
-      }
+    Course course;
+    begin_course(start, course);
+    old_positions                                    = std::move(course.begin);
+    new_positions                                    = old_positions;
+    const bool                            has_length = start.time_step > 0.;
     const FacetSearch<2>                  search(master, old_positions.master);
     const std::unique_ptr<FacetSearch<2>> later = has_length
-      ? std::make_unique<FacetSearch<2>>(master, end.master)
+      ? std::make_unique<FacetSearch<2>>(master, course.end.master)
       : nullptr;
     for (SlaveFacet &facet : facets)
       {
-        find_intervals(facet, search, has_length ? &end : nullptr, later.get());
+        find_intervals(facet,
+                       search,
+                       has_length ? &course.end : nullptr,
+                       later.get());
         place_points(facet);
       }
 
@@ -367,7 +359,7 @@ namespace Ricochet
         gap.old_gap = gap.new_gap = gap.predicted_gap =
           mean_gap(p, old_positions, true);
         if (has_length)
-          gap.predicted_gap = mean_gap(p, middle, true);
+          gap.predicted_gap = mean_gap(p, course.middle, true);
       }
   }
 
@@ -376,8 +368,7 @@ namespace Ricochet
   void
   MortarPair::evaluate(const Vector &solution)
   {
-    get_positions(solution, new_positions);
-    get_multipliers();
+    read(solution, new_positions);
     for (SlaveFacet &facet : facets)
       place_points(facet);
     for (unsigned int p = 0; p < own_points.size(); ++p)

@@ -21,8 +21,13 @@ namespace Ricochet
     /// Pieces smaller than this part of a triangle are round-off.
     constexpr double smallest_piece = 1e-12;
 
-    /// Triangles are cut as far as so many of their lengths from the master.
-    constexpr double reach_of_triangles = 2.;
+    /// As far from the master triangles are cut: two of their lengths. @param
+    /// parallelogram twice the triangle's area (m^2).
+    double
+    reach_of_triangle(const double parallelogram)
+    {
+      return 2. * std::sqrt(parallelogram);
+    }
 
     /// Triangles that are steeper against each other do not face each other: the
     /// projection of one on the other says nothing about where they touch.
@@ -195,9 +200,8 @@ namespace Ricochet
         const Tensor<1, 3> e1 = x[1] - x[0], e2 = x[2] - x[0];
         const Tensor<1, 3> normal_of_own = cross_product_3d(e1, e2);
         const double       square        = normal_of_own.norm_square();
-        const double       farthest =
-          reach_of_triangles * std::sqrt(std::sqrt(square)) + way;
-        Position lower, upper;
+        const double farthest = reach_of_triangle(normal_of_own.norm()) + way;
+        Position     lower, upper;
         for (unsigned int c = 0; c < 3; ++c)
           {
             lower[c] = std::min({x[0][c], x[1][c], x[2][c]}) - farthest;
@@ -315,23 +319,31 @@ namespace Ricochet
 
 
 
+  double
+  MortarTriangles::reach_of_step(const Course &course) const
+  {
+    double largest = 0.;
+    for (const Face &face : faces)
+      for (const unsigned int f : face.triangles)
+        largest = std::max(
+          largest,
+          to_tensor(facet_normal<3>(slave, course.middle.slave, f)).norm());
+    return reach_of_triangle(Utilities::MPI::max(largest, communicator)) +
+      longest_way(course.begin, course.middle);
+  }
+
+
+
   void
   MortarTriangles::begin_step(const ContactStart &start)
   {
-    get_positions(start.solution, old_positions);
-    get_multipliers();
-    new_positions    = old_positions;
-    Positions middle = old_positions;
-    way              = 0.;
-    if (start.time_step > 0.)
-      {
-        get_positions(start.mean_velocity,
-                      middle,
-                      &old_positions,
-                      .5 * start.time_step);
-        way = longest_way(old_positions, middle);
-      }
-    const FacetSearch<3> search(master, middle.master);
+    Course course;
+    begin_course(start, course);
+    way                         = longest_way(course.begin, course.middle);
+    old_positions               = std::move(course.begin);
+    new_positions               = old_positions;
+    const Positions     &middle = course.middle;
+    const FacetSearch<3> search(master, middle.master, near_facets);
     for (Face &face : faces)
       cut(face, middle, search);
 
@@ -367,8 +379,7 @@ namespace Ricochet
   void
   MortarTriangles::evaluate(const Vector &solution)
   {
-    get_positions(solution, new_positions);
-    get_multipliers();
+    read(solution, new_positions);
     for (Face &face : faces)
       for (unsigned int q = 0; q < face.n_points; ++q)
         face.points[q].up_to_date = face.points[q].differentiated = false;

@@ -131,6 +131,9 @@ namespace Ricochet
       unsigned int face = 0, node = 0;
     };
 
+    double
+    reach_of_step(const Course &course) const override;
+
     /// The shape function of node @p k of a face in a point of one of its triangles.
     double
     shape_value(const Face                  &face,

@@ -13,7 +13,6 @@ namespace Ricochet
   {
     unsigned int longest = 0;
     local_index.reserve(points.index.size());
-    const dealii::IndexSet owned = ghosted.vector().locally_owned_elements();
     for (const auto index : points.index)
       {
         owned_index.push_back(
@@ -238,7 +237,7 @@ namespace Ricochet
   Vector
   ContactPointEvaluator::nodal_averages(const std::vector<double> &values) const
   {
-    Vector sums(ghosted.vector().locally_owned_elements(), communicator);
+    Vector sums(owned, communicator);
     Vector weights(sums);
     for (unsigned int p = 0; p < points.points.size(); ++p)
       for (unsigned int k = points.points[p].begin; k < points.points[p].end;

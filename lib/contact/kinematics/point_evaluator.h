@@ -25,6 +25,7 @@ namespace Ricochet
     ContactPointEvaluator(const Body<dim> &body, ContactPoints points)
       : points(std::move(points))
       , ghosted(body.make_ghosted_vector(this->points.index))
+      , owned(body.owned_indices())
       , communicator(body.communicator)
     {
       find_local_indices();
@@ -129,8 +130,10 @@ namespace Ricochet
     // Of the gap; empty where that is the direction of the force.
     std::vector<double> gap_gradient;
     GhostedVector       ghosted;
-    std::vector<int>    local_index;
-    bool                some_points = false;
+    /// Unknowns of this rank.
+    const dealii::IndexSet owned;
+    std::vector<int>       local_index;
+    bool                   some_points = false;
     // Place of each unknown among those of this rank; -1: another rank's.
     std::vector<int> owned_index;
     // Work space of add().

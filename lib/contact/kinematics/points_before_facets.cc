@@ -94,41 +94,21 @@ namespace Ricochet
   void
   PointsBeforeFacets<dim>::begin_step(const ContactStart &start)
   {
-    this->get_positions(start.solution, old_positions);
-    this->get_multipliers();
+    typename SurfacePair<dim>::Course course;
+    this->begin_course(start, course);
+    old_positions         = std::move(course.begin);
     const bool has_length = start.time_step > 0.;
-    Positions  middle, end;
-    if (has_length)
-      {
-        this->get_positions(start.mean_velocity,
-                            middle,
-                            &old_positions,
-                            .5 * start.time_step);
-        this->get_positions(start.mean_velocity,
-                            end,
-                            &old_positions,
-                            start.time_step);
-      }
     if (is_self)
       {
         // A facet, and as much as two points come nearer to each other in the step.
         self_distance = 0.;
         for (const auto &facet : master.facets)
           self_distance = std::max(self_distance, facet.measure);
-        double fastest = 0.;
-        for (unsigned int n = 0; n < end.master.size(); ++n)
-          {
-            double square = 0.;
-            for (unsigned int c = 0; c < dim; ++c)
-              square +=
-                std::pow(end.master[n][c] - old_positions.master[n][c], 2);
-            fastest = std::max(fastest, std::sqrt(square));
-          }
-        self_distance += 2. * fastest;
+        self_distance += this->longest_way(old_positions, course.end);
       }
     const FacetSearch<dim> search(master, old_positions.master);
     const std::unique_ptr<FacetSearch<dim>> later = has_length
-      ? std::make_unique<FacetSearch<dim>>(master, end.master)
+      ? std::make_unique<FacetSearch<dim>>(master, course.end.master)
       : nullptr;
 
     for (unsigned int p = 0; p < own_points.size(); ++p)
@@ -144,7 +124,7 @@ namespace Ricochet
           continue;
         find_facet_now(p, search);
         if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
-          find_facet_later(p, *later, end);
+          find_facet_later(p, *later, course.end);
         step.is_double = gap.is_before_facet && is_self && meets_node(p);
         if (step.is_double && !has_other_sides())
           gap.is_before_facet = false;
@@ -155,7 +135,7 @@ namespace Ricochet
         gap.predicted_gap = gap.old_gap;
         if (has_length)
           {
-            const auto &x = gather_all(p, step.chain, middle);
+            const auto &x = gather_all(p, step.chain, course.middle);
             gap.predicted_gap =
               this->gap_before(x, step.chain, last_facet(x, step));
           }
@@ -394,8 +374,7 @@ namespace Ricochet
   void
   PointsBeforeFacets<dim>::evaluate(const Vector &solution)
   {
-    this->get_positions(solution, new_positions);
-    this->get_multipliers();
+    this->read(solution, new_positions);
     for (unsigned int p = 0; p < own_points.size(); ++p)
       {
         if (!gaps[p].is_before_facet)

@@ -337,7 +337,7 @@ namespace Ricochet
     const Position y       = position_of(own_points[p], positions.slave);
     unsigned int   closest = f;
     // What is fast may pass several facets, but not the whole surface.
-    for (unsigned int n = 0; n < 4; ++n)
+    for (unsigned int n = 0; n < farthest_walk; ++n)
       {
         const auto next = closest_facing_of<3>(allowed_around(p, closest),
                                                master,
@@ -437,29 +437,26 @@ namespace Ricochet
 
 
 
+  double
+  PointsBeforeTriangles::reach_of_step(const Course &course) const
+  {
+    return smallest_reach + longest_way(course.begin, course.end);
+  }
+
+
+
   void
   PointsBeforeTriangles::begin_step(const ContactStart &start)
   {
-    get_positions(start.solution, old_positions);
-    get_multipliers();
-    new_positions         = old_positions;
-    const bool has_length = start.time_step > 0.;
-    Positions  middle, end;
-    if (has_length)
-      {
-        get_positions(start.mean_velocity,
-                      middle,
-                      &old_positions,
-                      .5 * start.time_step);
-        get_positions(start.mean_velocity,
-                      end,
-                      &old_positions,
-                      start.time_step);
-      }
-    reach = smallest_reach + longest_way(old_positions, end);
-    const FacetSearch<3> search(master, old_positions.master);
+    Course course;
+    begin_course(start, course);
+    reach                           = course.reach;
+    old_positions                   = std::move(course.begin);
+    new_positions                   = old_positions;
+    const bool           has_length = start.time_step > 0.;
+    const FacetSearch<3> search(master, old_positions.master, near_facets);
     const auto           later = has_length
-                ? std::make_unique<FacetSearch<3>>(master, end.master)
+                ? std::make_unique<FacetSearch<3>>(master, course.end.master, near_facets)
                 : nullptr;
     for (unsigned int p = 0; p < own_points.size(); ++p)
       {
@@ -472,7 +469,7 @@ namespace Ricochet
         step.normal = normal_of(own_points[p], old_positions.slave);
         find_facet_now(p, search);
         if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
-          find_facet_later(p, *later, end);
+          find_facet_later(p, *later, course.end);
         step.is_double = gap.is_before_facet && is_self && meets_node(p);
         if (step.is_double)
           gap.is_before_facet = false;
@@ -483,7 +480,7 @@ namespace Ricochet
         gap.predicted_gap = gap.old_gap;
         if (has_length)
           gap.predicted_gap = PointBeforeTriangle<double>::gap(
-            corners(p, last_facet(p, middle), middle));
+            corners(p, last_facet(p, course.middle), course.middle));
       }
   }
 
@@ -492,8 +489,7 @@ namespace Ricochet
   void
   PointsBeforeTriangles::evaluate(const Vector &solution)
   {
-    get_positions(solution, new_positions);
-    get_multipliers();
+    read(solution, new_positions);
     for (unsigned int p = 0; p < own_points.size(); ++p)
       if (gaps[p].is_before_facet)
         {

@@ -100,6 +100,9 @@ namespace Ricochet
       std::vector<Share> shares;
     };
 
+    double
+    reach_of_step(const Course &course) const override;
+
     void
     make_quadrature_points(const Body<3> &body);
 

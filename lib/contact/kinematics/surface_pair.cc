@@ -7,59 +7,43 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace Ricochet
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// Unknowns of @p surface, to be added to @p indices.
-    template <int dim>
-    void
-    add_unknowns(const ContactSurface<dim> &surface, IndexSet &indices)
-    {
-      for (const auto &node : surface.nodes)
-        {
-          if (!node.mean_of.empty())
-            break;
-          indices.add_indices(node.unknowns.begin(), node.unknowns.end());
-          for (const auto index : node.multipliers)
-            if (index != numbers::invalid_dof_index)
-              indices.add_index(index);
-        }
-    }
-
-    template <int dim>
-    std::vector<std::array<int, dim>>
-    local_indices(const ContactSurface<dim> &surface,
-                  const GhostedVector       &ghosted)
-    {
-      std::vector<std::array<int, dim>> local(surface.nodes.size());
-      for (unsigned int n = 0;
-           n < local.size() && surface.nodes[n].mean_of.empty();
-           ++n)
-        for (unsigned int c = 0; c < dim; ++c)
-          local[n][c] = ghosted.local_index(surface.nodes[n].unknowns[c]);
-      return local;
-    }
-  } // namespace
-
-
 
   template <int dim>
   SurfacePair<dim>::SurfacePair(const Body<dim> &body, const ContactPair &pair)
     : is_self(pair.is_self)
     , slave(body, pair.slave)
     , master(body, pair.master)
+    , communicator(body.communicator)
+    , owned(body.owned_indices())
+    , patches(master, body.communicator)
   {
-    IndexSet relevant = body.owned_indices();
-    add_unknowns(slave, relevant);
-    add_unknowns(master, relevant);
-    ghosted =
-      GhostedVector(Vector(body.owned_indices(), relevant, body.communicator));
-    slave_index  = local_indices(slave, ghosted);
-    master_index = local_indices(master, ghosted);
+    const unsigned int this_rank =
+      Utilities::MPI::this_mpi_process(communicator);
+    std::vector<unsigned int> own_facets;
+    for (unsigned int f = 0; f < slave.facets.size(); ++f)
+      {
+        bool is_own = slave.facets[f].owner == this_rank;
+        for (const unsigned int n : slave.facets[f].nodes)
+          slave.for_each_node_of(n,
+                                 [&](const unsigned int of,
+                                     const double /*share*/) {
+                                   is_own = is_own || is_mine(body, of);
+                                 });
+        if (is_own)
+          own_facets.push_back(f);
+      }
+    own_groups = groups_of_neighbours(slave, own_facets);
+    for (unsigned int patch = 0; patch < patches.size(); ++patch)
+      {
+        known.push_back(patches.is_own(patch));
+        patches_around.push_back(patches.around(patch, farthest_walk));
+      }
+    make_exchange();
 
     bool is_same = false;
     for (const auto id : pair.slave)
@@ -72,9 +56,9 @@ namespace Ricochet
     if (is_self)
       return;
     bool some_face = false;
-    for (const auto &facet : slave.facets)
+    for (unsigned int f = 0; f < slave.facets.size() && !some_face; ++f)
       for (const auto &other : master.facets)
-        some_face = some_face || facet.normal * other.normal < 0.;
+        some_face = some_face || slave.facets[f].normal * other.normal < 0.;
     if (!some_face)
       throw InputError(
         "The surfaces of the contact '" + pair.name +
@@ -163,12 +147,111 @@ namespace Ricochet
 
   template <int dim>
   void
-  SurfacePair<dim>::get_positions(const Vector    &solution,
-                                  Positions       &positions,
+  SurfacePair<dim>::make_exchange()
+  {
+    const bool is_alone = Utilities::MPI::n_mpi_processes(communicator) == 1;
+    std::vector<Index> indices;
+    const auto         add = [&](const ContactSurface<dim> &surface,
+                         const unsigned int         facet) {
+      for (const unsigned int n : surface.facets[facet].nodes)
+        surface.for_each_node_of(
+          n,
+          [&](const unsigned int of, const double /*share*/) {
+            const auto &unknowns = surface.nodes[of].unknowns;
+            indices.insert(indices.end(), unknowns.begin(), unknowns.end());
+          });
+    };
+    for (const auto &group : own_groups)
+      for (const unsigned int f : group)
+        add(slave, f);
+    for (unsigned int patch = 0; patch < patches.size(); ++patch)
+      if (known[patch])
+        for (const unsigned int f : patches.facets_of(patch))
+          add(master, f);
+    for (const auto &node : slave.nodes)
+      if (node.mean_of.empty() && owned.is_element(node.unknowns[0]))
+        for (const Index index : node.multipliers)
+          if (index != numbers::invalid_dof_index)
+            indices.push_back(index);
+    std::sort(indices.begin(), indices.end());
+    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    // One rank reads the vector as it is.
+    IndexSet to_know = is_alone ? owned : IndexSet(owned.size());
+    to_know.add_indices(indices.begin(), indices.end());
+    ghosted = GhostedVector(to_know, communicator);
+
+    const auto find = [&](const ContactSurface<dim>         &surface,
+                          std::vector<std::array<int, dim>> &local) {
+      local.resize(surface.nodes.size());
+      for (unsigned int n = 0; n < local.size(); ++n)
+        for (unsigned int c = 0; c < dim; ++c)
+          local[n][c] = surface.nodes[n].mean_of.empty()
+            ? ghosted.local_index(surface.nodes[n].unknowns[c])
+            : -1;
+    };
+    find(slave, slave_index);
+    find(master, master_index);
+  }
+
+
+
+  template <int dim>
+  bool
+  SurfacePair<dim>::find_near(Course &course)
+  {
+    course.reach = reach_of_step(course);
+    std::vector<unsigned int> near(patches.size());
+    std::iota(near.begin(), near.end(), 0);
+    std::vector<BoundingBox<dim>> places;
+    if (std::isfinite(course.reach))
+      {
+        for (const auto &group : own_groups)
+          places.push_back(box_of_facets<dim>(slave,
+                                              group,
+                                              course.begin.slave,
+                                              course.end.slave));
+        near = patches.near(places,
+                            course.reach,
+                            course.begin.master,
+                            course.end.master);
+      }
+    near_facets.clear();
+    for (const unsigned int patch : near)
+      near_facets.insert(near_facets.end(),
+                         patches.facets_of(patch).begin(),
+                         patches.facets_of(patch).end());
+    std::sort(near_facets.begin(), near_facets.end());
+    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+      return false;
+
+    bool knows_all = true;
+    for (const unsigned int patch : near)
+      for (const unsigned int other : patches_around[patch])
+        knows_all = knows_all && known[other];
+    if (Utilities::MPI::min(knows_all ? 1 : 0, communicator) == 1)
+      return false;
+    // What is a little farther off may be near in one of the next steps.
+    if (std::isfinite(course.reach))
+      near = patches.near(places,
+                          1.5 * course.reach,
+                          course.begin.master,
+                          course.end.master);
+    for (unsigned int patch = 0; patch < patches.size(); ++patch)
+      known[patch] = patches.is_own(patch);
+    for (const unsigned int patch : near)
+      for (const unsigned int other : patches_around[patch])
+        known[other] = true;
+    return true;
+  }
+
+
+
+  template <int dim>
+  void
+  SurfacePair<dim>::get_positions(Positions       &positions,
                                   const Positions *start,
                                   const double     time) const
   {
-    ghosted.import(solution);
     const double *value = ghosted.values();
     const auto    get   = [&](const ContactSurface<dim>               &surface,
                          const std::vector<std::array<int, dim>> &index,
@@ -183,6 +266,8 @@ namespace Ricochet
               for (unsigned int c = 0; c < dim; ++c)
                 x[n][c] += x[of][c] / mean_of.size();
           }
+        else if (index[n][0] < 0)
+          x[n].fill(std::numeric_limits<double>::quiet_NaN());
         else
           for (unsigned int c = 0; c < dim; ++c)
             x[n][c] = (start_x ? (*start_x)[n][c]
@@ -199,36 +284,66 @@ namespace Ricochet
 
 
   template <int dim>
-  double
-  SurfacePair<dim>::longest_way(const Positions &from, const Positions &to)
+  void
+  SurfacePair<dim>::read(const Vector &solution, Positions &positions)
   {
-    const auto of_surface = [](const std::vector<Position> &a,
-                               const std::vector<Position> &b) {
-      double longest = 0.;
-      for (unsigned int n = 0; n < b.size(); ++n)
-        {
-          Tensor<1, dim> way;
-          for (unsigned int c = 0; c < dim; ++c)
-            way[c] = b[n][c] - a[n][c];
-          longest = std::max(longest, way.norm());
-        }
-      return longest;
-    };
-    return of_surface(from.slave, to.slave) +
-      of_surface(from.master, to.master);
+    ghosted.import(solution);
+    get_positions(positions);
+    for (unsigned int p = 0; p < own_points.size(); ++p)
+      for (unsigned int c = 0; c < dim; ++c)
+        if (own_points[p].multipliers[c] != numbers::invalid_dof_index)
+          gaps[p].multipliers[c] = ghosted(own_points[p].multipliers[c]);
   }
 
 
 
   template <int dim>
   void
-  SurfacePair<dim>::get_multipliers()
+  SurfacePair<dim>::begin_course(const ContactStart &start, Course &course)
   {
-    for (unsigned int p = 0; p < own_points.size(); ++p)
-      for (unsigned int c = 0; c < dim; ++c)
-        if (own_points[p].multipliers[c] != numbers::invalid_dof_index)
-          gaps[p].multipliers[c] =
-            ghosted.vector()(own_points[p].multipliers[c]);
+    const auto read_all = [&]() {
+      read(start.solution, course.begin);
+      if (start.time_step > 0.)
+        {
+          ghosted.import(start.mean_velocity);
+          get_positions(course.middle, &course.begin, .5 * start.time_step);
+          get_positions(course.end, &course.begin, start.time_step);
+        }
+      else
+        course.middle = course.end = course.begin;
+    };
+    read_all();
+    if (find_near(course))
+      {
+        make_exchange();
+        read_all();
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  SurfacePair<dim>::longest_way(const Positions &from,
+                                const Positions &to) const
+  {
+    // Each node is known to some rank. What is not a number is not larger.
+    std::vector<double> longest(2, 0.);
+    const auto          find = [](const std::vector<Position> &a,
+                         const std::vector<Position> &b,
+                         double                      &longest_of_surface) {
+      for (unsigned int n = 0; n < b.size(); ++n)
+        {
+          Tensor<1, dim> way;
+          for (unsigned int c = 0; c < dim; ++c)
+            way[c] = b[n][c] - a[n][c];
+          longest_of_surface = std::max(longest_of_surface, way.norm());
+        }
+    };
+    find(from.slave, to.slave, longest[0]);
+    find(from.master, to.master, longest[1]);
+    Utilities::MPI::max(longest, communicator, longest);
+    return longest[0] + longest[1];
   }
 
 

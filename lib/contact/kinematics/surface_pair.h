@@ -7,6 +7,9 @@
 #include <contact/surfaces/contact_pair.h>
 #include <contact/surfaces/caution.h>
 #include <contact/surfaces/contact_surface.h>
+#include <contact/surfaces/facet_patches.h>
+
+#include <limits>
 
 namespace Ricochet
 {
@@ -21,6 +24,10 @@ namespace Ricochet
    * and T . change the slip, so that the work of a pressure p and a traction t is p
    * times the one and t times the other; the sum of forces and that of moments are
    * zero.
+   *
+   * Each rank takes care of the points of its own nodes. It knows where the facets of its
+   * own cells are, and where those patches of the master are that come near its points:
+   * only their positions travel.
    */
   template <int dim>
   class SurfacePair
@@ -221,11 +228,25 @@ namespace Ricochet
     round_off(const unsigned int p) const = 0;
 
   protected:
-    /// Positions of all nodes of both surfaces (m).
+    /// Positions of the nodes of both surfaces (m); not numbers for those that this rank
+    /// does not know.
     struct Positions
     {
       std::vector<Position> slave, master;
     };
+
+    /// Where nodes are at the beginning of a step, and where the mean velocity of the
+    /// step before takes them in half of it and in all of it. In an instant all are the
+    /// same.
+    struct Course
+    {
+      Positions begin, middle, end;
+      /// See reach_of_step() (m).
+      double reach = 0.;
+    };
+
+    /// How often a point may go on to one of the facets around the one it is before.
+    static constexpr unsigned int farthest_walk = 4;
 
     /// softness() of a point that is a node on another one.
     static constexpr double softness_of_doubles = 1e-9;
@@ -249,23 +270,29 @@ namespace Ricochet
         slave.nodes[slave_node].unknowns[0]);
     }
 
-    /// The positions at @p solution, a vector of displacements, or, with @p
-    /// start, what a velocity @p solution makes of them in @p time.
+    /// Begin a step: read the multipliers of all points, find out which facets are near
+    /// and where they are. Collective.
     void
-    get_positions(const Vector    &solution,
-                  Positions       &positions,
-                  const Positions *start = nullptr,
-                  const double     time  = 1.) const;
+    begin_course(const ContactStart &start, Course &course);
+
+    /// How far from the points of this rank the facets of the master may be that they
+    /// look at in a step (m). In the plane that is all of the surface, a curve.
+    /// Collective.
+    virtual double
+    reach_of_step(const Course & /*course*/) const
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+
+    /// The positions at @p solution, a vector of displacements, and the multipliers.
+    /// Collective.
+    void
+    read(const Vector &solution, Positions &positions);
 
     /// By how much a node of the slave and one of the master can have come nearer to
-    /// each other: the longest ways of both (m). No positions @p to: 0.
-    static double
-    longest_way(const Positions &from, const Positions &to);
-
-    /// Read the multipliers of all points, where the last vector of get_positions()
-    /// was a solution.
-    void
-    get_multipliers();
+    /// each other: the longest ways of both (m). Collective.
+    double
+    longest_way(const Positions &from, const Positions &to) const;
 
     /// Outward, of any length.
     Position
@@ -278,9 +305,37 @@ namespace Ricochet
     ContactSurface<dim> slave, master;
     std::vector<Point>  own_points;
     std::vector<Gaps>   gaps;
+    const MPI_Comm      communicator;
+    /// Facets of the master that are near the points of this rank in this step, in
+    /// ascending order. Others need not be known.
+    std::vector<unsigned int> near_facets;
 
   private:
-    mutable GhostedVector             ghosted;
+    /// Let this rank know where the facets of the master's patches #known are, and its
+    /// own. Collective.
+    void
+    make_exchange();
+
+    /// Find the #near_facets. @return whether ranks have to know more patches than they
+    /// did before. Collective.
+    bool
+    find_near(Course &course);
+
+    /// Positions of what #ghosted says.
+    void
+    get_positions(Positions       &positions,
+                  const Positions *start = nullptr,
+                  const double     time  = 1.) const;
+
+    const dealii::IndexSet owned;
+    FacetPatches<dim>      patches;
+    /// Facets of the slave with a node or cell of this rank, in groups.
+    std::vector<std::vector<unsigned int>> own_groups;
+    /// For each patch those that points may walk to from it.
+    std::vector<std::vector<unsigned int>> patches_around;
+    /// For each patch of the master, whether this rank knows where it is.
+    std::vector<bool>                 known;
+    GhostedVector                     ghosted;
     std::vector<std::array<int, dim>> slave_index, master_index;
   };
 } // namespace Ricochet

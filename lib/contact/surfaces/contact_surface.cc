@@ -40,6 +40,8 @@ namespace Ricochet
       std::vector<End>        ends;
       double                  measure = 0., cell_diameter = 0.;
       unsigned int            boundary_id = 0, part = 0;
+      /// The rank that it comes from.
+      unsigned int owner = 0;
 
       template <class Archive>
       void
@@ -301,10 +303,15 @@ namespace Ricochet
         "the degree is " +
         std::to_string(body.dof_handler().get_fe().degree) + ".");
     std::vector<Message<dim>> messages;
-    for (const auto &list :
-         Utilities::MPI::all_gather(body.communicator,
-                                    own_facets(body, boundaries)))
-      messages.insert(messages.end(), list.begin(), list.end());
+    const auto                messages_of_rank =
+      Utilities::MPI::all_gather(body.communicator,
+                                 own_facets(body, boundaries));
+    for (unsigned int rank = 0; rank < messages_of_rank.size(); ++rank)
+      for (Message<dim> message : messages_of_rank[rank])
+        {
+          message.owner = rank;
+          messages.push_back(std::move(message));
+        }
     std::sort(messages.begin(), messages.end());
     if (messages.empty())
       throw InputError(
@@ -352,6 +359,7 @@ namespace Ricochet
           facet.normal[c] = message.normal[c];
         facet.boundary_id   = message.boundary_id;
         facet.part          = message.part;
+        facet.owner         = message.owner;
         facet.measure       = message.measure;
         facet.cell_diameter = message.cell_diameter;
         if (own.size() == dim)

@@ -12,9 +12,10 @@ namespace Ricochet
 {
   /**
    * A part of the boundary that can touch another one: facets, how they hang
-   * together, and the unknowns of their nodes. Every rank knows all of it, in the
+   * together, and the unknowns of their nodes. Every rank knows all of this, in the
    * same order for any number of ranks: surfaces are small against bodies, and the
-   * partner of a point may be on any rank.
+   * partner of a point may be on any rank. Where nodes are, ranks ask for only of what
+   * comes near (see SurfacePair).
    *
    * In the plane facets are segments from node 0 to node 1 with the outside on
    * their left, in 1D single nodes. In space they are triangles, whose nodes are seen
@@ -55,6 +56,8 @@ namespace Ricochet
       dealii::types::boundary_id boundary_id = 0;
       /// Part of which body: the material id of its cell.
       dealii::types::material_id part = 0;
+      /// The rank whose cell is behind it.
+      unsigned int owner = 0;
       /// Length (m) or area (m^2); 1 in 1D.
       double measure = 1.;
       /// Of the cell behind it (m).

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace Ricochet
 {
@@ -57,16 +58,41 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    std::vector<unsigned int>
+    all_up_to(const unsigned int n)
+    {
+      std::vector<unsigned int> numbers(n);
+      std::iota(numbers.begin(), numbers.end(), 0);
+      return numbers;
+    }
+  } // namespace
+
+
+
   template <int dim>
   FacetSearch<dim>::FacetSearch(
     const ContactSurface<dim>                  &surface,
     const std::vector<std::array<double, dim>> &positions)
+    : FacetSearch(surface, positions, all_up_to(surface.facets.size()))
+  {}
+
+
+
+  template <int dim>
+  FacetSearch<dim>::FacetSearch(
+    const ContactSurface<dim>                  &surface,
+    const std::vector<std::array<double, dim>> &positions,
+    const std::vector<unsigned int>            &facets)
     : surface(surface)
     , positions(positions)
     , tree(std::make_unique<Tree>())
   {
+    if (facets.empty())
+      return;
     std::vector<typename Tree::Entry> entries;
-    for (unsigned int f = 0; f < surface.facets.size(); ++f)
+    for (const unsigned int f : facets)
       {
         std::vector<Point<dim>> corners;
         for (const unsigned int node : surface.facets[f].nodes)
@@ -78,17 +104,12 @@ namespace Ricochet
           }
         entries.emplace_back(BoundingBox<dim>(corners), f);
       }
+    BoundingBox<dim> all = entries.front().first;
+    for (const auto &entry : entries)
+      all.merge_with(entry.first);
+    tree->lower = all.get_boundary_points().first;
+    tree->upper = all.get_boundary_points().second;
     tree->boxes = pack_rtree(entries);
-    for (unsigned int c = 0; c < dim; ++c)
-      {
-        const auto smaller = [c](const auto &a, const auto &b) {
-          return a[c] < b[c];
-        };
-        const auto ends =
-          std::minmax_element(positions.begin(), positions.end(), smaller);
-        tree->lower[c] = (*ends.first)[c];
-        tree->upper[c] = (*ends.second)[c];
-      }
   }
 
 

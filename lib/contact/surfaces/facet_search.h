@@ -19,6 +19,12 @@ namespace Ricochet
     FacetSearch(const ContactSurface<dim>                  &surface,
                 const std::vector<std::array<double, dim>> &positions);
 
+    /// The same with only some of its @p facets, whose nodes alone need to have
+    /// positions.
+    FacetSearch(const ContactSurface<dim>                  &surface,
+                const std::vector<std::array<double, dim>> &positions,
+                const std::vector<unsigned int>            &facets);
+
     ~FacetSearch();
 
     /// The facet that is closest to @p y among those whose outward normal points
