@@ -9,6 +9,7 @@
 #include "meshes.h"
 
 #include <base/exceptions.h>
+#include <contact/kinematics/points_before_triangles.h>
 #include <contact/surfaces/contact_surface.h>
 #include <contact/surfaces/point_passing_triangles.h>
 #include <discretization/curved_geometry.h>
@@ -676,6 +677,124 @@ namespace
   constexpr double       time_step = .02;
   constexpr unsigned int n_steps   = 15;
 } // namespace
+
+
+
+namespace
+{
+  /// A block, part 1, above one end of a long bar, part 0.
+  void
+  make_block_above_bar(const bool tetrahedra, Triangulation<3> &whole)
+  {
+    Triangulation<3> parts[2];
+    for (unsigned int p = 0; p < 2; ++p)
+      {
+        Triangulation<3> bricks;
+        dealii::GridGenerator::subdivided_hyper_rectangle(
+          bricks,
+          {p == 0 ? 40U : 4U, 4, 2},
+          p == 0 ? Point<3>(0., 0., -.5) : Point<3>(.1, .1, .02),
+          p == 0 ? Point<3>(10., 1., 0.) : Point<3>(1.1, .9, .5));
+        if (tetrahedra)
+          dealii::GridGenerator::convert_hypercube_to_simplex_mesh(bricks,
+                                                                   parts[p]);
+        else
+          parts[p].copy_triangulation(bricks);
+        for (const auto &cell : parts[p].active_cell_iterators())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary())
+              face->set_boundary_id(p);
+      }
+    join_parts<3>({&parts[0], &parts[1]}, whole);
+  }
+} // namespace
+
+
+
+// Which patches are near, against the distances of all facets; and what ranks get to
+// know: where nodes of far patches are does not travel, and gaps are right without.
+BOOST_AUTO_TEST_CASE(only_what_comes_near_is_known)
+{
+  for (const bool tetrahedra : {false, true})
+    {
+      const auto mesh = distribute_mesh<3>(
+        [&](Triangulation<3> &whole) {
+          make_block_above_bar(tetrahedra, whole);
+        },
+        MPI_COMM_WORLD);
+      const Body<3>           body(*mesh,
+                         1,
+                         {},
+                         {0, 1},
+                         MultiplierSpace::none,
+                         MPI_COMM_WORLD);
+      const ContactSurface<3> bar(body, {0});
+
+      // Boxes of patches, around a place that only the last rank has.
+      const FacetPatches<3>              patches(bar, MPI_COMM_WORLD);
+      std::vector<std::array<double, 3>> positions;
+      for (const auto &node : bar.nodes)
+        positions.push_back({{node.reference_position[0],
+                              node.reference_position[1],
+                              node.reference_position[2]}});
+      constexpr double   reach = .3;
+      const Point<3>     place(9., .5, .2);
+      const unsigned int n_ranks =
+        dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+      const bool is_last =
+        dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) + 1 == n_ranks;
+      std::vector<FacetPatches<3>::Box> places;
+      if (is_last)
+        places.emplace_back(std::pair(place, place));
+      const auto   near = patches.near(places, reach, positions, positions);
+      unsigned int n_facets_near = 0;
+      for (const unsigned int patch : near)
+        n_facets_near += patches.facets_of(patch).size();
+      if (!is_last)
+        BOOST_CHECK(near.empty());
+      for (unsigned int f = 0; is_last && f < bar.facets.size(); ++f)
+        for (const unsigned int n : bar.facets[f].nodes)
+          if (bar.nodes[n].reference_position.distance(place) < reach)
+            BOOST_CHECK(std::binary_search(near.begin(),
+                                           near.end(),
+                                           patches.patch_of(f)));
+      if (is_last)
+        {
+          BOOST_CHECK_GT(n_facets_near, 0);
+          BOOST_CHECK_LT(n_facets_near, bar.facets.size() / 4);
+        }
+      // Six steps of a quarter of a metre from a patch.
+      for (const unsigned int patch : near)
+        {
+          const auto around = patches.around(patch, 6);
+          BOOST_CHECK(std::binary_search(around.begin(), around.end(), patch));
+          BOOST_CHECK_GT(around.size(), 1);
+          BOOST_CHECK_LT(around.size(), patches.size());
+        }
+
+      // The block hovers above the near end of the bar.
+      PointsBeforeTriangles pair(body,
+                                 {"block", {1}, {0}},
+                                 PointsBeforeTriangles::PointsIn::nodes);
+      const Vector          zero = body.make_vector();
+      pair.begin_step({zero, zero, zero, 1e-3});
+      unsigned int n_known = 0, n_before = 0;
+      for (unsigned int f = 0; f < bar.facets.size(); ++f)
+        n_known += pair.is_known(f);
+      for (unsigned int p = 0; p < pair.points().size(); ++p)
+        if (pair.is_before_facet(p) && pair.old_gap(p) < .1)
+          {
+            BOOST_CHECK_SMALL(pair.old_gap(p) - .02, 1e-14);
+            ++n_before;
+          }
+      // The nodes of the block's lower side; tetrahedra have one more in each square.
+      BOOST_CHECK_EQUAL(dealii::Utilities::MPI::sum(n_before, MPI_COMM_WORLD),
+                        tetrahedra ? 25 + 16 : 25);
+      if (n_ranks > 1)
+        BOOST_CHECK_LT(dealii::Utilities::MPI::sum(n_known, MPI_COMM_WORLD),
+                       1.5 * bar.facets.size());
+    }
+}
 
 
 

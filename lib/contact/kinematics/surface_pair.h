@@ -125,6 +125,20 @@ namespace Ricochet
       return own_points;
     }
 
+    /// Whether this rank knows where facet @p f of the master is: its own, and those of
+    /// patches that have come near its points.
+    bool
+    is_known(const unsigned int f) const
+    {
+      return known[patches.patch_of(f)];
+    }
+
+    const ContactSurface<dim> &
+    master_surface() const
+    {
+      return master;
+    }
+
     /// Whether the point @p p is before a facet, no deeper behind it than its
     /// length, during the step. What follows may only be asked for if it is.
     bool

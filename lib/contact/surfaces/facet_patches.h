@@ -37,6 +37,12 @@ namespace Ricochet
       return facets[patch];
     }
 
+    unsigned int
+    patch_of(const unsigned int facet) const
+    {
+      return patch_of_facet[facet];
+    }
+
     /// Whether the cells behind it are this rank's.
     bool
     is_own(const unsigned int patch) const
