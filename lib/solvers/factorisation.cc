@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 extern "C"
 {
@@ -734,43 +735,57 @@ namespace Ricochet
         AssertThrow(epetra.Comm().NumProc() == 1,
                     ExcMessage("CHOLMOD works on one rank."));
         const int n = epetra.NumMyRows();
-        // Columns have an order of their own, even on one rank. Places are
-        // counted from one, since zero is no entry.
-        std::vector<Eigen::Triplet<long>> entries;
+        // Columns have an order of their own, even on one rank.
+        std::vector<int> unknown_of(epetra.NumMyCols());
+        for (unsigned int c = 0; c < unknown_of.size(); ++c)
+          unknown_of[c] =
+            epetra.LRID(static_cast<EpetraIndex>(epetra.GCID64(c)));
+
+        // What is on and below the diagonal, by columns. Rows rise in each of them, for
+        // they are gone through in their order.
+        symmetric.resize(n, n);
+        int *begin = symmetric.outerIndexPtr();
+        std::fill_n(begin, n + 1, 0);
         for (int i = 0; i < n; ++i)
           for (int k = row_start[i]; k < row_start[i + 1]; ++k)
-            entries.emplace_back(i,
-                                 epetra.LRID(static_cast<EpetraIndex>(
-                                   epetra.GCID64(columns[k]))),
-                                 k + 1);
-        Eigen::SparseMatrix<long> place(n, n);
-        place.setFromTriplets(entries.begin(), entries.end());
-        const Eigen::SparseMatrix<long> mirror = place.transpose();
-
-        std::vector<Eigen::Triplet<double>> pattern;
+            if (unknown_of[columns[k]] <= i)
+              ++begin[unknown_of[columns[k]] + 1];
+        std::partial_sum(begin, begin + n + 1, begin);
+        symmetric.resizeNonZeros(begin[n]);
+        places.resize(begin[n]);
         diagonal.resize(n);
+        std::vector<int> end(begin, begin + n);
+        for (int i = 0; i < n; ++i)
+          for (int k = row_start[i]; k < row_start[i + 1]; ++k)
+            if (const int j = unknown_of[columns[k]]; j <= i)
+              {
+                symmetric.innerIndexPtr()[end[j]] = i;
+                places[end[j]]                    = {i, j, k, -1};
+                ++end[j];
+                if (i == j)
+                  diagonal[i] = k;
+              }
+
+        // Their mirror images, above the diagonal.
+        std::vector<std::pair<int, int>> above;
         for (int j = 0; j < n; ++j)
           {
-            Eigen::SparseMatrix<long>::InnerIterator below(place, j);
-            Eigen::SparseMatrix<long>::InnerIterator above(mirror, j);
-            for (; below; ++below, ++above)
+            above.clear();
+            for (int k = row_start[j]; k < row_start[j + 1]; ++k)
+              if (unknown_of[columns[k]] >= j)
+                above.emplace_back(unknown_of[columns[k]], k);
+            std::sort(above.begin(), above.end());
+            bool is_symmetric =
+              static_cast<int>(above.size()) == begin[j + 1] - begin[j];
+            for (std::size_t a = 0; is_symmetric && a < above.size(); ++a)
               {
-                AssertThrow(above && above.row() == below.row(),
-                            ExcMessage("The pattern is not symmetric."));
-                const int i = below.row();
-                if (i < j)
-                  continue;
-                if (i == j)
-                  diagonal[i] = below.value() - 1;
-                pattern.emplace_back(i, j, 1.);
-                places.push_back({i,
-                                  j,
-                                  static_cast<int>(below.value() - 1),
-                                  static_cast<int>(above.value() - 1)});
+                Place &place = places[begin[j] + a];
+                is_symmetric = place.row == above[a].first;
+                place.above  = above[a].second;
               }
+            AssertThrow(is_symmetric,
+                        ExcMessage("The pattern is not symmetric."));
           }
-        symmetric.resize(n, n);
-        symmetric.setFromTriplets(pattern.begin(), pattern.end());
         sign.resize(n);
       }
 
