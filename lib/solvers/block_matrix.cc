@@ -575,7 +575,9 @@ namespace Ricochet
 
   template <typename Number>
   void
-  BlockMatrix<Number>::for_each_row(const RowAction &action) const
+  BlockMatrix<Number>::for_each_row(
+    const RowAction                 &action,
+    const std::vector<unsigned int> *numbers) const
   {
     // The blocks to the left of the diagonal, by row.
     const unsigned int       dim = places->dim, n = places->n_rows();
@@ -600,30 +602,32 @@ namespace Ricochet
 
     std::vector<unsigned int> columns;
     std::vector<double>       values;
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          columns.clear();
-          values.clear();
-          const auto take = [&](const Number      *block,
-                                const unsigned int j,
-                                const unsigned int step,
-                                const unsigned int begin) {
-            for (unsigned int d = 0; d < dim; ++d)
-              if (!isotropic || c == d)
-                {
-                  columns.push_back(j * dim + d);
-                  values.push_back(isotropic ? block[0]
-                                             : block[begin + d * step]);
-                }
-          };
-          for (std::size_t l = left_begin[i]; l < left_begin[i + 1]; ++l)
-            take(blocks.data() + left_place[l] * size, left_row[l], dim, c);
-          take(diagonal.data() + i * std::size_t(size), i, 1, c * dim);
-          for (std::size_t k = places->begin[i]; k < places->begin[i + 1]; ++k)
-            take(blocks.data() + k * size, places->column[k], 1, c * dim);
-          action(i * dim + c, columns, values);
-        }
+    const std::size_t         n_numbers = numbers ? numbers->size() : n * dim;
+    for (std::size_t number = 0; number < n_numbers; ++number)
+      {
+        const unsigned int row = numbers ? (*numbers)[number] : number;
+        const unsigned int i = row / dim, c = row % dim;
+        columns.clear();
+        values.clear();
+        const auto take = [&](const Number      *block,
+                              const unsigned int j,
+                              const unsigned int step,
+                              const unsigned int begin) {
+          for (unsigned int d = 0; d < dim; ++d)
+            if (!isotropic || c == d)
+              {
+                columns.push_back(j * dim + d);
+                values.push_back(isotropic ? block[0]
+                                           : block[begin + d * step]);
+              }
+        };
+        for (std::size_t l = left_begin[i]; l < left_begin[i + 1]; ++l)
+          take(blocks.data() + left_place[l] * size, left_row[l], dim, c);
+        take(diagonal.data() + i * std::size_t(size), i, 1, c * dim);
+        for (std::size_t k = places->begin[i]; k < places->begin[i + 1]; ++k)
+          take(blocks.data() + k * size, places->column[k], 1, c * dim);
+        action(row, columns, values);
+      }
   }
 
 

@@ -141,9 +141,11 @@ namespace Ricochet
                          const std::vector<unsigned int> &columns,
                          const std::vector<double>       &values)>;
 
-    /// Call @p action for all rows of this rank, the unknowns' one after the other.
+    /// Call @p action for all rows of this rank, the unknowns' one after the other; or
+    /// for some @p numbers of them, which rise.
     void
-    for_each_row(const RowAction &action) const;
+    for_each_row(const RowAction                 &action,
+                 const std::vector<unsigned int> *numbers = nullptr) const;
 
     bool
     is_isotropic() const

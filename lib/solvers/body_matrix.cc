@@ -67,18 +67,22 @@ namespace Ricochet
 
 
   void
-  BodyMatrix::for_each_row(const RowAction &action) const
+  BodyMatrix::for_each_row(const RowAction                 &action,
+                           const std::vector<unsigned int> *numbers) const
   {
     std::vector<types::global_dof_index> indices;
     if (by_entries)
       {
         const Epetra_CrsMatrix &epetra = by_entries->trilinos_matrix();
         std::vector<double>     values;
-        for (int r = 0; r < epetra.NumMyRows(); ++r)
+        const std::size_t       n_rows =
+          numbers ? numbers->size() : epetra.NumMyRows();
+        for (std::size_t k = 0; k < n_rows; ++k)
           {
-            int     n_entries = 0;
-            double *row       = nullptr;
-            int    *columns   = nullptr;
+            const unsigned int r         = numbers ? (*numbers)[k] : k;
+            int                n_entries = 0;
+            double            *row       = nullptr;
+            int               *columns   = nullptr;
             epetra.ExtractMyRowView(r, n_entries, row, columns);
             indices.clear();
             for (int e = 0; e < n_entries; ++e)
@@ -90,14 +94,16 @@ namespace Ricochet
       }
     const Utilities::MPI::Partitioner &partitioner =
       *by_blocks->pattern()->partitioner;
-    by_blocks->for_each_row([&](const unsigned int               r,
-                                const std::vector<unsigned int> &columns,
-                                const std::vector<double>       &values) {
-      indices.clear();
-      for (const unsigned int column : columns)
-        indices.push_back(partitioner.local_to_global(column));
-      action(r, indices, values);
-    });
+    by_blocks->for_each_row(
+      [&](const unsigned int               r,
+          const std::vector<unsigned int> &columns,
+          const std::vector<double>       &values) {
+        indices.clear();
+        for (const unsigned int column : columns)
+          indices.push_back(partitioner.local_to_global(column));
+        action(r, indices, values);
+      },
+      numbers);
   }
 
 

@@ -73,14 +73,16 @@ namespace Ricochet
     locally_owned_range_indices() const;
 
     /// Columns and values of the row with number @p row on this rank, by their
-    /// indices in the whole matrix. The rows come in their order.
+    /// indices in the whole matrix. The rows come in their order, all or those with some
+    /// @p numbers, which rise.
     using RowAction = std::function<
       void(const unsigned int                                  row,
            const std::vector<dealii::types::global_dof_index> &columns,
            const std::vector<double>                          &values)>;
 
     void
-    for_each_row(const RowAction &action) const;
+    for_each_row(const RowAction                 &action,
+                 const std::vector<unsigned int> *numbers = nullptr) const;
 
     /// Null if it is not stored so.
     const Matrix *

@@ -193,8 +193,11 @@ namespace Ricochet
       throw NewtonFailure(
         "The diagonal of the tangent matrix is not positive: multigrid cannot "
         "smooth with it.");
-    for (SingleVector *vector :
-         {&single_right_hand_side, &single_result, &single_residual})
+    for (SingleVector *vector : {&single_right_hand_side,
+                                 &single_result,
+                                 &single_residual,
+                                 &whole_right_hand_side,
+                                 &single_start})
       single.initialize_dof_vector(*vector);
     fine.reinit(inverse.locally_owned_elements(), tangent->communicator);
     try
@@ -245,6 +248,49 @@ namespace Ricochet
       return;
     single.set_contact(*tangent);
     initialize_smoother();
+    subspace.update(*tangent);
+  }
+
+
+
+  void
+  Multigrid::cycle() const
+  {
+    const unsigned int n    = single_residual.locally_owned_size();
+    double *const      work = fine.trilinos_vector()[0];
+    smoother.vmult(single_result, single_right_hand_side);
+    single.vmult(single_residual, single_result);
+    for (unsigned int i = 0; i < n; ++i)
+      work[i] = single_right_hand_side.local_element(i) -
+        single_residual.local_element(i);
+    space.prolongation.Tvmult(coarse_residual, fine);
+    aggregation->vmult(coarse_correction, coarse_residual);
+    space.prolongation.vmult(fine, coarse_correction);
+    // The coarse levels know the tangent as it is.
+    for (unsigned int i = 0; i < n; ++i)
+      single_result.local_element(i) +=
+        static_cast<float>(work[i] / single.factor());
+    smoother.step(single_result, single_right_hand_side);
+  }
+
+
+
+  void
+  Multigrid::solve_in_subspace(const SingleVector &right_hand_side,
+                               const bool          starts) const
+  {
+    subspace_values.assign(subspace.size(), 0.);
+    if (!starts)
+      single.vmult(single_residual, single_result);
+    for (const auto &[number, place] : subspace.own_unknowns())
+      subspace_values[place] = right_hand_side.local_element(number) -
+        (starts ? 0. : single_residual.local_element(number));
+    subspace.solve(subspace_values);
+    if (starts)
+      single_result = 0.F;
+    for (const auto &[number, place] : subspace.own_unknowns())
+      single_result.local_element(number) +=
+        static_cast<float>(subspace_values[place] / single.factor());
   }
 
 
@@ -267,24 +313,25 @@ namespace Ricochet
     const unsigned int  n    = single_residual.locally_owned_size();
     const double *const from = vector.trilinos_vector()[0];
     double *const       to   = result.trilinos_vector()[0];
-    double *const       work = fine.trilinos_vector()[0];
     for (unsigned int i = 0; i < n; ++i)
       single_right_hand_side.local_element(i) =
         static_cast<float>(from[i] / size);
 
-    smoother.vmult(single_result, single_right_hand_side);
-    single.vmult(single_residual, single_result);
-    for (unsigned int i = 0; i < n; ++i)
-      work[i] = single_right_hand_side.local_element(i) -
-        single_residual.local_element(i);
-    space.prolongation.Tvmult(coarse_residual, fine);
-    aggregation->vmult(coarse_correction, coarse_residual);
-    space.prolongation.vmult(fine, coarse_correction);
-    // The coarse levels know the tangent as it is.
-    for (unsigned int i = 0; i < n; ++i)
-      single_result.local_element(i) +=
-        static_cast<float>(work[i] / single.factor());
-    smoother.step(single_result, single_right_hand_side);
+    if (subspace.is_empty())
+      cycle();
+    else
+      {
+        // The cycle gets what is left by the subspace, which then has the last word: a
+        // symmetric preconditioner.
+        whole_right_hand_side = single_right_hand_side;
+        solve_in_subspace(whole_right_hand_side, true);
+        single_start = single_result;
+        single.vmult(single_residual, single_start);
+        single_right_hand_side -= single_residual;
+        cycle();
+        single_result += single_start;
+        solve_in_subspace(whole_right_hand_side, false);
+      }
     for (unsigned int i = 0; i < n; ++i)
       to[i] = single_result.local_element(i) * size * single.factor();
   }

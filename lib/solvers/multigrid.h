@@ -4,6 +4,7 @@
 
 #include <base/types.h>
 #include <solvers/coarse_space.h>
+#include <solvers/contact_subspace.h>
 #include <solvers/single_tangent.h>
 
 #include <deal.II/lac/diagonal_matrix.h>
@@ -27,6 +28,9 @@ namespace Ricochet
    * half of a symmetric matrix of blocks: a preconditioner need not be exact, and
    * what a cycle takes is the time to read the matrix. All around it, and the coarse
    * levels, are in double precision.
+   *
+   * Where contact is stiff there is a direct solution among its unknowns before and
+   * after a cycle (see ContactSubspace).
    */
   class Multigrid
   {
@@ -87,6 +91,16 @@ namespace Ricochet
 
     class CoarseProducts;
 
+    /// A cycle for #single_right_hand_side, in #single_result.
+    void
+    cycle() const;
+
+    /// Add to #single_result what makes the residual of @p right_hand_side zero in the
+    /// subspace of contact. @param starts nothing is in #single_result yet.
+    void
+    solve_in_subspace(const SingleVector &right_hand_side,
+                      const bool          starts) const;
+
     /// Chebyshev's polynomials for the tangent as it is now.
     /// @throws NewtonFailure where its diagonal is not positive.
     void
@@ -104,8 +118,12 @@ namespace Ricochet
     Matrix                                                     coarse_body;
     Matrix                                                     coarse;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> aggregation;
+    ContactSubspace                                            subspace;
     mutable SingleVector single_right_hand_side, single_result, single_residual;
-    mutable Vector       fine, coarse_residual, coarse_correction;
+    // With a subspace: all of the right hand side, and what is solved before the cycle.
+    mutable SingleVector        whole_right_hand_side, single_start;
+    mutable std::vector<double> subspace_values;
+    mutable Vector              fine, coarse_residual, coarse_correction;
   };
 } // namespace Ricochet
 

@@ -71,6 +71,12 @@ namespace Ricochet
       return clamped;
     }
 
+    const dealii::IndexSet &
+    owned_unknowns() const
+    {
+      return owned;
+    }
+
     /// @p result = T @p vector.
     void
     vmult(Vector &result, const Vector &vector) const;
