@@ -779,7 +779,7 @@ BOOST_AUTO_TEST_CASE(only_what_comes_near_is_known)
       const Vector          zero = body.make_vector();
       pair.begin_step({zero, zero, zero, 1e-3});
       unsigned int n_known = 0, n_before = 0;
-      for (unsigned int f = 0; f < bar.facets.size(); ++f)
+      for (unsigned int f = 0; f < pair.master_surface().facets.size(); ++f)
         n_known += pair.is_known(f);
       for (unsigned int p = 0; p < pair.points().size(); ++p)
         if (pair.is_before_facet(p) && pair.old_gap(p) < .1)
