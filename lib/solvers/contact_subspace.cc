@@ -141,16 +141,13 @@ namespace Ricochet
 
 
 
-  ContactSubspace::Entries
+  std::vector<ContactSubspace::Entry>
   ContactSubspace::own_entries(const TangentOperator &tangent) const
   {
-    Entries    entries;
+    std::vector<Entry> entries;
     const auto add = [&](const int row, const int column, const double value) {
-      if (row < 0 || column < 0)
-        return;
-      entries.rows.push_back(row);
-      entries.columns.push_back(column);
-      entries.values.push_back(value);
+      if (row >= 0 && column >= 0)
+        entries.push_back({row, column, value});
     };
     std::vector<unsigned int> numbers;
     for (const Own &unknown : own)
@@ -159,13 +156,13 @@ namespace Ricochet
       {
         std::size_t k = 0;
         term.matrix->for_each_row(
-          [&](const unsigned int         row,
-              const std::vector<Index>  &columns,
-              const std::vector<double> &values) {
-            while (own[k].number != row)
-              ++k;
+          [&]([[maybe_unused]] const unsigned int row,
+              const std::vector<Index>           &columns,
+              const std::vector<double>          &values) {
+            Assert(own[k].number == row, ExcInternalError());
+            const unsigned int place = own[k++].place;
             for (unsigned int c = 0; c < columns.size(); ++c)
-              add(own[k].place, place_of(columns[c]), term.weight * values[c]);
+              add(place, place_of(columns[c]), term.weight * values[c]);
           },
           &numbers);
       }
@@ -230,16 +227,13 @@ namespace Ricochet
              tangent.owned_unknowns().index_within_set(unknowns[place])),
            place});
 
-    const Entries entries = own_entries(tangent);
-    const auto    rows    = of_all_ranks(entries.rows, communicator);
-    const auto    columns = of_all_ranks(entries.columns, communicator);
-    const auto    values  = of_all_ranks(entries.values, communicator);
     // CHOLMOD reads the lower triangle.
     std::vector<Eigen::Triplet<double>> triplets;
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      triplets.emplace_back(std::max(rows[k], columns[k]),
-                            std::min(rows[k], columns[k]),
-                            rows[k] == columns[k] ? values[k] : .5 * values[k]);
+    for (const auto &[row, column, value] :
+         of_all_ranks(own_entries(tangent), communicator))
+      triplets.emplace_back(std::max(row, column),
+                            std::min(row, column),
+                            row == column ? value : .5 * value);
     Eigen::SparseMatrix<double> matrix(unknowns.size(), unknowns.size());
     matrix.setFromTriplets(triplets.begin(), triplets.end());
     factor = std::make_unique<Factor>();

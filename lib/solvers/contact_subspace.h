@@ -70,11 +70,11 @@ namespace Ricochet
     /// CHOLMOD's.
     struct Factor;
 
-    /// Entries of a matrix between places.
-    struct Entries
+    /// Of a matrix between places.
+    struct Entry
     {
-      std::vector<unsigned int> rows, columns;
-      std::vector<double>       values;
+      int    row, column;
+      double value;
     };
 
     /// Whether contact makes most of the diagonal somewhere.
@@ -86,7 +86,7 @@ namespace Ricochet
     unknowns_of_contact(const TangentOperator &tangent);
 
     /// What this rank has of the tangent.
-    Entries
+    std::vector<Entry>
     own_entries(const TangentOperator &tangent) const;
 
     int

@@ -289,9 +289,9 @@ BOOST_AUTO_TEST_CASE(multigrid_solves_with_assembled_tangents)
 }
 
 // Iterations do not grow with the body, nor with the stiffness of contact, which
-// is oblique here, and very stiff in the end: its unknowns are then solved for directly.
-// With more coarse unknowns than aggregation leaves alone, on any
-// number of ranks.
+// is oblique here, and in the last case so stiff that its unknowns are solved for
+// directly. There are more coarse unknowns than aggregation leaves alone, on any number
+// of ranks.
 BOOST_AUTO_TEST_CASE(multigrid_needs_few_iterations)
 {
   for (const double stiffness : fewer_in_debug<double>({1., 0., 100., 1e4}))
