@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <omp.h>
 #include <sstream>
 
 namespace Ricochet
@@ -315,7 +316,10 @@ namespace Ricochet
     int                                      mpi_argc = std::min(argc, 1);
     char                                   **mpi_argv = argv;
     dealii::Utilities::MPI::MPI_InitFinalize mpi(mpi_argc, mpi_argv, 1);
-    const bool                               is_root =
+    // CHOLMOD asks OpenMP for four whatever the environment says, which wait more than
+    // they work.
+    omp_set_max_active_levels(0);
+    const bool is_root =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
 
     // A stack trace in an assertion helps nobody who runs a finished program.

@@ -28,6 +28,22 @@ namespace Ricochet
                   to.trilinos_vector()[0]);
   }
 
+  /// The values of a rank, without ghost values, for expressions that go through them
+  /// once; operators of vectors make a pass, and a few checks, for each operation.
+  inline Eigen::Map<const Eigen::VectorXd>
+  entries(const Vector &vector)
+  {
+    return {vector.trilinos_vector()[0],
+            static_cast<Eigen::Index>(vector.locally_owned_size())};
+  }
+
+  inline Eigen::Map<Eigen::VectorXd>
+  entries(Vector &vector)
+  {
+    return {vector.trilinos_vector()[0],
+            static_cast<Eigen::Index>(vector.locally_owned_size())};
+  }
+
   /// The l2 norm of the first @p n values of each rank of @p vector, several of them at a
   /// time, which Epetra does not. Collective.
   inline double
@@ -45,6 +61,16 @@ namespace Ricochet
   l2_norm(const Vector &vector)
   {
     return l2_norm(vector, vector.locally_owned_size());
+  }
+
+  /// The product of two expressions of entries(), summed over all ranks. Collective.
+  template <typename Left, typename Right>
+  double
+  product(const Eigen::MatrixBase<Left>  &left,
+          const Eigen::MatrixBase<Right> &right,
+          const MPI_Comm                  communicator)
+  {
+    return dealii::Utilities::MPI::sum(left.dot(right), communicator);
   }
 } // namespace Ricochet
 

@@ -363,38 +363,30 @@ namespace Ricochet
 
   template <int dim>
   void
-  Body<dim>::make_sparsity_patterns() const
+  Body<dim>::make_sparsity_pattern(
+    const bool                         by_component,
+    TrilinosWrappers::SparsityPattern &result) const
   {
-    has_patterns = true;
     DynamicSparsityPattern all(owned.size(), owned.size(), relevant);
-    DynamicSparsityPattern by_component(owned.size(), owned.size(), relevant);
     std::vector<types::global_dof_index> cell_dofs(
       displacement_element->n_dofs_per_cell());
     std::vector<types::global_dof_index> multiplier_cell_dofs(
       multiplier_element->n_dofs_per_cell());
-    std::vector<types::global_dof_index>                  indices;
-    std::array<std::vector<types::global_dof_index>, dim> of_component;
+    // Of a cell, those that couple to each other.
+    std::vector<std::vector<types::global_dof_index>> groups(by_component ? dim
+                                                                          : 1);
 
     for (const auto &cell : displacement_dofs.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           cell->get_dof_indices(cell_dofs);
-          indices.clear();
-          for (auto &list : of_component)
-            list.clear();
+          for (auto &group : groups)
+            group.clear();
           for (unsigned int i = 0; i < cell_dofs.size(); ++i)
-            {
-              indices.push_back(system_index(cell_dofs[i]));
-              of_component[displacement_element->system_to_component_index(i)
-                             .first]
-                .push_back(indices.back());
-            }
-          for (auto &list : of_component)
-            {
-              std::sort(list.begin(), list.end());
-              for (const types::global_dof_index i : list)
-                by_component.add_entries(i, list.begin(), list.end(), true);
-            }
+            groups[by_component
+                     ? displacement_element->system_to_component_index(i).first
+                     : 0]
+              .push_back(system_index(cell_dofs[i]));
           if (has_multipliers())
             {
               multiplier_cell(cell)->get_dof_indices(multiplier_cell_dofs);
@@ -402,36 +394,35 @@ namespace Ricochet
                 {
                   const types::global_dof_index index =
                     multiplier_system_index(i);
-                  if (index != numbers::invalid_dof_index)
-                    {
-                      indices.push_back(index);
-                      by_component.add(index, index);
-                    }
+                  if (index == numbers::invalid_dof_index)
+                    continue;
+                  if (by_component)
+                    all.add(index, index);
+                  else
+                    groups[0].push_back(index);
                 }
             }
-          std::sort(indices.begin(), indices.end());
-          for (const types::global_dof_index i : indices)
-            all.add_entries(i, indices.begin(), indices.end(), true);
+          for (auto &group : groups)
+            {
+              std::sort(group.begin(), group.end());
+              for (const types::global_dof_index i : group)
+                all.add_entries(i, group.begin(), group.end(), true);
+            }
         }
     // Rows of other ranks go to their owners.
     SparsityTools::distribute_sparsity_pattern(all,
                                                owned,
                                                communicator,
                                                relevant);
-    SparsityTools::distribute_sparsity_pattern(by_component,
-                                               owned,
-                                               communicator,
-                                               relevant);
-    pattern.reinit(owned, all, communicator);
-    component_pattern.reinit(owned, by_component, communicator);
+    result.reinit(owned, all, communicator);
   }
 
   template <int dim>
   const TrilinosWrappers::SparsityPattern &
   Body<dim>::sparsity_pattern() const
   {
-    if (!has_patterns)
-      make_sparsity_patterns();
+    if (pattern.n_rows() == 0)
+      make_sparsity_pattern(false, pattern);
     return pattern;
   }
 
@@ -439,8 +430,8 @@ namespace Ricochet
   const TrilinosWrappers::SparsityPattern &
   Body<dim>::component_sparsity_pattern() const
   {
-    if (!has_patterns)
-      make_sparsity_patterns();
+    if (component_pattern.n_rows() == 0)
+      make_sparsity_pattern(true, component_pattern);
     return component_pattern;
   }
 

@@ -255,7 +255,9 @@ namespace Ricochet
     number_multipliers();
 
     void
-    make_sparsity_patterns() const;
+    make_sparsity_pattern(
+      const bool                                 by_component,
+      dealii::TrilinosWrappers::SparsityPattern &result) const;
 
     std::unique_ptr<dealii::FESystem<dim>>       displacement_element;
     std::unique_ptr<dealii::FESystem<dim>>       multiplier_element;
@@ -277,7 +279,6 @@ namespace Ricochet
 
     dealii::IndexSet owned, relevant, clamped, contact_displacements,
       owned_multipliers;
-    mutable bool                                      has_patterns = false;
     mutable dealii::TrilinosWrappers::SparsityPattern pattern,
       component_pattern;
     mutable std::shared_ptr<const BlockPattern> blocks;

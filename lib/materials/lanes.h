@@ -12,7 +12,7 @@ namespace Ricochet
   /**
    * A number in several points at once, in the lanes of one of the processor's
    * registers. deal.II's VectorizedArray has as many lanes as deal.II was built for,
-   * which for packages of it is one; two are everywhere.
+   * which for packages of it is one; we have as many as Ricochet was built for.
    */
   class Lanes
   {

@@ -19,7 +19,7 @@ namespace Ricochet
 
   namespace
   {
-    const std::string magic     = "Ricochet checkpoint, format 9\n";
+    const std::string magic     = "Ricochet checkpoint, format 10\n";
     const std::string file_name = "checkpoint.bin";
 
     /// The vectors of a state, in the order in which they are stored.
@@ -35,6 +35,8 @@ namespace Ricochet
       visit(state.scheme_force);
       for (auto &share : state.contact_shares)
         visit(share);
+      if (state.tangent.exists())
+        visit(state.tangent.solution);
     }
 
     /// What is in the file, apart from magic, size and checksum.
@@ -46,6 +48,7 @@ namespace Ricochet
       std::vector<double> sums;
       unsigned int        n_rows   = 0;
       std::uint32_t       checksum = 0;
+      KeptTangent::Record tangent;
       /// The vectors, in the canonical order of the unknowns.
       std::vector<std::vector<double>> values;
 
@@ -53,7 +56,8 @@ namespace Ricochet
       void
       serialize(Archive &archive, const unsigned int /*version*/)
       {
-        archive &parameters &step &time &sums &n_rows &checksum &values;
+        archive &parameters &step &time &sums &n_rows &checksum &tangent
+          &values;
       }
     };
 
@@ -71,6 +75,7 @@ namespace Ricochet
                     sums,
                     ledger.n_rows,
                     ledger.checksum,
+                    state.tangent.record,
                     {}};
     const auto positions_of_rank =
       Utilities::MPI::gather(folder.communicator, positions);
@@ -160,11 +165,12 @@ namespace Ricochet
       }
 
     Checkpoint checkpoint;
-    checkpoint.step               = payload.step;
-    checkpoint.sums               = payload.sums;
-    checkpoint.ledger             = {payload.n_rows, payload.checksum};
-    checkpoint.state.time         = payload.time;
-    unsigned int n_without_shares = 0;
+    checkpoint.step                 = payload.step;
+    checkpoint.sums                 = payload.sums;
+    checkpoint.ledger               = {payload.n_rows, payload.checksum};
+    checkpoint.state.time           = payload.time;
+    checkpoint.state.tangent.record = payload.tangent;
+    unsigned int n_without_shares   = 0;
     for_each_vector(checkpoint.state, [&](Vector &) { ++n_without_shares; });
     checkpoint.state.contact_shares.resize(payload.values.size() -
                                            n_without_shares);

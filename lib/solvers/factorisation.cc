@@ -171,12 +171,15 @@ namespace Ricochet
         one_sided.clear();
         double *entry        = symmetric.valuePtr();
         bool    is_symmetric = true;
+        couples_signs        = false;
         for (std::size_t k = 0; k < places.size(); ++k)
           {
             const Place &place = places[k];
             const double below = sign[place.row] * values[place.below];
             const double above = sign[place.column] * values[place.above];
             entry[k]           = .5 * (below + above);
+            couples_signs |= sign[place.row] != sign[place.column] &&
+              (below != 0. || above != 0.);
             // Round-off is no asymmetry.
             if (std::abs(below - above) <= 1e-10 *
                   std::sqrt(std::abs(values[diagonal[place.row]] *
@@ -205,7 +208,7 @@ namespace Ricochet
         // Bodies that do not change are factored once and solved with often, best by
         // dense blocks; of others, the factor has to be at hand column by column.
         if (!is_analysed)
-          analyse(!approximate && sign.minCoeff() > 0.);
+          analyse(!approximate);
         cholesky.factorize(symmetric);
         if (cholesky.info() != Eigen::Success && prefers_blocks)
           {
@@ -241,8 +244,7 @@ namespace Ricochet
       bool
       has_halves() const override
       {
-        return !supernode_of.empty() && one_sided.empty() &&
-          sign.minCoeff() > 0.;
+        return !supernode_of.empty() && one_sided.empty() && !couples_signs;
       }
 
       void
@@ -256,7 +258,7 @@ namespace Ricochet
         for (int i = 0; i < n; ++i)
           if (values[i] != 0.)
             {
-              half[place_in_factor[i]]                    = values[i];
+              half[place_in_factor[i]]                    = sign[i] * values[i];
               is_needed[supernode_of[place_in_factor[i]]] = true;
             }
         const double minus_one = -1., zero = 0.;
@@ -396,6 +398,19 @@ namespace Ricochet
         products.assign(static_cast<std::size_t>(left.n_columns) *
                           right.n_columns,
                         0.);
+        const std::vector<double> *right_values = &right.values;
+        std::vector<double>        signed_values;
+        if (!negative.empty())
+          {
+            signed_values = right.values;
+            right_values  = &signed_values;
+            change_signs(right, [&](const int row) {
+              double *values =
+                &signed_values[static_cast<std::size_t>(row) * right.n_columns];
+              for (int c = 0; c < right.n_columns; ++c)
+                values[c] = -values[c];
+            });
+          }
         const double      one     = 1.;
         const std::size_t n_left  = left.region.size(),
                           n_right = right.region.size();
@@ -415,8 +430,10 @@ namespace Ricochet
                 ++r;
               }
             const int  n_rows = left.first_row[l] - left.first_row[first_l];
-            const auto row = [](const HalfColumns &half, const std::size_t k) {
-              return half.values.data() +
+            const auto row    = [](const HalfColumns         &half,
+                                const std::vector<double> &values,
+                                const std::size_t          k) {
+              return values.data() +
                 static_cast<std::size_t>(half.first_row[k]) * half.n_columns;
             };
             dgemm_("N",
@@ -425,9 +442,9 @@ namespace Ricochet
                    &right.n_columns,
                    &n_rows,
                    &one,
-                   row(left, first_l),
+                   row(left, left.values, first_l),
                    &left.n_columns,
-                   row(right, first_r),
+                   row(right, *right_values, first_r),
                    &right.n_columns,
                    &one,
                    products.data(),
@@ -458,6 +475,8 @@ namespace Ricochet
       {
         seen_half.resize(columns.first_row.back());
         multiply_by("T", columns, coefficients, seen_half.data());
+        change_signs(columns,
+                     [&](const int row) { seen_half[row] = -seen_half[row]; });
         for_each_node(columns,
                       [&](const int n, const int first, const int row) {
                         for (int i = 0; i < n; ++i)
@@ -593,8 +612,13 @@ namespace Ricochet
           return;
         const auto *order = static_cast<const int *>(factor->Perm);
         place_in_factor.resize(factor->n);
+        negative.clear();
         for (unsigned int k = 0; k < factor->n; ++k)
-          place_in_factor[order[k]] = k;
+          {
+            place_in_factor[order[k]] = k;
+            if (sign[order[k]] < 0.)
+              negative.push_back(k);
+          }
         const auto *first       = static_cast<const int *>(factor->super);
         const auto *first_row   = static_cast<const int *>(factor->pi);
         const auto *first_value = static_cast<const int *>(factor->px);
@@ -647,6 +671,24 @@ namespace Ricochet
             const Supernode &node = supernodes[columns.region[k]];
             action(node.n_columns, node.first_column, columns.first_row[k]);
           }
+      }
+
+      /// Call @p action(row) for the rows of the columns of which the sign is negative.
+      template <typename Action>
+      void
+      change_signs(const HalfColumns &columns, const Action &action) const
+      {
+        if (negative.empty())
+          return;
+        for_each_node(columns,
+                      [&](const int n, const int first, const int row) {
+                        for (auto place = std::lower_bound(negative.begin(),
+                                                           negative.end(),
+                                                           first);
+                             place != negative.end() && *place < first + n;
+                             ++place)
+                          action(row + *place - first);
+                      });
       }
 
       /// @p result = the columns' values times @p vector; as they are stored, with rows
@@ -827,13 +869,17 @@ namespace Ricochet
       std::vector<int>            diagonal;
       std::vector<Coupling>       one_sided;
       Eigen::VectorXd             sign;
-      Eigen::MatrixXd             right, result;
-      Cholesky                    cholesky;
-      bool                        is_analysed = false, prefers_blocks = false;
+      // Whether an entry is between unknowns of both signs.
+      bool            couples_signs = false;
+      Eigen::MatrixXd right, result;
+      Cholesky        cholesky;
+      bool            is_analysed = false, prefers_blocks = false;
       std::unique_ptr<TriangularFactor> triangles;
       // Of a supernodal factor; by its order of the unknowns.
-      std::vector<Supernode>      supernodes;
-      std::vector<int>            supernode_of, place_in_factor;
+      std::vector<Supernode> supernodes;
+      std::vector<int>       supernode_of, place_in_factor;
+      // Places of unknowns whose sign is.
+      std::vector<int>            negative;
       std::vector<double>         below;
       mutable std::vector<double> seen_half;
     };

@@ -46,9 +46,10 @@ namespace Ricochet
           std::vector<Vector>       &solutions);
 
     /// Whether the functions below can be used since the last factorise(): with
-    /// matrix = L L^T (but for the order of the unknowns), a solution is the way
-    /// forwards through L and the one backwards through L^T, and where little is on the
-    /// right hand side, a part of L will do for the first.
+    /// matrix = D L L^T (but for the order of the unknowns), D = -1 for multipliers with
+    /// a negative matrix of their own and 1 for all else, a solution is the way forwards
+    /// through D L and the one backwards through L^T, and where little is on the right
+    /// hand side, a part of L will do for the first.
     virtual bool
     has_halves() const
     {
@@ -64,13 +65,13 @@ namespace Ricochet
       return nullptr;
     }
 
-    /// @p half = L^{-1} @p right_hand_side, in an order of its own.
+    /// @p half = L^{-1} D @p right_hand_side, in an order of its own.
     virtual void
     go_forwards(const Vector & /*right_hand_side*/,
                 std::vector<double> & /*half*/)
     {}
 
-    /// The same for several right hand sides, where they are not zero.
+    /// L^{-1} times several right hand sides, where it is not zero.
     struct HalfColumns
     {
       /// The part of L with all that is not zero.
@@ -89,8 +90,8 @@ namespace Ricochet
       return {};
     }
 
-    /// Inner products of the columns of @p left and @p right, which are entries of
-    /// the inverse as seen by their right hand sides: by columns.
+    /// Inner products of the columns of @p left and @p right, weighted by D, which are
+    /// entries of the inverse as seen by their right hand sides: by columns.
     virtual void
     multiply(const HalfColumns & /*left*/,
              const HalfColumns & /*right*/,
@@ -105,7 +106,8 @@ namespace Ricochet
             double * /*values*/) const
     {}
 
-    /// Subtract the @p columns with their @p coefficients from a @p half solution.
+    /// Subtract D times the @p columns with their @p coefficients from a @p half
+    /// solution.
     virtual void
     subtract(const HalfColumns & /*columns*/,
              const double * /*coefficients*/,

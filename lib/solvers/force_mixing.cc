@@ -27,13 +27,13 @@ namespace Ricochet
     // So many entries at once stay near while all columns pass.
     constexpr std::size_t stretch = 2048;
 
-    // Four at once, wherever they lie.
-    using Quad __attribute__((vector_size(16), aligned(4), may_alias)) = float;
+    // Eight at once, wherever they lie.
+    using Octet __attribute__((vector_size(32), aligned(4), may_alias)) = float;
 
-    Quad
-    quad(const float *values)
+    inline Octet
+    octet(const float *values)
     {
-      return *reinterpret_cast<const Quad *>(values);
+      return *reinterpret_cast<const Octet *>(values);
     }
 
     double
@@ -61,12 +61,12 @@ namespace Ricochet
           column[c] = columns[k + c].data() + begin;
         const std::size_t n = end - begin;
         std::size_t       i = 0;
-        for (; i + 4 <= n; i += 4)
+        for (; i + 8 <= n; i += 8)
           {
-            Quad value = quad(sum + i);
+            Octet value = octet(sum + i);
             for (unsigned int c = 0; c < n_at_once; ++c)
-              value += factors[k + c] * quad(column[c] + i);
-            *reinterpret_cast<Quad *>(sum + i) = value;
+              value += factors[k + c] * octet(column[c] + i);
+            *reinterpret_cast<Octet *>(sum + i) = value;
           }
         for (; i < n; ++i)
           for (unsigned int c = 0; c < n_at_once; ++c)
@@ -83,13 +83,14 @@ namespace Ricochet
     product(const float *a, const float *b, const std::size_t n)
     {
       // Several sums do not wait for each other.
-      Quad        sums[4] = {};
+      Octet       sums[4] = {};
       std::size_t i       = 0;
-      for (; i + 16 <= n; i += 16)
+      for (; i + 32 <= n; i += 32)
         for (unsigned int s = 0; s < 4; ++s)
-          sums[s] += quad(a + i + 4 * s) * quad(b + i + 4 * s);
-      const Quad sum    = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-      float      result = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+          sums[s] += octet(a + i + 8 * s) * octet(b + i + 8 * s);
+      const Octet sum    = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+      float       result = ((sum[0] + sum[1]) + (sum[2] + sum[3])) +
+        ((sum[4] + sum[5]) + (sum[6] + sum[7]));
       for (; i < n; ++i)
         result += a[i] * b[i];
       return result;

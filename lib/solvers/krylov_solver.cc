@@ -13,10 +13,9 @@ namespace Ricochet
   using namespace dealii;
 
   void
-  KrylovSolver::begin_stage()
+  KrylovSolver::forget_condensed()
   {
-    TangentSolver::begin_stage();
-    body_is_of_this_stage = false;
+    has_condensed = false;
   }
 
 
@@ -24,8 +23,8 @@ namespace Ricochet
   CondensedSystem &
   KrylovSolver::condensed(const Tangent &tangent)
   {
-    const bool is_new     = !body_is_of_this_stage;
-    body_is_of_this_stage = false;
+    const bool is_new = !has_condensed;
+    has_condensed     = false;
     if (!body)
       {
         if (!nearby)
@@ -34,7 +33,7 @@ namespace Ricochet
                                                 spent);
         if (!is_new || nearby->factorise(tangent))
           {
-            body_is_of_this_stage = true;
+            has_condensed = true;
             return *nearby;
           }
         nearby.reset();
@@ -59,7 +58,7 @@ namespace Ricochet
         if (!body->factorise())
           throw NewtonFailure("The tangent of the body cannot be factored.");
       }
-    body_is_of_this_stage = true;
+    has_condensed = true;
     return *body;
   }
 

@@ -25,7 +25,7 @@ namespace Ricochet
     {}
 
     void
-    begin_stage() override;
+    forget_condensed() override;
 
     /// Not those in which contact couples what the body does not: these it condenses
     /// only.
@@ -50,8 +50,8 @@ namespace Ricochet
       return contact.functionals.has_value();
     }
 
-    /// The symmetric part of the first tangent of a stage: not that of @p tangent, but
-    /// near it.
+    /// The symmetric part of the first tangent since forget_condensed(): not that of @p
+    /// tangent, but near it.
     /// @throws NewtonFailure when it cannot be factored.
     CondensedSystem &
     condensed(const Tangent &tangent) override;
@@ -63,7 +63,7 @@ namespace Ricochet
     // For condensed systems.
     std::unique_ptr<NearbyBody>             nearby;
     std::unique_ptr<CorrectedFactorisation> body;
-    bool                                    body_is_of_this_stage = false;
+    bool                                    has_condensed = false;
   };
 } // namespace Ricochet
 

@@ -170,8 +170,10 @@ namespace Ricochet
       "linear in the plane, with Type = automatic, above 1000 unknowns), where all "
       "contacts are of these kinds: Newton's method looks at these alone. A linear "
       "body is solved for twice in each stage of a time step, instead of twice in each "
-      "iteration; for one that is not linear, the tangent at the last state serves in all iterations of a step, which are more "
-      "and much cheaper, and Newton's method takes over where they are too slow. "
+      "iteration; for one that is not linear, the tangent at the last state, or with the "
+      "midpoint scheme and no multipliers that of a few steps before, serves in all "
+      "iterations of a step, which are more and much cheaper, and Newton's method takes "
+      "over where they are too slow. "
       "Results are the same to the tolerance of Newton's method.");
     parameters.leave_subsection();
   }
@@ -186,7 +188,8 @@ namespace Ricochet
     const std::string name = factorisations.name(type == "corrected");
     if (condenses_only)
       return factorisations.name(true) +
-        ", kept for a step and condensed to contact; where that fails, " + name;
+        ", kept for some steps and condensed to contact; where that fails, " +
+        name;
     if (type == "direct")
       return name + " for each state of contact";
     return name +
@@ -229,6 +232,14 @@ namespace Ricochet
   LinearSolver::condensed(const Tangent &tangent)
   {
     return way_to_condense().condensed(tangent);
+  }
+
+
+
+  void
+  LinearSolver::forget_condensed()
+  {
+    way_to_condense().forget_condensed();
   }
 
 

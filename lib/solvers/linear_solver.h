@@ -29,8 +29,8 @@ namespace Ricochet
    * pivots, and GMRES does the rest.
    *
    * Bodies that are not linear, before each other on one rank, are condensed to
-   * contact, with one factorisation of the bodies a step; "direct" takes over where that
-   * fails.
+   * contact, with a factorisation of the bodies that serves for as many steps as it is
+   * worth it; "direct" takes over where that fails.
    *
    * "multigrid" solves each system iteratively, for bodies in three dimensions
    * whose factorisation takes too long or too much memory.
@@ -108,11 +108,16 @@ namespace Ricochet
 
     /// The matrix of the linear body of @p tangent condensed to the functionals
     /// through which contact acts, which serves until the next solve(); of a body that
-    /// is not linear, the symmetric part of the first tangent since begin_stage().
-    /// @pre condenses()
+    /// is not linear, the symmetric part of the first tangent since
+    /// forget_condensed(). @pre condenses()
     /// @throws NewtonFailure when the body's matrix cannot be factored.
     CondensedSystem &
     condensed(const Tangent &tangent);
+
+    /// The next condensed() system of a body that is not linear is that of its own
+    /// tangent.
+    void
+    forget_condensed();
 
     /// Between two calls pivots are kept, which is faster; after one, results do
     /// not depend on what came before, so that a resumed run repeats them digit

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <solvers/positive_system.h>
 
+#include <deal.II/lac/lapack_templates.h>
+
 namespace Ricochet
 {
   using namespace dealii;
@@ -11,7 +13,7 @@ namespace Ricochet
                       const std::vector<std::vector<double>> &columns,
                       const bool                              may_update)
   {
-    if (may_update && base && update(places, diagonal, columns))
+    if (may_update && is_factored && update(places, diagonal, columns))
       return true;
     return factorise(places, diagonal, columns);
   }
@@ -27,26 +29,26 @@ namespace Ricochet
     rest.reset();
     base_places   = places;
     base_diagonal = diagonal;
-    base.emplace(n, n);
+    base.reinit(n, n);
     // LAPACK reads the lower triangle.
     for (unsigned int j = 0; j < n; ++j)
       {
         const std::vector<double> &column = columns[places[j]];
         for (unsigned int i = j; i < n; ++i)
-          (*base)(i, j) = column[places[i]];
-        (*base)(j, j) += diagonal[j];
+          base(i, j) = column[places[i]];
+        base(j, j) += diagonal[j];
       }
-    base->set_property(LAPACKSupport::symmetric);
+    base.set_property(LAPACKSupport::symmetric);
+    is_factored = true;
     try
       {
-        base->compute_cholesky_factorization();
+        base.compute_cholesky_factorization();
       }
     catch (const LACExceptions::ExcSingular &)
       {
-        base.reset();
-        return false;
+        is_factored = false;
       }
-    return true;
+    return is_factored;
   }
 
 
@@ -96,10 +98,9 @@ namespace Ricochet
         border(i, k) = columns[joined[k]][base_places[i]];
     for (unsigned int k = 0; k < left.size(); ++k)
       border(left[k], n_joined + k) = 1.;
-    solved_border = border;
-    base->solve(solved_border);
+    solve_half("N", &border(0, 0), n_rest);
     rest.emplace(n_rest, n_rest);
-    border.Tmmult(*rest, solved_border);
+    border.Tmmult(*rest, border);
     *rest *= -1.;
     for (unsigned int k = 0; k < n_joined; ++k)
       {
@@ -121,11 +122,33 @@ namespace Ricochet
 
 
   void
+  PositiveSystem::solve_half(const char *transpose,
+                             double     *columns,
+                             const int   n_columns) const
+  {
+    const int n = base_places.size();
+    int       info;
+    trtrs("L",
+          transpose,
+          "N",
+          &n,
+          &n_columns,
+          &base(0, 0),
+          &n,
+          columns,
+          &n,
+          &info);
+    AssertThrow(info == 0, ExcInternalError());
+  }
+
+
+
+  void
   PositiveSystem::solve(dealii::Vector<double> &vector) const
   {
     if (!rest)
       {
-        base->solve(vector);
+        base.solve(vector);
         return;
       }
     dealii::Vector<double> inner(base_places.size()),
@@ -135,13 +158,14 @@ namespace Ricochet
         inner[place_in_base[i]] = vector[i];
       else
         outer[k++] = vector[i];
-    base->solve(inner);
+    solve_half("N", inner.begin(), 1);
     border.Tvmult(seen, inner);
     outer -= seen;
     rest->solve(outer);
     dealii::Vector<double> back(inner.size());
-    solved_border.vmult(back, outer);
+    border.vmult(back, outer);
     inner -= back;
+    solve_half("T", inner.begin(), 1);
     for (unsigned int i = 0, k = 0; i < place_in_base.size(); ++i)
       vector[i] = place_in_base[i] >= 0 ? inner[place_in_base[i]] : outer[k++];
   }

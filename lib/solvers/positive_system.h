@@ -63,19 +63,27 @@ namespace Ricochet
            const std::vector<double>              &diagonal,
            const std::vector<std::vector<double>> &columns);
 
+    /// Overwrite @p n_columns with L^{-1}, or its transposed, times them.
+    void
+    solve_half(const char *transpose,
+               double     *columns,
+               const int   n_columns) const;
+
     // The set that is factored.
-    std::vector<unsigned int>  base_places;
-    std::vector<double>        base_diagonal;
-    std::optional<DenseMatrix> base;
+    std::vector<unsigned int> base_places;
+    std::vector<double>       base_diagonal;
+    // It keeps its memory.
+    DenseMatrix base;
+    bool        is_factored = false;
 
     // Another one: where its places are in the factored set (-1: they joined), and
     // what is beside it: those that joined, then those that left, by their place in
     // the factored set.
     std::vector<int>          place_in_base;
     std::vector<unsigned int> joined, left;
-    // What couples to the factored set, what the factored set makes of it, and the
-    // matrix of the rest.
-    DenseMatrix                border, solved_border;
+    // With the factored set L L^T: L^{-1} times what couples to it, and the matrix of
+    // the rest.
+    DenseMatrix                border;
     std::optional<DenseMatrix> rest;
   };
 } // namespace Ricochet

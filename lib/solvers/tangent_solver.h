@@ -56,6 +56,11 @@ namespace Ricochet
       AssertThrow(false, dealii::ExcMessage("It condenses nothing."));
     }
 
+    /// See LinearSolver::forget_condensed().
+    virtual void
+    forget_condensed()
+    {}
+
     /// See LinearSolver::begin_stage().
     virtual void
     begin_stage()

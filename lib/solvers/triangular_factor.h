@@ -13,8 +13,9 @@ namespace Ricochet
    * precision: those of a matrix that differs from A by as much. For that one, all is
    * done in double precision.
    *
-   * Columns of L with the same rows below them make blocks. The rows below are stored
-   * in pairs of rows that follow each other, as those of a node do.
+   * Columns of L with the same rows below them, or nearly so, make blocks, with zeros
+   * where a column has nothing. The rows below are stored in pairs of rows that follow
+   * each other, as those of a node do.
    */
   class TriangularFactor
   {
@@ -136,6 +137,10 @@ namespace Ricochet
     Half
     go_forwards(const std::vector<Start> &start) const;
 
+    /// The first column and the end of each block.
+    static std::vector<std::array<int, 2>>
+    find_blocks(const Columns &columns);
+
     /// Take @p block out of @p half.
     void
     eliminate(const Block &block, double *half) const;
@@ -159,8 +164,6 @@ namespace Ricochet
     std::vector<double> inverse_diagonal;
     // Work space: zero between calls.
     mutable std::vector<double> dense;
-    // Two sums for each unknown of a block.
-    mutable std::vector<double> sums;
     mutable std::vector<char>   is_needed;
   };
 } // namespace Ricochet

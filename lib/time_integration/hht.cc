@@ -78,25 +78,32 @@ namespace Ricochet
     new_state.scheme_force.sadd(1. - alpha, alpha, old_force);
 
     // (mean scheme force - mean force) . (u_new - u_old)
-    copy_values(new_state.scheme_force, work);
-    work += old_state.scheme_force;
-    work -= new_force;
-    work -= old_force;
-    work *= .5;
-    copy_values(new_state.solution, increment);
-    increment -= old_state.solution;
-    double dissipation = work * increment;
+    const MPI_Comm communicator = new_state.solution.get_mpi_communicator();
+    const auto     increment =
+      entries(new_state.solution) - entries(old_state.solution);
+    double dissipation = .5 *
+      product(entries(new_state.scheme_force) +
+                entries(old_state.scheme_force) - entries(new_force) -
+                entries(old_force),
+              increment,
+              communicator);
 
-    copy_values(new_state.acceleration, work);
-    work -= old_state.acceleration;
-    mass_times_jump.reinit(work, true);
-    system.mass_matrix().vmult(mass_times_jump, work);
-    dissipation -= (gamma - .5) * (mass_times_jump * increment);
+    // Nothing for the trapezoidal rule.
+    const double of_increment = gamma - .5, of_jump = beta - .5 * gamma;
+    if (of_increment != 0. || of_jump != 0.)
+      {
+        copy_values(new_state.acceleration, work);
+        work -= old_state.acceleration;
+        mass_times_jump.reinit(work, true);
+        system.mass_matrix().vmult(mass_times_jump, work);
+        dissipation -= of_increment *
+          product(entries(mass_times_jump), increment, communicator);
 
-    // dt^2 (beta - gamma/2) (mean + (gamma - 1/2) jump) . M jump
-    work.sadd(gamma - .5, .5, new_state.acceleration);
-    work.add(.5, old_state.acceleration);
-    dissipation += dt * dt * (beta - .5 * gamma) * (mass_times_jump * work);
+        // dt^2 (beta - gamma/2) (mean + (gamma - 1/2) jump) . M jump
+        work.sadd(of_increment, .5, new_state.acceleration);
+        work.add(.5, old_state.acceleration);
+        dissipation += dt * dt * of_jump * (mass_times_jump * work);
+      }
 
     report.numerical_dissipation = dissipation;
     add_trapezoidal_works(system, old_state, new_state, report);
@@ -113,11 +120,17 @@ namespace Ricochet
                         const State              &new_state,
                         StepReport               &report)
   {
-    Vector increment(new_state.solution);
-    increment -= old_state.solution;
-    Vector mean(new_state.contact_force);
-    mean += old_state.contact_force;
-    report.contact_work += .5 * (mean * increment);
+    const MPI_Comm communicator = new_state.solution.get_mpi_communicator();
+    const auto     increment =
+      entries(new_state.solution) - entries(old_state.solution);
+    report.contact_work += .5 *
+      product(entries(new_state.contact_force) +
+                entries(old_state.contact_force),
+              increment,
+              communicator);
+    Vector old_part, new_part;
+    old_part.reinit(new_state.solution, true);
+    new_part.reinit(new_state.solution, true);
 
     // The dissipation formulas of the schemes take the trapezoidal rule for the
     // bulk force too. Of a linear body that is the difference of stored
@@ -125,19 +138,19 @@ namespace Ricochet
     // rest.
     if (!system.bulk.is_linear())
       {
-        Vector bulk_force(new_state.solution);
-        system.bulk.force(old_state.solution, mean);
-        system.bulk.force(new_state.solution, bulk_force);
-        mean += bulk_force;
-        report.numerical_dissipation += .5 * (mean * increment) -
+        system.bulk.force(old_state.solution, old_part);
+        system.bulk.force(new_state.solution, new_part);
+        report.numerical_dissipation += .5 *
+            product(entries(old_part) + entries(new_part),
+                    increment,
+                    communicator) -
           (system.bulk.energy(new_state.solution) -
            system.bulk.energy(old_state.solution));
       }
 
-    Vector new_load(new_state.solution);
-    system.external_load(old_state.time, mean);
-    system.external_load(new_state.time, new_load);
-    mean += new_load;
-    report.external_work += .5 * (mean * increment);
+    system.external_load(old_state.time, old_part);
+    system.external_load(new_state.time, new_part);
+    report.external_work += .5 *
+      product(entries(old_part) + entries(new_part), increment, communicator);
   }
 } // namespace Ricochet

@@ -30,7 +30,7 @@ namespace Ricochet
     const double alpha, beta, gamma;
     Stage        stage;
     // Work space.
-    Vector old_force, new_force, load, mass_times_jump, increment, work;
+    Vector old_force, new_force, load, mass_times_jump, work;
   };
 
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <time_integration/quasi_newton.h>
 #include <time_integration/stage_problem.h>
 
@@ -50,13 +51,10 @@ namespace Ricochet
           return false;
 
         // Residuals are compared as forces, whatever the equations of multipliers are.
-        residual.scale(problem.row_scaling());
+        problem.rows_to_forces(residual);
         mixing.next(residual, step);
-        step.trilinos_vector().ReciprocalMultiply(
-          -1.,
-          problem.row_scaling().trilinos_vector(),
-          step.trilinos_vector(),
-          0.);
+        entries(step) *= -1.;
+        problem.forces_to_rows(step);
         problem.add_iterations(1);
         CondensedStage condensed = problem.condensed(newton_problem, step);
         condensed.solve(condensed_newton, solution);

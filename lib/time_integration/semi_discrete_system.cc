@@ -66,6 +66,7 @@ namespace Ricochet
     contact_shares.resize(other.contact_shares.size());
     for (unsigned int k = 0; k < contact_shares.size(); ++k)
       copy_values(other.contact_shares[k], contact_shares[k]);
+    tangent = other.tangent;
     return *this;
   }
 
@@ -239,36 +240,74 @@ namespace Ricochet
     return newton.solves(newton_problem, solution);
   }
 
+  void
+  SemiDiscreteSystem::condense_body(StageProblem &problem,
+                                    const Stage  &stage,
+                                    const Vector &old_solution,
+                                    KeptTangent  &kept)
+  {
+    if (!kept.serves(stage.time_step))
+      kept.begin(stage.end_time, stage.time_step, old_solution);
+    else if (tangent_at_hand.is_same(kept))
+      return;
+    copy_values(kept.solution, work);
+    if (unknowns.impose)
+      unknowns.impose(kept.record.end_time, work);
+    tangent_at_hand.forget();
+    problem.condense_at(kept.record.end_time, kept.solution, work);
+    tangent_at_hand = kept;
+  }
+
   bool
   SemiDiscreteSystem::solve_near_last_state(
     StageProblem                &problem,
     const NewtonSolver::Problem &newton_problem,
-    Vector                      &solution)
+    const Stage                 &stage,
+    const ContactStart          &start,
+    State                       &new_state)
   {
-    // Contact may have thrown the body far from free flight, and its tangent there may
-    // be one of elements nearly flat; the last state is a body that exists.
-    residual       = solution;
-    solution       = safe_guess;
-    bool is_solved = false;
-    try
+    Vector      &solution = new_state.solution;
+    KeptTangent &kept     = new_state.tangent;
+    residual              = solution;
+    for (;;)
       {
-        is_solved = quasi_newton.solve(problem,
-                                       newton_problem,
-                                       condensed_newton,
-                                       solution);
+        // Contact may have thrown the body far from free flight, and its tangent there
+        // may be one of elements nearly flat; the last state is a body that exists.
+        solution       = safe_guess;
+        bool is_solved = false, is_old = false;
+        try
+          {
+            if (!body_is_condensed)
+              condense_body(problem, stage, start.solution, kept);
+            body_is_condensed   = true;
+            is_old              = kept.exists();
+            is_solved           = quasi_newton.solve(problem,
+                                           newton_problem,
+                                           condensed_newton,
+                                           solution);
+            const auto &history = quasi_newton.iterations();
+            n_iterations_with_tangent += history.size() - 1;
+            if (newton_observer)
+              newton_observer(history);
+            if (!is_solved && !is_old &&
+                (has_multipliers || !(history.back().relative_residual < 1e-3)))
+              solution = residual;
+          }
+        catch (const NewtonFailure &)
+          {
+            if (!is_old)
+              {
+                solution = residual;
+                throw;
+              }
+          }
+        if (is_solved || !is_old)
+          return is_solved;
+        kept.forget();
+        body_is_condensed         = false;
+        n_iterations_with_tangent = 0;
+        contact.begin_stage(start, stage.contact_weight_new);
       }
-    catch (const NewtonFailure &)
-      {
-        solution = residual;
-        throw;
-      }
-    const auto &history = quasi_newton.iterations();
-    if (newton_observer)
-      newton_observer(history);
-    if (!is_solved &&
-        (has_multipliers || !(history.back().relative_residual < 1e-3)))
-      solution = residual;
-    return is_solved;
   }
 
   unsigned int
@@ -317,8 +356,11 @@ namespace Ricochet
     // Not again in this stage where it has failed, which it would do once more.
     bool condenses = linear_solver.condenses() &&
       (bulk.is_linear() || quasi_newton.is_allowed());
+    new_state.tangent           = old_state.tangent;
     const auto solve_all_passes = [&]() {
       problem.forget_tangents();
+      body_is_condensed         = false;
+      n_iterations_with_tangent = 0;
       contact.begin_stage(start, stage.contact_weight_new);
       do
         {
@@ -328,7 +370,11 @@ namespace Ricochet
                 {
                   const bool is_solved = bulk.is_linear()
                     ? solve_condensed(problem, newton_problem, solution)
-                    : solve_near_last_state(problem, newton_problem, solution);
+                    : solve_near_last_state(problem,
+                                            newton_problem,
+                                            stage,
+                                            start,
+                                            new_state);
                   if (is_solved)
                     continue;
                   condenses = bulk.is_linear();
@@ -376,6 +422,13 @@ namespace Ricochet
             throw NewtonFailure(newton_failure.what() + reason + "\n");
           }
       }
+    // Where Newton's method had to take over, the next step needs another tangent; with
+    // multipliers it depends on where contact is.
+    if (condenses && !bulk.is_linear() && stage.bulk_step_force &&
+        !has_multipliers)
+      new_state.tangent.count(n_iterations_with_tangent);
+    else
+      new_state.tangent.forget();
     copy_values(contact.contact_force(), new_state.contact_force);
     take_shares(new_state);
     return problem.n_iterations();

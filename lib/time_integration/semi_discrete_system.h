@@ -11,6 +11,7 @@
 #include <solvers/mass_solver.h>
 #include <solvers/newton.h>
 #include <time_integration/condensed_stage.h>
+#include <time_integration/kept_tangent.h>
 #include <time_integration/quasi_newton.h>
 #include <time_integration/stage.h>
 
@@ -46,6 +47,8 @@ namespace Ricochet
     /// -M a as the scheme's own equation of motion gives it (N); only the
     /// energy balance reads it.
     Vector scheme_force;
+    /// Of a body that is not linear, with schemes whose forces are those of a step.
+    KeptTangent tangent;
 
     State()              = default;
     State(const State &) = default;
@@ -250,12 +253,23 @@ namespace Ricochet
                     const NewtonSolver::Problem &newton_problem,
                     Vector                      &solution);
 
-    /// The same for a body that is not linear, whose tangent at the end of the last step
-    /// serves for all iterates. If it is not solved, @p solution is the guess, or nearer.
+    /// The same for a body that is not linear, with one tangent for all iterates: that
+    /// of earlier steps, if it serves, or one at the begin of this step. If it is not
+    /// solved, @p new_state has the guess, or a solution that is nearer.
     bool
     solve_near_last_state(StageProblem                &problem,
                           const NewtonSolver::Problem &newton_problem,
-                          Vector                      &solution);
+                          const Stage                 &stage,
+                          const ContactStart          &start,
+                          State                       &new_state);
+
+    /// Condense the body for a stage, with the tangent @p kept, or with a new one if
+    /// that does not serve.
+    void
+    condense_body(StageProblem &problem,
+                  const Stage  &stage,
+                  const Vector &old_solution,
+                  KeptTangent  &kept);
 
     /// The forces of contact are those of the operator's last call.
     void
@@ -281,7 +295,12 @@ namespace Ricochet
     CondensedStage::WorkSpace condensed_space;
     // What the equations leave over in prescribed displacements (N), where
     // Newton's method may begin, and the residual at the guess (N).
-    Vector        reaction, safe_guess, residual;
+    Vector reaction, safe_guess, residual;
+    // The one with which the body is condensed now; in this stage, whether that was done,
+    // and how many iterations were made with it.
+    KeptTangent   tangent_at_hand;
+    bool          body_is_condensed         = false;
+    unsigned int  n_iterations_with_tangent = 0;
     UnitedPattern united_pattern;
     Matrix        body_matrix;
   };

@@ -83,11 +83,21 @@ namespace Ricochet
   {
     parts.contact.forget_iterates();
     return {for_newton,
-            parts.linear_solver.condensed(tangent(true)),
+            parts.linear_solver.condensed(tangent(here(), true)),
             parts.contact,
             residual,
             contact_scale,
             parts.condensed_space};
+  }
+
+  void
+  StageProblem::condense_at(const double  begin,
+                            const Vector &old_solution,
+                            const Vector &solution)
+  {
+    parts.linear_solver.forget_condensed();
+    parts.linear_solver.condensed(
+      tangent({old_solution, solution, begin, begin + stage.time_step}, true));
   }
 
   void
@@ -101,10 +111,9 @@ namespace Ricochet
   StageProblem::residual(const Vector &point, Vector &result)
   {
     const Stopwatch stopwatch(parts.residual_seconds);
-    copy_values(point, parts.work);
-    parts.work -= stage.inertia_origin;
+    entries(parts.work) =
+      stage.inertia * (entries(point) - entries(stage.inertia_origin));
     parts.mass.vmult(result, parts.work);
-    result *= stage.inertia;
     force_scale = constant_scale + l2_norm(result);
     if (stage.bulk_step_force)
       {
@@ -113,7 +122,7 @@ namespace Ricochet
                               stage.time_step,
                               parts.force);
         force_scale += l2_norm(parts.force);
-        result += parts.force;
+        entries(result) += entries(parts.force) + entries(parts.constant_part);
         if (parts.follower)
           {
             parts.follower->step_force(old_solution,
@@ -129,9 +138,9 @@ namespace Ricochet
       {
         parts.bulk.force(point, parts.force);
         force_scale += l2_norm(parts.force);
-        result.add(stage.bulk_weight_new, parts.force);
+        entries(result) += stage.bulk_weight_new * entries(parts.force) +
+          entries(parts.constant_part);
       }
-    result += parts.constant_part;
     parts.contact.complete_residual(point, result);
     contact_scale =
       stage.contact_weight_new * l2_norm(parts.contact.contact_force());
@@ -143,7 +152,7 @@ namespace Ricochet
   }
 
   Tangent
-  StageProblem::tangent(const bool condenses)
+  StageProblem::tangent(const TangentPoint &point, const bool condenses)
   {
     const double bulk_weight =
       stage.bulk_step_force ? .5 : stage.bulk_weight_new;
@@ -159,7 +168,7 @@ namespace Ricochet
         AssertThrow(!tangent.body_terms.empty(), ExcInternalError());
         tangent.body_terms.push_back({stage.inertia, &parts.mass});
       }
-    const auto assemble_body = [this, bulk_weight](Matrix &matrix) {
+    const auto assemble_body = [this, point, bulk_weight](Matrix &matrix) {
       const auto &pattern = parts.pattern();
       if (matrix.n_nonzero_elements() == pattern.n_nonzero_elements())
         matrix = 0.;
@@ -168,20 +177,19 @@ namespace Ricochet
       parts.mass.add_to(stage.inertia, matrix);
       if (stage.bulk_step_force)
         {
-          parts.bulk.add_step_tangent(old_solution,
-                                      solution,
+          parts.bulk.add_step_tangent(point.old_solution,
+                                      point.solution,
                                       stage.time_step,
                                       matrix);
           if (parts.follower)
-            parts.follower->subtract_step_tangent(old_solution,
-                                                  solution,
-                                                  stage.end_time -
-                                                    stage.time_step,
-                                                  stage.end_time,
+            parts.follower->subtract_step_tangent(point.old_solution,
+                                                  point.solution,
+                                                  point.begin,
+                                                  point.end,
                                                   matrix);
         }
       else
-        parts.bulk.add_tangent(bulk_weight, solution, matrix);
+        parts.bulk.add_tangent(bulk_weight, point.solution, matrix);
     };
     tangent.row_scaling = &parts.contact.row_scaling();
     const Couplings *couplings =
@@ -229,7 +237,7 @@ namespace Ricochet
                       const double  tolerance)
   {
     ++iterations;
-    const Tangent       current    = tangent();
+    const Tangent       current    = tangent(here());
     const bool          has_name   = current.body && current.contact;
     const std::uint64_t active_set = parts.contact.active_set_signature();
     const bool          reuse =
@@ -246,10 +254,32 @@ namespace Ricochet
   double
   StageProblem::norm(const Vector &result)
   {
-    copy_values(result, parts.work);
-    parts.work.scale(parts.contact.row_scaling());
-    return l2_norm(parts.work) +
+    return norm_of_forces(result) +
       stage.contact_weight_new * parts.contact.linearisation_error();
+  }
+
+  double
+  StageProblem::norm_of_forces(const Vector &result)
+  {
+    if (parts.n_multipliers == 0)
+      return l2_norm(result);
+    entries(parts.work) =
+      entries(result).cwiseProduct(entries(parts.contact.row_scaling()));
+    return l2_norm(parts.work);
+  }
+
+  void
+  StageProblem::rows_to_forces(Vector &result) const
+  {
+    if (parts.n_multipliers > 0)
+      entries(result).array() *= entries(parts.contact.row_scaling()).array();
+  }
+
+  void
+  StageProblem::forces_to_rows(Vector &forces) const
+  {
+    if (parts.n_multipliers > 0)
+      entries(forces).array() /= entries(parts.contact.row_scaling()).array();
   }
 
   double

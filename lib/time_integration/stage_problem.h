@@ -77,12 +77,20 @@ namespace Ricochet
     CondensedStage
     condensed(const NewtonSolver::Problem &for_newton, const Vector &residual);
 
-    /// What makes the rows of residuals those of forces.
-    const Vector &
-    row_scaling() const
-    {
-      return parts.contact.row_scaling();
-    }
+    /// Condense with the tangent of a stage like this one that begins at another time (s)
+    /// with @p old_solution, at @p solution. @throws NewtonFailure
+    void
+    condense_at(const double  begin,
+                const Vector &old_solution,
+                const Vector &solution);
+
+    /// Make the rows of a residual those of forces, whatever the equations of
+    /// multipliers are; and the other way round.
+    void
+    rows_to_forces(Vector &result) const;
+
+    void
+    forces_to_rows(Vector &forces) const;
 
     /// Count @p n linear solves made elsewhere.
     void
@@ -108,13 +116,33 @@ namespace Ricochet
           const bool    may_reuse,
           const double  tolerance);
 
-    /// The tangent at the iterate. @param condenses contact is looked at by its
-    /// functionals alone.
+    /// Where a tangent is that of a step.
+    struct TangentPoint
+    {
+      const Vector &old_solution, &solution;
+      double        begin, end;
+    };
+
+    /// That of this stage, at the iterate.
+    TangentPoint
+    here() const
+    {
+      return {old_solution,
+              solution,
+              stage.end_time - stage.time_step,
+              stage.end_time};
+    }
+
+    /// @param condenses contact is looked at by its functionals alone.
     Tangent
-    tangent(const bool condenses = false);
+    tangent(const TangentPoint &point, const bool condenses = false);
 
     double
     norm(const Vector &result);
+
+    /// That of rows_to_forces().
+    double
+    norm_of_forces(const Vector &result);
 
     /// Residual (N) that round-off alone can cause.
     double

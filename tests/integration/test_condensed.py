@@ -276,7 +276,8 @@ class Condensed(ProgramTest):
                         steps + 1)
 
     def test_bodies_with_large_strains(self):
-        """One tangent a step: the same results, and the same digits when resumed."""
+        """One tangent for a step or a few: the same results, and the same digits when
+        resumed, wherever a tangent began to serve."""
         ring = NO_FIELDS + ["Linear solver/Type=corrected", "Output/Timing=true",
                             "Mesh/Nodes around=64", "Mesh/Nodes across=4",
                             "Start/Initial gap=0.15", "Contact/Compliance exponent=3",
@@ -287,10 +288,13 @@ class Condensed(ProgramTest):
         whole = self.run_program("hyperelastic_ring", ring + end + WHOLE,
                                  self.folder / "whole")
         self.compare(one, whole, 1e-9)
-        self.assertLessEqual(self.factorisations(self.folder / "one"), len(one["time"]))
+        self.assertLess(self.factorisations(self.folder / "one"),
+                        .75 * len(one["time"]))
         parts = self.folder / "parts"
         self.run_program("hyperelastic_ring", ring + ["Time/Final time=0.1"], parts)
-        self.run_program("hyperelastic_ring", ring + end, parts, options=["--resume"])
+        for stop in (.11, .12, .2):
+            self.run_program("hyperelastic_ring", ring + [f"Time/Final time={stop}"],
+                             parts, options=["--resume"])
         self.assertEqual((self.folder / "one" / "energy.csv").read_text(),
                          (parts / "energy.csv").read_text())
 

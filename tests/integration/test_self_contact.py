@@ -400,9 +400,11 @@ class RestartAndRanks(SelfContactTest):
                 self.compare(one, two, round(end / DT) + 1)
 
     def test_one_and_two_ranks_without_symmetry(self):
-        """Friction at the foundation bends the ring to one side."""
+        """Friction at the foundation bends the ring to one side. The first five steps in
+        which it touches itself: Newton's method needs up to 66 iterations in them, and
+        then steps are halved, where round-off decides how often."""
         self.long_run()
-        end = 1.55
+        end = 1.47
         parameters = NO_FIELDS + [
             "Contact/Friction coefficient=0.2", "Contact/Tangential compliance=1e7",
             *self.parameters("improved normal compliance", end)]

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // What nonlinear bodies are solved with near their last state: factors in single
-// precision, and steps of the force that are mixed.
+// precision, steps of the force that are mixed, and tangents that serve several steps.
 
 #include <solvers/factorisation.h>
 #include <solvers/force_mixing.h>
+#include <time_integration/kept_tangent.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -143,6 +144,49 @@ BOOST_AUTO_TEST_CASE(rows_of_open_multipliers)
   BOOST_CHECK_LT(residual.linfty_norm(), 1e-5);
   BOOST_CHECK_SMALL(solution(37) + right_hand_side(37) / .5, 1e-6);
   BOOST_CHECK_SMALL(1.5 * solution(37) - .7 * solution(121) - seen, 1e-6);
+}
+
+
+
+BOOST_AUTO_TEST_CASE(tangents_serve_while_they_pay)
+{
+  // With k iterations more in each further step, the mean of the costs over n steps,
+  // cost/n + k (n - 1)/2, is least at n = sqrt(2 cost/k).
+  const Vector state = some_vector(4);
+  for (const unsigned int more : {1, 3, 6})
+    {
+      KeptTangent tangent;
+      BOOST_CHECK(!tangent.serves(.1));
+      tangent.begin(.1, .1, state);
+      BOOST_CHECK(!tangent.exists());
+      unsigned int n_steps = 0;
+      do
+        tangent.count(20 + more * n_steps++);
+      while (tangent.serves(.1) && n_steps < 100);
+      const auto mean_cost = [&](const unsigned int n) {
+        return KeptTangent::cost / n + .5 * more * (n - 1.);
+      };
+      BOOST_TEST_CONTEXT(more << " more in each step, " << n_steps << " steps")
+      {
+        BOOST_CHECK_LE(mean_cost(n_steps), mean_cost(n_steps + 1) + 1e-12);
+        BOOST_CHECK_LE(mean_cost(n_steps), mean_cost(n_steps - 1) + 1e-12);
+      }
+    }
+
+  // While it needs no more it serves, but in no step of another length; and it is
+  // known by the step and the state for which it was made.
+  KeptTangent tangent, other;
+  tangent.begin(.1, .1, state);
+  for (unsigned int n = 0; n < 50; ++n)
+    tangent.count(7);
+  BOOST_CHECK(tangent.serves(.1));
+  BOOST_CHECK(!tangent.serves(.05));
+  other = tangent;
+  BOOST_CHECK(other.is_same(tangent));
+  other.begin(.1, .1, some_vector(5));
+  BOOST_CHECK(!other.is_same(tangent));
+  tangent.forget();
+  BOOST_CHECK(!tangent.exists());
 }
 
 
