@@ -14,15 +14,6 @@ extern "C"
 {
   // BLAS
   void
-  dtrsv_(const char   *triangle,
-         const char   *transpose,
-         const char   *diagonal,
-         const int    *n,
-         const double *matrix,
-         const int    *stride,
-         double       *vector,
-         const int    *step);
-  void
   dgemv_(const char   *transpose,
          const int    *n_rows,
          const int    *n_columns,
@@ -222,23 +213,25 @@ namespace Ricochet
         return true;
       }
 
-      const TriangularFactor *
+      const TriangularFactor<float> *
       triangular_factor() override
       {
         const cholmod_factor *factor = cholesky.factor();
         if (factor->is_super || factor->itype != CHOLMOD_INT ||
             factor->dtype != CHOLMOD_DOUBLE)
           return nullptr;
-        triangles = std::make_unique<TriangularFactor>(
-          TriangularFactor::Columns{static_cast<int>(factor->n),
-                                    static_cast<const int *>(factor->Perm),
-                                    static_cast<const int *>(factor->p),
-                                    static_cast<const int *>(factor->nz),
-                                    static_cast<const int *>(factor->i),
-                                    static_cast<const double *>(factor->x),
-                                    factor->is_ll != 0,
-                                    sign.data()});
-        return triangles.get();
+        rough = std::make_unique<TriangularFactor<float>>(
+          TriangularFactor<float>::Columns{
+            static_cast<int>(factor->n),
+            static_cast<const int *>(factor->Perm),
+            static_cast<const int *>(factor->p),
+            static_cast<const int *>(factor->p),
+            static_cast<const int *>(factor->nz),
+            static_cast<const int *>(factor->i),
+            static_cast<const double *>(factor->x),
+            factor->is_ll != 0,
+            sign.data()});
+        return rough.get();
       }
 
       bool
@@ -253,62 +246,12 @@ namespace Ricochet
       {
         const int     n      = symmetric.rows();
         const double *values = right_hand_side.trilinos_vector()[0];
-        half.assign(n, 0.);
-        std::vector<bool> is_needed(supernodes.size(), false);
+        work.resize(n);
         for (int i = 0; i < n; ++i)
-          if (values[i] != 0.)
-            {
-              half[place_in_factor[i]]                    = sign[i] * values[i];
-              is_needed[supernode_of[place_in_factor[i]]] = true;
-            }
-        const double minus_one = -1., zero = 0.;
-        const int    one = 1;
-        for (const int s : with_ancestors(is_needed))
-          {
-            const Supernode &node    = supernodes[s];
-            double          *own     = half.data() + node.first_column;
-            const int        n_below = node.n_rows - node.n_columns;
-            if (node.is_small())
-              {
-                std::fill_n(below.begin(), n_below, 0.);
-                for (int column = 0; column < node.n_columns; ++column)
-                  {
-                    const double *entry = node.values +
-                      static_cast<std::size_t>(column) * node.n_rows;
-                    const double value = own[column] /= entry[column];
-                    for (int i = column + 1; i < node.n_columns; ++i)
-                      own[i] -= value * entry[i];
-                    entry += node.n_columns;
-                    for (int i = 0; i < n_below; ++i)
-                      below[i] -= value * entry[i];
-                  }
-              }
-            else
-              {
-                dtrsv_("L",
-                       "N",
-                       "N",
-                       &node.n_columns,
-                       node.values,
-                       &node.n_rows,
-                       own,
-                       &one);
-                if (n_below > 0)
-                  dgemv_("N",
-                         &n_below,
-                         &node.n_columns,
-                         &minus_one,
-                         node.values + node.n_columns,
-                         &node.n_rows,
-                         own,
-                         &one,
-                         &zero,
-                         below.data(),
-                         &one);
-              }
-            for (int i = 0; i < n_below; ++i)
-              half[node.rows[node.n_columns + i]] += below[i];
-          }
+          work[i] = sign[i] * values[i];
+        accurate_factor().go_forwards(work.data(), half);
+        for (int k = 0; k < n; ++k)
+          half[k] /= diagonal_of_factor[k];
       }
 
       HalfColumns
@@ -347,7 +290,8 @@ namespace Ricochet
         // A row has all columns beside each other, so what BLAS sees is the
         // transposed.
         const double        one = 1., zero = 0.;
-        std::vector<double> below_columns(below.size() * half.n_columns);
+        std::vector<double> below_columns(
+          static_cast<std::size_t>(largest_below) * half.n_columns);
         for (const int s : half.region)
           {
             const Supernode &node = supernodes[s];
@@ -363,7 +307,7 @@ namespace Ricochet
                    &node.n_rows,
                    own,
                    &half.n_columns);
-            const int n_below = node.n_rows - node.n_columns;
+            const int n_below = node.n_below();
             if (n_below == 0)
               continue;
             dgemm_("N",
@@ -487,55 +431,10 @@ namespace Ricochet
       void
       go_backwards(const std::vector<double> &half, Vector &solution) override
       {
-        std::vector<double> values(half);
-        const double        minus_one = -1., plus_one = 1.;
-        const int           one = 1;
-        for (std::size_t k = supernodes.size(); k-- > 0;)
-          {
-            const Supernode &node    = supernodes[k];
-            double          *own     = values.data() + node.first_column;
-            const int        n_below = node.n_rows - node.n_columns;
-            for (int i = 0; i < n_below; ++i)
-              below[i] = values[node.rows[node.n_columns + i]];
-            if (node.is_small())
-              {
-                for (int column = node.n_columns; column-- > 0;)
-                  {
-                    const double *entry = node.values +
-                      static_cast<std::size_t>(column) * node.n_rows;
-                    const int n_later = node.n_columns - column - 1;
-                    own[column] =
-                      (own[column] -
-                       product(entry + column + 1, own + column + 1, n_later) -
-                       product(entry + node.n_columns, below.data(), n_below)) /
-                      entry[column];
-                  }
-                continue;
-              }
-            if (n_below > 0)
-              dgemv_("T",
-                     &n_below,
-                     &node.n_columns,
-                     &minus_one,
-                     node.values + node.n_columns,
-                     &node.n_rows,
-                     below.data(),
-                     &one,
-                     &plus_one,
-                     own,
-                     &one);
-            dtrsv_("L",
-                   "T",
-                   "N",
-                   &node.n_columns,
-                   node.values,
-                   &node.n_rows,
-                   own,
-                   &one);
-          }
-        double *result = solution.trilinos_vector()[0];
-        for (unsigned int i = 0; i < values.size(); ++i)
-          result[i] = values[place_in_factor[i]];
+        work = half;
+        for (std::size_t k = 0; k < half.size(); ++k)
+          work[k] *= diagonal_of_factor[k];
+        accurate_factor().go_backwards(work, solution.trilinos_vector()[0]);
       }
 
       void
@@ -585,20 +484,12 @@ namespace Ricochet
         /// The one to which the first row below belongs; -1: none.
         int parent;
 
-        /// Whether a call of BLAS takes longer than what it does.
-        bool
-        is_small() const
+        int
+        n_below() const
         {
-          return n_rows * n_columns <= 2048;
+          return n_rows - n_columns;
         }
       };
-
-      static double
-      product(const double *a, const double *b, const int n)
-      {
-        return Eigen::Map<const Eigen::VectorXd>(a, n).dot(
-          Eigen::Map<const Eigen::VectorXd>(b, n));
-      }
 
       /// None where the factor has none.
       void
@@ -606,6 +497,7 @@ namespace Ricochet
       {
         supernodes.clear();
         supernode_of.clear();
+        accurate.reset();
         const cholmod_factor *factor = cholesky.factor();
         if (!factor->is_super || !factor->is_ll ||
             factor->itype != CHOLMOD_INT || factor->dtype != CHOLMOD_DOUBLE)
@@ -625,7 +517,7 @@ namespace Ricochet
         const auto *rows        = static_cast<const int *>(factor->s);
         const auto *values      = static_cast<const double *>(factor->x);
         supernode_of.resize(factor->n);
-        int largest = 0;
+        largest_below = 0;
         for (unsigned int s = 0; s < factor->nsuper; ++s)
           {
             supernodes.push_back({first[s],
@@ -636,12 +528,51 @@ namespace Ricochet
                                   -1});
             for (int column = first[s]; column < first[s + 1]; ++column)
               supernode_of[column] = s;
-            largest = std::max(largest, supernodes.back().n_rows);
+            largest_below =
+              std::max(largest_below, supernodes.back().n_below());
           }
         for (Supernode &node : supernodes)
-          if (node.n_rows > node.n_columns)
+          if (node.n_below() > 0)
             node.parent = supernode_of[node.rows[node.n_columns]];
-        below.resize(largest);
+      }
+
+      /// The supernodal factor in the order in which single right hand sides pass
+      /// through it, made when it is first asked for.
+      const TriangularFactor<double> &
+      accurate_factor()
+      {
+        if (!accurate)
+          {
+            const cholmod_factor *factor = cholesky.factor();
+            const auto           *begin  = static_cast<const int *>(factor->pi);
+            const auto       *entries    = static_cast<const int *>(factor->px);
+            const std::size_t n          = factor->n;
+            std::vector<int>  first_row(n), first_value(n), n_entries(n);
+            diagonal_of_factor.resize(n);
+            for (std::size_t column = 0; column < n; ++column)
+              {
+                const int        s         = supernode_of[column];
+                const Supernode &node      = supernodes[s];
+                const int        k         = column - node.first_column;
+                first_row[column]          = begin[s] + k;
+                first_value[column]        = entries[s] + k * (node.n_rows + 1);
+                n_entries[column]          = node.n_rows - k;
+                diagonal_of_factor[column] = node.values[k * (node.n_rows + 1)];
+              }
+            const std::vector<double> no_signs(n, 1.);
+            accurate = std::make_unique<TriangularFactor<double>>(
+              TriangularFactor<double>::Columns{
+                static_cast<int>(n),
+                static_cast<const int *>(factor->Perm),
+                first_row.data(),
+                first_value.data(),
+                n_entries.data(),
+                static_cast<const int *>(factor->s),
+                static_cast<const double *>(factor->x),
+                true,
+                no_signs.data()});
+          }
+        return *accurate;
       }
 
       /// The supernodes that are needed, and all that come after them, in their order.
@@ -874,13 +805,17 @@ namespace Ricochet
       Eigen::MatrixXd right, result;
       Cholesky        cholesky;
       bool            is_analysed = false, prefers_blocks = false;
-      std::unique_ptr<TriangularFactor> triangles;
+      std::unique_ptr<TriangularFactor<float>>  rough;
+      std::unique_ptr<TriangularFactor<double>> accurate;
       // Of a supernodal factor; by its order of the unknowns.
       std::vector<Supernode> supernodes;
       std::vector<int>       supernode_of, place_in_factor;
       // Places of unknowns whose sign is.
-      std::vector<int>            negative;
-      std::vector<double>         below;
+      std::vector<int> negative;
+      int              largest_below = 0;
+      // In the order of the factor.
+      std::vector<double>         diagonal_of_factor;
+      std::vector<double>         work;
       mutable std::vector<double> seen_half;
     };
   } // namespace

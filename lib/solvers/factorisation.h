@@ -59,7 +59,7 @@ namespace Ricochet
     /// The factors themselves since the last factorise(), less accurate, for right hand
     /// sides that are zero in unknowns with equations of their own. Null where they
     /// are not at hand.
-    virtual const TriangularFactor *
+    virtual const TriangularFactor<float> *
     triangular_factor()
     {
       return nullptr;

@@ -55,7 +55,7 @@ namespace Ricochet
 
 
 
-  const TriangularFactor::Half &
+  const TriangularFactor<float>::Half &
   NearbyBody::half_at(const unsigned int place)
   {
     if (halves[place].blocks.empty())

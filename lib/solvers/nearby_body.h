@@ -79,7 +79,7 @@ namespace Ricochet
 
   private:
     /// That of the functional at this place.
-    const TriangularFactor::Half &
+    const TriangularFactor<float>::Half &
     half_at(const unsigned int place);
 
     /// The first @p n_rows entries at least of a column of the compliance.
@@ -91,12 +91,12 @@ namespace Ricochet
     const Functionals                   &functionals;
     FunctionalProducts                   products;
     TangentSolver::Costs                &spent;
-    const TriangularFactor              *factor = nullptr;
+    const TriangularFactor<float>       *factor = nullptr;
     // Of each functional, and the other way round.
     std::vector<unsigned int> places, functional_at;
     // By place; empty where not asked for yet.
-    std::vector<TriangularFactor::Half> halves;
-    std::vector<std::vector<double>>    columns;
+    std::vector<TriangularFactor<float>::Half> halves;
+    std::vector<std::vector<double>>           columns;
     // Of the right hand side; work space that is zero between calls.
     std::vector<double> half, dense;
     // What observe() needs of the factor for so many places, and what it finds there.

@@ -10,26 +10,31 @@ namespace Ricochet
   namespace
   {
     // Two or four at once, wherever they lie.
-    using DoublePair __attribute__((vector_size(16), aligned(8), may_alias)) =
-      double;
-    using FloatPair __attribute__((vector_size(8), aligned(4), may_alias)) =
-      float;
+    template <typename Value>
+    using Pair __attribute__((vector_size(2 * sizeof(Value)),
+                              aligned(sizeof(Value)),
+                              may_alias)) = Value;
+    template <typename Value>
+    using Quad __attribute__((vector_size(4 * sizeof(Value)),
+                              aligned(sizeof(Value)),
+                              may_alias))             = Value;
+    using DoublePair                                  = Pair<double>;
     using DoubleQuad __attribute__((vector_size(32))) = double;
-    using FloatQuad __attribute__((vector_size(16), aligned(4), may_alias)) =
-      float;
 
+    template <typename Value>
     inline DoublePair
-    pair(const float *values)
+    pair(const Value *values)
     {
-      return __builtin_convertvector(*reinterpret_cast<const FloatPair *>(
+      return __builtin_convertvector(*reinterpret_cast<const Pair<Value> *>(
                                        values),
                                      DoublePair);
     }
 
+    template <typename Value>
     inline DoubleQuad
-    quad(const float *values)
+    quad(const Value *values)
     {
-      return __builtin_convertvector(*reinterpret_cast<const FloatQuad *>(
+      return __builtin_convertvector(*reinterpret_cast<const Quad<Value> *>(
                                        values),
                                      DoubleQuad);
     }
@@ -69,8 +74,9 @@ namespace Ricochet
 
 
 
+  template <typename Value>
   std::vector<std::array<int, 2>>
-  TriangularFactor::find_blocks(const Columns &columns)
+  TriangularFactor<Value>::find_blocks(const Columns &columns)
   {
     const auto n_below = [&](const int column) {
       return columns.n_entries[column] - 1;
@@ -120,7 +126,8 @@ namespace Ricochet
 
 
 
-  TriangularFactor::TriangularFactor(const Columns &columns)
+  template <typename Value>
+  TriangularFactor<Value>::TriangularFactor(const Columns &columns)
     : place(columns.n)
     , block_of(columns.n)
     , inverse_diagonal(columns.n)
@@ -128,47 +135,21 @@ namespace Ricochet
   {
     for (int k = 0; k < columns.n; ++k)
       place[columns.order[k]] = k;
-    // The entries of a block, and where in it a row is.
-    std::vector<float> entries;
-    std::vector<int>   row_in_block(columns.n);
+
+    std::size_t n_values = 0;
     for (const auto &[first, end] : find_blocks(columns))
       {
         const int  width   = end - first;
-        const int  last    = end - 1;
-        const int *below   = columns.rows + columns.begin[last] + 1;
-        const int  n_below = columns.n_entries[last] - 1;
+        const int *below   = columns.rows + columns.begin[end - 1] + 1;
+        const int  n_below = columns.n_entries[end - 1] - 1;
         Block      block{first,
                     width,
                     first_rows.size(),
                     0,
-                    values.size(),
-                    0,
+                    n_values,
+                    n_values + width * (width - 1) / 2,
                     n_below > 0 ? below[0] : -1};
-        for (int i = 0; i < width; ++i)
-          row_in_block[first + i] = i;
-        for (int k = 0; k < n_below; ++k)
-          row_in_block[below[k]] = width + k;
-        entries.assign(static_cast<std::size_t>(width) * (width + n_below),
-                       0.F);
-        for (int column = first; column < end; ++column)
-          {
-            block_of[column]         = blocks.size();
-            const int    begin       = columns.begin[column];
-            const double diagonal    = columns.values[begin];
-            inverse_diagonal[column] = columns.sign[columns.order[column]] /
-              (columns.diagonal_is_of_l ? diagonal * diagonal : diagonal);
-            const double scale = columns.diagonal_is_of_l ? diagonal : 1.;
-            for (int k = begin + 1; k < begin + columns.n_entries[column]; ++k)
-              entries[row_in_block[columns.rows[k]] * width + column - first] =
-                static_cast<float>(columns.values[k] / scale);
-          }
-        const auto entry = [&](const int row, const int column) {
-          return entries[row * width + column];
-        };
-        for (int row = 1; row < width; ++row)
-          for (int column = 0; column < row; ++column)
-            values.push_back(entry(row, column));
-        block.below = values.size();
+        std::fill_n(block_of.begin() + first, width, blocks.size());
         for (int k = 0; k < n_below;)
           {
             const bool has_second =
@@ -176,37 +157,60 @@ namespace Ricochet
             // The last row of all stands behind the one before it.
             const bool is_second = !has_second && below[k] + 1 == columns.n;
             first_rows.push_back(is_second ? below[k] - 1 : below[k]);
-            const int row = width + k;
-            for (int column = 0; column < width; ++column)
-              {
-                values.push_back(is_second ? 0.F : entry(row, column));
-                values.push_back(is_second      ? entry(row, column)
-                                   : has_second ? entry(row + 1, column)
-                                                : 0.F);
-              }
             k += has_second ? 2 : 1;
           }
         block.end = first_rows.size();
+        n_values  = block.below + 2 * width * (block.end - block.begin);
         blocks.push_back(block);
       }
+
+    values.assign(n_values, Value(0));
+    // Where in its block the first entry of a row is.
+    std::vector<std::size_t> row_at(columns.n);
     for (Block &block : blocks)
-      if (block.parent >= 0)
-        block.parent = block_of[block.parent];
+      {
+        const int width = block.width, end = block.first + width;
+        for (int i = 0; i < width; ++i)
+          row_at[block.first + i] = block.triangle + i * (i - 1) / 2;
+        std::size_t at = block.below;
+        for (std::size_t k = block.begin; k < block.end; ++k, at += 2 * width)
+          {
+            row_at[first_rows[k]]     = at;
+            row_at[first_rows[k] + 1] = at + 1;
+          }
+        for (int c = 0; c < width; ++c)
+          {
+            const int     column = block.first + c;
+            const double *value  = columns.values + columns.first_value[column];
+            const int    *row    = columns.rows + columns.begin[column];
+            const int    *rows_end = row + columns.n_entries[column];
+            const double  scale = columns.diagonal_is_of_l ? 1. / *value : 1.;
+            inverse_diagonal[column] = columns.sign[columns.order[column]] *
+              (columns.diagonal_is_of_l ? scale * scale : 1. / *value);
+            for (++row, ++value; row != rows_end && *row < end; ++row, ++value)
+              values[row_at[*row] + c] = static_cast<Value>(*value * scale);
+            for (; row != rows_end; ++row, ++value)
+              values[row_at[*row] + 2 * c] = static_cast<Value>(*value * scale);
+          }
+        if (block.parent >= 0)
+          block.parent = block_of[block.parent];
+      }
     is_needed.assign(blocks.size(), 0);
   }
 
 
 
+  template <typename Value>
   void
-  TriangularFactor::eliminate(const Block &block, double *half) const
+  TriangularFactor<Value>::eliminate(const Block &block, double *half) const
   {
     double      *own      = half + block.first;
-    const float *triangle = values.data() + block.triangle;
-    const float *below    = values.data() + block.below;
+    const Value *triangle = values.data() + block.triangle;
+    const Value *below    = values.data() + block.below;
     const int   *rows     = first_rows.data() + block.begin;
     const int   *rows_end = first_rows.data() + block.end;
     with_width(block.width, [=](const auto width) {
-      const float *value = triangle;
+      const Value *value = triangle;
       for (int i = 1; i < width; ++i)
         {
           double sum = 0.;
@@ -246,22 +250,24 @@ namespace Ricochet
 
 
 
+  template <typename Value>
   void
-  TriangularFactor::substitute(const Block &block, double *half) const
+  TriangularFactor<Value>::substitute(const Block &block, double *half) const
   {
     double      *own      = half + block.first;
-    const float *triangle = values.data() + block.triangle;
-    const float *below    = values.data() + block.below;
+    const Value *triangle = values.data() + block.triangle;
+    const Value *below    = values.data() + block.below;
     const int   *rows     = first_rows.data() + block.begin;
     const int   *rows_end = first_rows.data() + block.end;
     with_width(block.width, [=](const auto width) {
-      const float *value = below;
+      // As it goes from the last block to the first, so in each of them.
+      const Value *value = below + 2 * width * (rows_end - rows);
       if constexpr (std::is_same_v<decltype(width), const int>)
         {
           DoublePair sums[largest_width] = {};
-          for (const int *row = rows; row != rows_end;
-               ++row, value += 2 * width)
+          for (const int *row = rows_end; row-- != rows;)
             {
+              value -= 2 * width;
               const DoublePair values = at(half + *row);
               for (int c = 0; c < width; ++c)
                 sums[c] += pair(value + 2 * c) * values;
@@ -272,9 +278,9 @@ namespace Ricochet
       else
         {
           DoubleQuad sums[width / 2] = {};
-          for (const int *row = rows; row != rows_end;
-               ++row, value += 2 * width)
+          for (const int *row = rows_end; row-- != rows;)
             {
+              value -= 2 * width;
               const DoublePair two = at(half + *row);
               const DoubleQuad values{two[0], two[1], two[0], two[1]};
               for (int c = 0; c < width / 2; ++c)
@@ -285,7 +291,7 @@ namespace Ricochet
         }
       for (int i = width - 1; i > 0; --i)
         {
-          const float *row = triangle + i * (i - 1) / 2;
+          const Value *row = triangle + i * (i - 1) / 2;
           for (int c = 0; c < i; ++c)
             own[c] -= row[c] * own[i];
         }
@@ -294,8 +300,9 @@ namespace Ricochet
 
 
 
+  template <typename Value>
   void
-  TriangularFactor::mark(int block, std::vector<int> &region) const
+  TriangularFactor<Value>::mark(int block, std::vector<int> &region) const
   {
     for (; block >= 0 && is_needed[block] == 0; block = blocks[block].parent)
       {
@@ -306,8 +313,9 @@ namespace Ricochet
 
 
 
+  template <typename Value>
   void
-  TriangularFactor::finish(std::vector<int> &region) const
+  TriangularFactor<Value>::finish(std::vector<int> &region) const
   {
     std::sort(region.begin(), region.end());
     for (const int block : region)
@@ -316,9 +324,10 @@ namespace Ricochet
 
 
 
+  template <typename Value>
   void
-  TriangularFactor::go_forwards(const double        *right_hand_side,
-                                std::vector<double> &half) const
+  TriangularFactor<Value>::go_forwards(const double        *right_hand_side,
+                                       std::vector<double> &half) const
   {
     half.resize(n());
     for (unsigned int i = 0; i < n(); ++i)
@@ -329,8 +338,9 @@ namespace Ricochet
 
 
 
-  TriangularFactor::Half
-  TriangularFactor::go_forwards(const std::vector<Start> &start) const
+  template <typename Value>
+  typename TriangularFactor<Value>::Half
+  TriangularFactor<Value>::go_forwards(const std::vector<Start> &start) const
   {
     Half half;
     for (const Start &entry : start)
@@ -353,9 +363,10 @@ namespace Ricochet
 
 
 
+  template <typename Value>
   void
-  TriangularFactor::go_backwards(std::vector<double> &half,
-                                 double              *solution) const
+  TriangularFactor<Value>::go_backwards(std::vector<double> &half,
+                                        double              *solution) const
   {
     for (unsigned int i = 0; i < n(); ++i)
       half[i] *= inverse_diagonal[i];
@@ -367,10 +378,11 @@ namespace Ricochet
 
 
 
+  template <typename Value>
   void
-  TriangularFactor::go_backwards(const std::vector<double> &half,
-                                 const std::vector<int>    &region,
-                                 std::vector<double>       &solution) const
+  TriangularFactor<Value>::go_backwards(const std::vector<double> &half,
+                                        const std::vector<int>    &region,
+                                        std::vector<double> &solution) const
   {
     solution.resize(n());
     for (const int b : region)
@@ -382,9 +394,10 @@ namespace Ricochet
 
 
 
+  template <typename Value>
   double
-  TriangularFactor::product(const Half                &one,
-                            const std::vector<double> &other) const
+  TriangularFactor<Value>::product(const Half                &one,
+                                   const std::vector<double> &other) const
   {
     // Two sums do not wait for each other.
     std::array<double, 2> sums{};
@@ -406,10 +419,11 @@ namespace Ricochet
 
 
 
+  template <typename Value>
   void
-  TriangularFactor::add(const double         factor,
-                        const Half          &half,
-                        std::vector<double> &other) const
+  TriangularFactor<Value>::add(const double         factor,
+                               const Half          &half,
+                               std::vector<double> &other) const
   {
     const double *value = half.values.data();
     for (const int b : half.blocks)
@@ -419,10 +433,17 @@ namespace Ricochet
 
 
 
+  template <typename Value>
   void
-  TriangularFactor::clear(const Half &half, std::vector<double> &other) const
+  TriangularFactor<Value>::clear(const Half          &half,
+                                 std::vector<double> &other) const
   {
     for (const int b : half.blocks)
       std::fill_n(other.begin() + blocks[b].first, blocks[b].width, 0.);
   }
+
+
+
+  template class TriangularFactor<float>;
+  template class TriangularFactor<double>;
 } // namespace Ricochet

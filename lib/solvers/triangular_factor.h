@@ -9,14 +9,18 @@
 namespace Ricochet
 {
   /**
-   * The factors of a symmetric matrix A = P^T L D L^T P, with L stored in single
-   * precision: those of a matrix that differs from A by as much. For that one, all is
-   * done in double precision.
+   * The factors of a symmetric matrix A = P^T L D L^T P, in the order in which ways
+   * through them read L, from one end to the other: it is memory that limits them.
    *
    * Columns of L with the same rows below them, or nearly so, make blocks, with zeros
    * where a column has nothing. The rows below are stored in pairs of rows that follow
    * each other, as those of a node do.
+   *
+   * @tparam Value what L is stored in. In single precision (float) the factors are
+   * those of a matrix that differs from A by as much; for that one, all is done in
+   * double precision.
    */
+  template <typename Value>
   class TriangularFactor
   {
   public:
@@ -26,9 +30,9 @@ namespace Ricochet
       int n;
       /// Unknown of each place.
       const int *order;
-      /// Where columns begin among rows and values, and how many entries they have, the
-      /// one on the diagonal first, rows rising.
-      const int    *begin, *n_entries, *rows;
+      /// Where columns begin among rows and among values, and how many entries they
+      /// have, the one on the diagonal first, rows rising.
+      const int    *begin, *first_value, *n_entries, *rows;
       const double *values;
       /// The diagonal is that of L; otherwise it is D, and that of L is 1.
       bool diagonal_is_of_l;
@@ -160,7 +164,7 @@ namespace Ricochet
     std::vector<int>    place, block_of;
     std::vector<Block>  blocks;
     std::vector<int>    first_rows;
-    std::vector<float>  values;
+    std::vector<Value>  values;
     std::vector<double> inverse_diagonal;
     // Work space: zero between calls.
     mutable std::vector<double> dense;

@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(factors_in_single_precision)
   const Matrix matrix        = grid_matrix(0.);
   const auto   factorisation = make_cholesky_factorisation(true);
   BOOST_REQUIRE(factorisation->factorise(matrix, false));
-  const TriangularFactor *factor = factorisation->triangular_factor();
+  const TriangularFactor<float> *factor = factorisation->triangular_factor();
   BOOST_REQUIRE(factor);
 
   const Vector        right_hand_side = some_vector(1);
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(rows_of_open_multipliers)
   matrix.compress(VectorOperation::insert);
   const auto factorisation = make_cholesky_factorisation(true);
   BOOST_REQUIRE(factorisation->factorise(matrix, false));
-  const TriangularFactor *factor = factorisation->triangular_factor();
+  const TriangularFactor<float> *factor = factorisation->triangular_factor();
   BOOST_REQUIRE(factor);
   const Vector        right_hand_side = some_vector(3);
   Vector              solution(right_hand_side), residual(right_hand_side);
