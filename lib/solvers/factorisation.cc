@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/vector_operations.h>
 #include <solvers/factorisation.h>
 
 #include <Amesos.h>
@@ -442,10 +443,9 @@ namespace Ricochet
       {
         const int n = symmetric.rows();
         right.resize(n, 1);
-        right.col(0) = entries_of(right_hand_side);
+        right.col(0) = entries(right_hand_side);
         back_substitute();
-        Eigen::Map<Eigen::VectorXd>(solution.trilinos_vector()[0], n) =
-          result.col(0);
+        entries(solution) = result.col(0);
       }
 
       void
@@ -455,11 +455,10 @@ namespace Ricochet
         const int n = symmetric.rows();
         right.resize(n, right_hand_sides.size());
         for (unsigned int c = 0; c < right_hand_sides.size(); ++c)
-          right.col(c) = entries_of(right_hand_sides[c]);
+          right.col(c) = entries(right_hand_sides[c]);
         back_substitute();
         for (unsigned int c = 0; c < right_hand_sides.size(); ++c)
-          Eigen::Map<Eigen::VectorXd>(solutions[c].trilinos_vector()[0], n) =
-            result.col(c);
+          entries(solutions[c]) = result.col(c);
       }
 
     private:
@@ -659,13 +658,6 @@ namespace Ricochet
         std::size_t entry;
         double      value;
       };
-
-      static Eigen::Map<const Eigen::VectorXd>
-      entries_of(const Vector &vector)
-      {
-        return {vector.trilinos_vector()[0],
-                static_cast<Eigen::Index>(vector.size())};
-      }
 
       /// From all columns of #right to those of #result.
       void

@@ -4,8 +4,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-
 namespace Ricochet
 {
   using namespace dealii;
@@ -28,10 +26,7 @@ namespace Ricochet
         record.time_step != other.record.time_step ||
         solution.size() != other.solution.size())
       return false;
-    const double *values = solution.trilinos_vector()[0];
-    const bool    same   = std::equal(values,
-                                 values + solution.locally_owned_size(),
-                                 other.solution.trilinos_vector()[0]);
+    const bool same = entries(solution) == entries(other.solution);
     return Utilities::MPI::min(same ? 1 : 0, solution.get_mpi_communicator()) ==
       1;
   }
