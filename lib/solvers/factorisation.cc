@@ -15,18 +15,6 @@ extern "C"
 {
   // BLAS
   void
-  dgemv_(const char   *transpose,
-         const int    *n_rows,
-         const int    *n_columns,
-         const double *factor,
-         const double *matrix,
-         const int    *stride,
-         const double *vector,
-         const int    *step,
-         const double *old_factor,
-         double       *result,
-         const int    *result_step);
-  void
   dtrsm_(const char   *side,
          const char   *triangle,
          const char   *transpose,
@@ -258,78 +246,93 @@ namespace Ricochet
       HalfColumns
       go_forwards(const Functionals &right_hand_sides) override
       {
-        HalfColumns       half;
-        std::vector<bool> is_needed(supernodes.size(), false);
-        for (const Index unknown : right_hand_sides.index)
-          is_needed[supernode_of[place_in_factor[unknown]]] = true;
-        half.region    = with_ancestors(is_needed);
-        half.n_columns = right_hand_sides.size();
-        // Place of a supernode in the region less that in the factor.
-        std::vector<int> shift(supernodes.size());
-        int              n_rows = 0;
-        for (const int s : half.region)
+        HalfColumns half = find_ways(right_hand_sides);
+        // Place of a member of the region in it, of a column in its piece, and of the
+        // first row below all others.
+        std::vector<int>         member_of(supernodes.size(), -1);
+        std::vector<std::size_t> piece_of(half.region.size());
+        std::vector<int> place_in_piece(half.pieces.size() * half.n_columns);
+        for (std::size_t p = 0; p < half.pieces.size(); ++p)
           {
-            half.first_row.push_back(n_rows);
-            shift[s] = n_rows - supernodes[s].first_column;
-            n_rows += supernodes[s].n_columns;
+            const HalfColumns::Piece &piece = half.pieces[p];
+            for (std::size_t k = piece.begin; k < piece.end; ++k)
+              {
+                member_of[half.region[k]] = k;
+                piece_of[k]               = p;
+              }
+            for (std::size_t c = piece.begin_column; c < piece.end_column; ++c)
+              place_in_piece[p * half.n_columns + half.columns[c]] =
+                c - piece.begin_column;
           }
-        half.first_row.push_back(n_rows);
-        const auto row_of = [&](const int place) {
-          return half.values.data() +
-            static_cast<std::size_t>(place + shift[supernode_of[place]]) *
-            half.n_columns;
+        // A row has all columns of its piece beside each other.
+        struct Row
+        {
+          double    *values;
+          const int *place_of_column;
         };
-        half.values.assign(static_cast<std::size_t>(n_rows) * half.n_columns,
-                           0.);
+        const auto row_at = [&](const int place) -> Row {
+          const int                 s = supernode_of[place], k = member_of[s];
+          const HalfColumns::Piece &piece = half.pieces[piece_of[k]];
+          const int row = half.first_row[k] - half.first_row[piece.begin] +
+            place - supernodes[s].first_column;
+          return {half.values.data() + piece.first_value +
+                    static_cast<std::size_t>(row) * piece.n_columns(),
+                  place_in_piece.data() + piece_of[k] * half.n_columns};
+        };
         for (int c = 0; c < half.n_columns; ++c)
           for (std::size_t k = right_hand_sides.begin[c];
                k < right_hand_sides.begin[c + 1];
                ++k)
-            row_of(place_in_factor[right_hand_sides.index[k]])[c] +=
-              right_hand_sides.value[k];
+            {
+              const Row row =
+                row_at(place_in_factor[right_hand_sides.index[k]]);
+              row.values[row.place_of_column[c]] += right_hand_sides.value[k];
+            }
 
-        // A row has all columns beside each other, so what BLAS sees is the
-        // transposed.
+        // What BLAS sees is the transposed.
         const double        one = 1., zero = 0.;
         std::vector<double> below_columns(
           static_cast<std::size_t>(largest_below) * half.n_columns);
-        for (const int s : half.region)
+        for (std::size_t k = 0; k < half.region.size(); ++k)
           {
-            const Supernode &node = supernodes[s];
-            double          *own  = row_of(node.first_column);
+            const Supernode          &node  = supernodes[half.region[k]];
+            const HalfColumns::Piece &piece = half.pieces[piece_of[k]];
+            const int    *columns   = half.columns.data() + piece.begin_column;
+            const int     n_columns = piece.n_columns();
+            double *const own       = row_at(node.first_column).values;
             dtrsm_("R",
                    "L",
                    "T",
                    "N",
-                   &half.n_columns,
+                   &n_columns,
                    &node.n_columns,
                    &one,
                    node.values,
                    &node.n_rows,
                    own,
-                   &half.n_columns);
+                   &n_columns);
             const int n_below = node.n_below();
             if (n_below == 0)
               continue;
             dgemm_("N",
                    "T",
-                   &half.n_columns,
+                   &n_columns,
                    &n_below,
                    &node.n_columns,
                    &one,
                    own,
-                   &half.n_columns,
+                   &n_columns,
                    node.values + node.n_columns,
                    &node.n_rows,
                    &zero,
                    below_columns.data(),
-                   &half.n_columns);
+                   &n_columns);
             const double *change = below_columns.data();
             for (int i = 0; i < n_below; ++i)
               {
-                double *row = row_of(node.rows[node.n_columns + i]);
-                for (int c = 0; c < half.n_columns; ++c)
-                  row[c] -= *change++;
+                const Row row = row_at(node.rows[node.n_columns + i]);
+                for (int c = 0; c < n_columns; ++c)
+                  row.values[row.place_of_column[columns[c]]] -= *change++;
               }
           }
         return half;
@@ -349,51 +352,60 @@ namespace Ricochet
           {
             signed_values = right.values;
             right_values  = &signed_values;
-            change_signs(right, [&](const int row) {
-              double *values =
-                &signed_values[static_cast<std::size_t>(row) * right.n_columns];
-              for (int c = 0; c < right.n_columns; ++c)
-                values[c] = -values[c];
-            });
+            std::vector<double> sign_of(right.first_row.back(), 1.);
+            change_signs(right, [&](const int row) { sign_of[row] = -1.; });
+            for (const HalfColumns::Piece &piece : right.pieces)
+              rows_of(right, signed_values, piece).array().rowwise() *=
+                Eigen::Map<const Eigen::ArrayXd>(sign_of.data() +
+                                                   right.first_row[piece.begin],
+                                                 n_rows_of(right, piece))
+                  .transpose();
           }
-        const double      one     = 1.;
-        const std::size_t n_left  = left.region.size(),
-                          n_right = right.region.size();
-        for (std::size_t l = 0, r = 0; l < n_left && r < n_right;)
+        Eigen::MatrixXd part;
+        std::size_t     l = 0, r = 0;
+        for (auto of_left  = left.pieces.begin(),
+                  of_right = right.pieces.begin();
+             of_left != left.pieces.end() && of_right != right.pieces.end();)
           {
-            if (left.region[l] != right.region[r])
-              {
-                ++(left.region[l] < right.region[r] ? l : r);
-                continue;
-              }
             // As far as both go the same way.
+            while (l < of_left->end && r < of_right->end &&
+                   left.region[l] != right.region[r])
+              ++(left.region[l] < right.region[r] ? l : r);
             const std::size_t first_l = l, first_r = r;
-            while (l < n_left && r < n_right &&
+            while (l < of_left->end && r < of_right->end &&
                    left.region[l] == right.region[r])
               {
                 ++l;
                 ++r;
               }
-            const int  n_rows = left.first_row[l] - left.first_row[first_l];
-            const auto row    = [](const HalfColumns         &half,
-                                const std::vector<double> &values,
-                                const std::size_t          k) {
-              return values.data() +
-                static_cast<std::size_t>(half.first_row[k]) * half.n_columns;
-            };
-            dgemm_("N",
-                   "T",
-                   &left.n_columns,
-                   &right.n_columns,
-                   &n_rows,
-                   &one,
-                   row(left, left.values, first_l),
-                   &left.n_columns,
-                   row(right, *right_values, first_r),
-                   &right.n_columns,
-                   &one,
-                   products.data(),
-                   &left.n_columns);
+            if (l > first_l)
+              {
+                const int n_rows = left.first_row[l] - left.first_row[first_l];
+                part.noalias()   = rows_of(left, left.values, *of_left)
+                                   .middleCols(left.first_row[first_l] -
+                                                 left.first_row[of_left->begin],
+                                               n_rows) *
+                  rows_of(right, *right_values, *of_right)
+                    .middleCols(right.first_row[first_r] -
+                                  right.first_row[of_right->begin],
+                                n_rows)
+                    .transpose();
+                for (int j = 0; j < part.cols(); ++j)
+                  {
+                    double *const column = products.data() +
+                      static_cast<std::size_t>(
+                        right.columns[of_right->begin_column + j]) *
+                        left.n_columns;
+                    for (int i = 0; i < part.rows(); ++i)
+                      column[left.columns[of_left->begin_column + i]] +=
+                        part(i, j);
+                  }
+              }
+            const bool left_ends = l == of_left->end;
+            if (r == of_right->end)
+              ++of_right;
+            if (left_ends)
+              ++of_left;
           }
       }
 
@@ -402,15 +414,18 @@ namespace Ricochet
               const std::vector<double> &half,
               double                    *values) const override
       {
-        // In one piece, so that BLAS is called once.
-        seen_half.resize(columns.first_row.back());
-        for_each_node(columns,
-                      [&](const int n, const int first, const int row) {
-                        std::copy_n(half.data() + first,
-                                    n,
-                                    seen_half.data() + row);
-                      });
-        multiply_by("N", columns, seen_half.data(), values);
+        gather(columns, half);
+        std::fill_n(values, columns.n_columns, 0.);
+        for (const HalfColumns::Piece &piece : columns.pieces)
+          {
+            of_columns.noalias() =
+              rows_of(columns, columns.values, piece) *
+              Eigen::Map<const Eigen::VectorXd>(
+                seen_half.data() + columns.first_row[piece.begin],
+                n_rows_of(columns, piece));
+            for (int c = 0; c < piece.n_columns(); ++c)
+              values[columns.columns[piece.begin_column + c]] += of_columns[c];
+          }
       }
 
       void
@@ -419,7 +434,18 @@ namespace Ricochet
                std::vector<double> &half) const override
       {
         seen_half.resize(columns.first_row.back());
-        multiply_by("T", columns, coefficients, seen_half.data());
+        for (const HalfColumns::Piece &piece : columns.pieces)
+          {
+            of_columns.resize(piece.n_columns());
+            for (int c = 0; c < piece.n_columns(); ++c)
+              of_columns[c] =
+                coefficients[columns.columns[piece.begin_column + c]];
+            Eigen::Map<Eigen::VectorXd>(seen_half.data() +
+                                          columns.first_row[piece.begin],
+                                        n_rows_of(columns, piece))
+              .noalias() =
+              rows_of(columns, columns.values, piece).transpose() * of_columns;
+          }
         change_signs(columns,
                      [&](const int row) { seen_half[row] = -seen_half[row]; });
         for_each_node(columns,
@@ -574,19 +600,102 @@ namespace Ricochet
         return *accurate;
       }
 
-      /// The supernodes that are needed, and all that come after them, in their order.
-      std::vector<int>
-      with_ancestors(std::vector<bool> &is_needed) const
+      /// The supernodes that each of the @p right_hand_sides goes through on its way to
+      /// the last one, and places for what it leaves there: zeros.
+      HalfColumns
+      find_ways(const Functionals &right_hand_sides) const
       {
-        std::vector<int> region;
+        HalfColumns half;
+        half.n_columns = right_hand_sides.size();
+        std::vector<std::vector<bool>> goes_through(supernodes.size());
+        const auto                     ways_of = [&](const int s) -> auto &
+        {
+          goes_through[s].resize(half.n_columns, false);
+          return goes_through[s];
+        };
+        for (int c = 0; c < half.n_columns; ++c)
+          for (std::size_t k = right_hand_sides.begin[c];
+               k < right_hand_sides.begin[c + 1];
+               ++k)
+            ways_of(
+              supernode_of[place_in_factor[right_hand_sides.index[k]]])[c] =
+              true;
+        half.first_row.push_back(0);
+        std::size_t n_values = 0;
         for (unsigned int s = 0; s < supernodes.size(); ++s)
-          if (is_needed[s])
-            {
-              region.push_back(s);
-              if (supernodes[s].parent >= 0)
-                is_needed[supernodes[s].parent] = true;
-            }
-        return region;
+          {
+            const std::vector<bool> &own = goes_through[s];
+            if (own.empty())
+              continue;
+            if (supernodes[s].parent >= 0)
+              {
+                std::vector<bool> &next = ways_of(supernodes[s].parent);
+                for (int c = 0; c < half.n_columns; ++c)
+                  next[c] = next[c] || own[c];
+              }
+            if (half.region.empty() || own != goes_through[half.region.back()])
+              {
+                const std::size_t first = half.columns.size();
+                for (int c = 0; c < half.n_columns; ++c)
+                  if (own[c])
+                    half.columns.push_back(c);
+                half.pieces.push_back({half.region.size(),
+                                       half.region.size(),
+                                       first,
+                                       half.columns.size(),
+                                       n_values});
+              }
+            HalfColumns::Piece &piece = half.pieces.back();
+            half.region.push_back(s);
+            half.first_row.push_back(half.first_row.back() +
+                                     supernodes[s].n_columns);
+            n_values += static_cast<std::size_t>(supernodes[s].n_columns) *
+              piece.n_columns();
+            ++piece.end;
+          }
+        half.values.assign(n_values, 0.);
+        return half;
+      }
+
+      static int
+      n_rows_of(const HalfColumns &columns, const HalfColumns::Piece &piece)
+      {
+        return columns.first_row[piece.end] - columns.first_row[piece.begin];
+      }
+
+      /// A matrix of the @p values of @p piece, with a row for each of its columns and a
+      /// column for each of its rows.
+      static Eigen::Map<const Eigen::MatrixXd>
+      rows_of(const HalfColumns         &columns,
+              const std::vector<double> &values,
+              const HalfColumns::Piece  &piece)
+      {
+        return {values.data() + piece.first_value,
+                piece.n_columns(),
+                n_rows_of(columns, piece)};
+      }
+
+      static Eigen::Map<Eigen::MatrixXd>
+      rows_of(const HalfColumns        &columns,
+              std::vector<double>      &values,
+              const HalfColumns::Piece &piece)
+      {
+        return {values.data() + piece.first_value,
+                piece.n_columns(),
+                n_rows_of(columns, piece)};
+      }
+
+      /// #seen_half = the values of @p half where @p columns are, in one piece.
+      void
+      gather(const HalfColumns &columns, const std::vector<double> &half) const
+      {
+        seen_half.resize(columns.first_row.back());
+        for_each_node(columns,
+                      [&](const int n, const int first, const int row) {
+                        std::copy_n(half.data() + first,
+                                    n,
+                                    seen_half.data() + row);
+                      });
       }
 
       /// Call @p action(n_rows, first, row) for the supernodes of the columns: their
@@ -619,29 +728,6 @@ namespace Ricochet
                              ++place)
                           action(row + *place - first);
                       });
-      }
-
-      /// @p result = the columns' values times @p vector; as they are stored, with rows
-      /// for columns and columns for rows, or with "T" transposed.
-      static void
-      multiply_by(const char        *transpose,
-                  const HalfColumns &columns,
-                  const double      *vector,
-                  double            *result)
-      {
-        const int    n_rows = columns.first_row.back(), one = 1;
-        const double plus_one = 1., zero = 0.;
-        dgemv_(transpose,
-               &columns.n_columns,
-               &n_rows,
-               &plus_one,
-               columns.values.data(),
-               &columns.n_columns,
-               vector,
-               &one,
-               &zero,
-               result,
-               &one);
       }
 
       /// Where an entry of the lower triangle and its mirror image are among
@@ -809,6 +895,7 @@ namespace Ricochet
       std::vector<double>         diagonal_of_factor;
       std::vector<double>         work;
       mutable std::vector<double> seen_half;
+      mutable Eigen::VectorXd     of_columns;
     };
   } // namespace
 

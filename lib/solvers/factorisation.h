@@ -71,17 +71,37 @@ namespace Ricochet
                 std::vector<double> & /*half*/)
     {}
 
-    /// L^{-1} times several right hand sides, where it is not zero.
+    /// L^{-1} times several right hand sides, where it is not zero: each of them only in
+    /// those members of the region that lie on its way.
     struct HalfColumns
     {
+      /// Members of the region that the same columns go through.
+      struct Piece
+      {
+        /// Place of the first one, and behind the last one.
+        std::size_t begin, end;
+        /// Which columns: a range of #columns.
+        std::size_t begin_column, end_column;
+        /// Place in #values.
+        std::size_t first_value;
+
+        int
+        n_columns() const
+        {
+          return end_column - begin_column;
+        }
+      };
+
       /// The part of L with all that is not zero.
       std::vector<int> region;
-      /// Place in #values of the first unknown of each member of the region, in
-      /// unknowns, and behind the last one.
-      std::vector<int> first_row;
-      int              n_columns = 0;
-      /// For each unknown of the region one number of each column.
+      /// The first unknown of each member of the region, counted in the region, and
+      /// behind the last one.
+      std::vector<int>   first_row;
+      std::vector<Piece> pieces;
+      std::vector<int>   columns;
+      /// For each unknown of the region one number of each column of its piece.
       std::vector<double> values;
+      int                 n_columns = 0;
     };
 
     virtual HalfColumns
