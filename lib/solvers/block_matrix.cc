@@ -230,8 +230,7 @@ namespace Ricochet
     Assert(!isotropic, ExcNotImplemented());
     AssertThrow(places == matrix.places, ExcMessage("Other places."));
     const unsigned int dim = places->dim;
-    const auto         add = [&](const std::vector<double> &from,
-                         std::vector<Number>       &to) {
+    const auto         add = [&](const auto &from, auto &to) {
       if (matrix.isotropic)
         for (std::size_t k = 0; k < from.size(); ++k)
           for (unsigned int c = 0; c < dim; ++c)

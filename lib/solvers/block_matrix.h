@@ -2,6 +2,7 @@
 #ifndef ricochet_solvers_block_matrix_h
 #define ricochet_solvers_block_matrix_h
 
+#include <base/large_pages.h>
 #include <base/types.h>
 
 #include <deal.II/base/partitioner.h>
@@ -197,7 +198,8 @@ namespace Ricochet
     // Entries of a block.
     const unsigned int size;
     // Row by row, #size entries each: on the diagonal, and at #places->column.
-    std::vector<Number> diagonal, blocks;
+    std::vector<Number> diagonal;
+    LargeVector<Number> blocks;
   };
 } // namespace Ricochet
 

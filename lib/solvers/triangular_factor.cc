@@ -204,13 +204,9 @@ namespace Ricochet
   void
   TriangularFactor<Value>::eliminate(const Block &block, double *half) const
   {
-    double      *own      = half + block.first;
-    const Value *triangle = values.data() + block.triangle;
-    const Value *below    = values.data() + block.below;
-    const int   *rows     = first_rows.data() + block.begin;
-    const int   *rows_end = first_rows.data() + block.end;
-    with_width(block.width, [=](const auto width) {
-      const Value *value = triangle;
+    with_width(block.width, [half, seen = view(block, half)](const auto width) {
+      const auto [own, triangle, below, rows, rows_end] = seen;
+      const Value *value                                = triangle;
       for (int i = 1; i < width; ++i)
         {
           double sum = 0.;
@@ -254,12 +250,8 @@ namespace Ricochet
   void
   TriangularFactor<Value>::substitute(const Block &block, double *half) const
   {
-    double      *own      = half + block.first;
-    const Value *triangle = values.data() + block.triangle;
-    const Value *below    = values.data() + block.below;
-    const int   *rows     = first_rows.data() + block.begin;
-    const int   *rows_end = first_rows.data() + block.end;
-    with_width(block.width, [=](const auto width) {
+    with_width(block.width, [half, seen = view(block, half)](const auto width) {
+      const auto [own, triangle, below, rows, rows_end] = seen;
       // As it goes from the last block to the first, so in each of them.
       const Value *value = below + 2 * width * (rows_end - rows);
       if constexpr (std::is_same_v<decltype(width), const int>)

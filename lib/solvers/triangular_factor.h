@@ -2,6 +2,8 @@
 #ifndef ricochet_solvers_triangular_factor_h
 #define ricochet_solvers_triangular_factor_h
 
+#include <base/large_pages.h>
+
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -145,6 +147,25 @@ namespace Ricochet
     static std::vector<std::array<int, 2>>
     find_blocks(const Columns &columns);
 
+    /// Where the values of a block of a half solution are, and what #values and
+    /// #first_rows have for it.
+    struct View
+    {
+      double      *own;
+      const Value *triangle, *below;
+      const int   *rows, *rows_end;
+    };
+
+    View
+    view(const Block &block, double *half) const
+    {
+      return {half + block.first,
+              values.data() + block.triangle,
+              values.data() + block.below,
+              first_rows.data() + block.begin,
+              first_rows.data() + block.end};
+    }
+
     /// Take @p block out of @p half.
     void
     eliminate(const Block &block, double *half) const;
@@ -164,7 +185,7 @@ namespace Ricochet
     std::vector<int>    place, block_of;
     std::vector<Block>  blocks;
     std::vector<int>    first_rows;
-    std::vector<Value>  values;
+    LargeVector<Value>  values;
     std::vector<double> inverse_diagonal;
     // Work space: zero between calls.
     mutable std::vector<double> dense;

@@ -28,6 +28,13 @@ namespace Ricochet
     for (const ContactPoint &point : points.points)
       longest = std::max(longest, point.end - point.begin);
     local_matrix.resize(longest);
+    const auto has_some = [](const std::vector<double> &coefficients) {
+      return std::any_of(coefficients.begin(),
+                         coefficients.end(),
+                         [](const double value) { return value != 0.; });
+    };
+    has_stress_pressure = has_some(points.stress_pressure_coefficient);
+    has_multipliers     = has_some(points.multiplier_coefficient);
   }
 
 
@@ -73,14 +80,22 @@ namespace Ricochet
         const ContactPoint &point = points.points[p];
         ContactPointState<> state;
         state.gap = point.initial_gap;
-        for (unsigned int k = point.begin; k < point.end; ++k)
-          {
-            const double unknown = value[local_index[k]];
-            state.gap += points.gap_coefficient[k] * unknown;
-            state.stress_pressure +=
-              points.stress_pressure_coefficient[k] * unknown;
-            state.multiplier += points.multiplier_coefficient[k] * unknown;
-          }
+        // Memory limits this: what is zero everywhere is not read.
+        if (has_stress_pressure)
+          for (unsigned int k = point.begin; k < point.end; ++k)
+            {
+              const double unknown = value[local_index[k]];
+              state.gap += points.gap_coefficient[k] * unknown;
+              state.stress_pressure +=
+                points.stress_pressure_coefficient[k] * unknown;
+            }
+        else
+          for (unsigned int k = point.begin; k < point.end; ++k)
+            state.gap += points.gap_coefficient[k] * value[local_index[k]];
+        if (has_multipliers)
+          for (unsigned int k = point.begin; k < point.end; ++k)
+            state.multiplier +=
+              points.multiplier_coefficient[k] * value[local_index[k]];
         states[p] = state;
       }
   }
@@ -124,16 +139,19 @@ namespace Ricochet
 
 
 
+  template <typename Value>
   void
-  ContactPointEvaluator::add_to_unknown(const unsigned int k,
-                                        const double       value,
-                                        Vector            &vector)
+  ContactPointEvaluator::add_to_unknowns(const ContactPoint &point,
+                                         const Value        &value,
+                                         Vector             &vector) const
   {
-    // Most of them are here, and need not be looked for.
-    if (owned_index[k] >= 0)
-      vector.trilinos_vector()[0][owned_index[k]] += value;
-    else if (value != 0.)
-      vector.add(1, &points.index[k], &value);
+    double *const values = vector.trilinos_vector()[0];
+    for (unsigned int k = point.begin; k < point.end; ++k)
+      // Most of them are here, and need not be looked for.
+      if (owned_index[k] >= 0)
+        values[owned_index[k]] += value(k);
+      else if (const double sent = value(k); sent != 0.)
+        vector.add(1, &points.index[k], &sent);
   }
 
 
@@ -144,14 +162,28 @@ namespace Ricochet
                              Vector                    &vector)
   {
     const ContactPoint &point = points.points[p];
-    for (unsigned int k = point.begin; k < point.end; ++k)
-      add_to_unknown(k,
-                     point.weight *
-                       (force.gap * points.gap_coefficient[k] +
-                        force.stress_pressure *
-                          points.stress_pressure_coefficient[k] +
-                        force.multiplier * points.multiplier_coefficient[k]),
-                     vector);
+    if (force.gap == 0. && force.stress_pressure == 0. &&
+        force.multiplier == 0.)
+      return;
+    if (has_multipliers)
+      add_to_unknowns(
+        point,
+        [&](const unsigned int k) {
+          return point.weight *
+            (force.gap * points.gap_coefficient[k] +
+             force.stress_pressure * points.stress_pressure_coefficient[k] +
+             force.multiplier * points.multiplier_coefficient[k]);
+        },
+        vector);
+    else
+      add_to_unknowns(
+        point,
+        [&](const unsigned int k) {
+          return point.weight *
+            (force.gap * points.gap_coefficient[k] +
+             force.stress_pressure * points.stress_pressure_coefficient[k]);
+        },
+        vector);
   }
 
 
@@ -194,11 +226,13 @@ namespace Ricochet
                              Vector                     &vector)
   {
     const ContactPoint &point = points.points[p];
-    for (unsigned int k = point.begin; k < point.end; ++k)
-      add_to_unknown(k,
-                     point.weight * traction[points.component[k]] *
-                       points.shape_value[k],
-                     vector);
+    add_to_unknowns(
+      point,
+      [&](const unsigned int k) {
+        return point.weight * traction[points.component[k]] *
+          points.shape_value[k];
+      },
+      vector);
   }
 
 

@@ -115,9 +115,12 @@ namespace Ricochet
     void
     find_local_indices();
 
-    /// Add @p value to the unknown of coefficient @p k.
+    /// Add @p value(k) to the unknown of each coefficient k of @p point.
+    template <typename Value>
     void
-    add_to_unknown(const unsigned int k, const double value, Vector &vector);
+    add_to_unknowns(const ContactPoint &point,
+                    const Value        &value,
+                    Vector             &vector) const;
 
     /// Derivatives of the gap with respect to the unknowns.
     const std::vector<double> &
@@ -134,6 +137,8 @@ namespace Ricochet
     const dealii::IndexSet owned;
     std::vector<int>       local_index;
     bool                   some_points = false;
+    // Whether any point has coefficients of these.
+    bool has_stress_pressure = false, has_multipliers = false;
     // Place of each unknown among those of this rank; -1: another rank's.
     std::vector<int> owned_index;
     // Work space of add().
