@@ -441,15 +441,18 @@ namespace Ricochet
   {
     if (blocks)
       return blocks;
-    AssertThrow(!has_multipliers(),
-                ExcMessage("Multipliers have no place in blocks."));
+    AssertThrow(!has_multipliers() ||
+                  Utilities::MPI::n_mpi_processes(communicator) == 1,
+                ExcMessage("Multipliers of several ranks have no place in "
+                           "blocks."));
     const auto partitioner =
       std::make_shared<Utilities::MPI::Partitioner>(owned,
                                                     relevant,
                                                     communicator);
     // From all cells that touch own nodes, also those of other ranks.
-    std::vector<std::vector<unsigned int>> rows(owned.n_elements() / dim);
-    std::vector<types::global_dof_index>   cell_dofs(
+    std::vector<std::vector<unsigned int>> rows(
+      displacement_dofs.n_locally_owned_dofs() / dim);
+    std::vector<types::global_dof_index> cell_dofs(
       displacement_element->n_dofs_per_cell());
     std::vector<unsigned int> nodes;
     for (const auto &cell : displacement_dofs.active_cell_iterators())

@@ -130,7 +130,7 @@ namespace Ricochet
     const dealii::TrilinosWrappers::SparsityPattern &
     component_sparsity_pattern() const;
 
-    /// The same by blocks between nodes, for matrices of bodies without multipliers.
+    /// The same by blocks between nodes. @pre no multipliers on several ranks.
     const std::shared_ptr<const BlockPattern> &
     block_pattern() const;
 

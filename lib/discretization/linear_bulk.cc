@@ -199,14 +199,14 @@ namespace Ricochet
   void
   LinearBulk<dim>::force(const Vector &solution, Vector &force) const
   {
-    copy_values(force_at(solution), force);
+    copy_values(known_force(solution).force, force);
   }
 
 
 
   template <int dim>
-  const Vector &
-  LinearBulk<dim>::force_at(const Vector &solution) const
+  typename LinearBulk<dim>::KnownForce &
+  LinearBulk<dim>::known_force(const Vector &solution) const
   {
     // The old, a middle and the new state of a step, and a guess.
     constexpr unsigned int n_known = 4;
@@ -220,12 +220,14 @@ namespace Ricochet
     };
     const auto fill = [&](KnownForce &entry) {
       copy_values(solution, entry.displacement);
-      copy_values(solution, entry.force);
       copy_values(solution, work);
+      if (entry.force.size() == 0)
+        entry.force.reinit(work);
       remove_translation();
       stiffness.vmult(entry.force, work);
+      entry.energies.clear();
     };
-    return find_or_refill(known_forces, n_known, is_same, fill).force;
+    return find_or_refill(known_forces, n_known, is_same, fill);
   }
 
 
@@ -258,10 +260,11 @@ namespace Ricochet
                               const double  time_step,
                               Vector       &force) const
   {
-    copy_values(old_solution, work);
-    work.sadd(.5, .5, new_solution);
-    remove_translation();
-    stiffness.vmult(force, work);
+    // The force of the mean is the mean of those at both ends, of which the balance of
+    // the last step asked for the first, and that of this one will for the second.
+    const Vector &old_force = known_force(old_solution).force;
+    const Vector &new_force = known_force(new_solution).force;
+    entries(force)          = .5 * (entries(old_force) + entries(new_force));
     if (has_viscosity)
       {
         copy_values(new_solution, work);
@@ -318,13 +321,49 @@ namespace Ricochet
 
 
   template <int dim>
+  const std::vector<double> &
+  LinearBulk<dim>::known_energies(const Vector &solution) const
+  {
+    KnownForce &known = known_force(solution);
+    if (!known.energies.empty())
+      return known.energies;
+    copy_values(solution, work);
+    remove_translation();
+    known.energies.assign(n_parts + 1, 0.);
+    if (n_parts == 1)
+      {
+        known.energies[0] = .5 * (known.force * work);
+        return known.energies;
+      }
+    const double *const force        = known.force.trilinos_vector()[0];
+    const double *const displacement = work.trilinos_vector()[0];
+    std::vector<double> my_energies(known.energies);
+    // Most unknowns are of the part of the one before them.
+    unsigned int part = 0;
+    double       sum  = 0.;
+    for (unsigned int i = 0; i < group.size(); ++i)
+      {
+        if (group[i] / dim != part)
+          {
+            my_energies[part] += .5 * sum;
+            part = group[i] / dim;
+            sum  = 0.;
+          }
+        sum += force[i] * displacement[i];
+      }
+    my_energies[part] += .5 * sum;
+    Utilities::MPI::sum(my_energies, communicator, known.energies);
+    return known.energies;
+  }
+
+
+
+  template <int dim>
   double
   LinearBulk<dim>::energy(const Vector &solution) const
   {
-    const Vector &force = force_at(solution);
-    copy_values(solution, work);
-    remove_translation();
-    return .5 * (force * work);
+    const std::vector<double> &energies = known_energies(solution);
+    return std::accumulate(energies.begin(), energies.end(), 0.);
   }
 
 
@@ -333,15 +372,8 @@ namespace Ricochet
   std::vector<double>
   LinearBulk<dim>::energies_of_parts(const Vector &solution) const
   {
-    const Vector &force = force_at(solution);
-    copy_values(solution, work);
-    remove_translation();
-    std::vector<double> my_energies(n_parts, 0.), energies(n_parts);
-    for (unsigned int i = 0; i < group.size(); ++i)
-      if (group[i] < n_parts * dim)
-        my_energies[group[i] / dim] +=
-          .5 * force.trilinos_vector()[0][i] * work.trilinos_vector()[0][i];
-    Utilities::MPI::sum(my_energies, communicator, energies);
+    std::vector<double> energies = known_energies(solution);
+    energies.pop_back();
     return energies;
   }
 

@@ -83,10 +83,6 @@ namespace Ricochet
     }
 
   private:
-    /// force(), found or made.
-    const Vector &
-    force_at(const Vector &solution) const;
-
     /// Take the mean translation of each part, which stores nothing, out of #work:
     /// far from where it started, the displacement of a body is much larger than
     /// its differences.
@@ -111,8 +107,18 @@ namespace Ricochet
     struct KnownForce
     {
       Vector displacement, force;
+      /// Of the parts (J), and of what belongs to none; empty as long as nobody asks.
+      std::vector<double> energies;
     };
     mutable std::list<KnownForce> known_forces;
+
+    /// Found or made.
+    KnownForce &
+    known_force(const Vector &solution) const;
+
+    /// KnownForce::energies there.
+    const std::vector<double> &
+    known_energies(const Vector &solution) const;
   };
 
   /// Consistent mass matrix (kg) of @p body with the constant @p densities of its

@@ -64,6 +64,10 @@ namespace Ricochet
     }
 
   private:
+    /// Energies of motion of all bodies (J).
+    const std::vector<double> &
+    kinetic_energies(const Vector &velocity) const;
+
     const BulkOperator             &bulk;
     const BodyMatrix               &mass;
     const MPI_Comm                  communicator;
@@ -73,7 +77,10 @@ namespace Ricochet
     const std::vector<unsigned int> part_of_unknown;
     std::vector<Momenta<dim>>       momenta_of_parts;
     Momenta<dim>                    momenta_of_all;
-    mutable Vector                  momentum;
+    // What the columns of one body after the other ask for is known from the first
+    // of them: the energies at this velocity (m/s).
+    mutable Vector              momentum, known_velocity;
+    mutable std::vector<double> known_energies;
   };
 } // namespace Ricochet
 

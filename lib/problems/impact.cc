@@ -340,10 +340,16 @@ namespace Ricochet
                                         body.owned_indices().size(),
                                         Utilities::MPI::n_mpi_processes(
                                           body.communicator));
-      return is_linear && !between_bodies && !body.has_multipliers() &&
-          (setup.degree > 1 || !multigrid)
-        ? MatrixStorage::blocks
-        : MatrixStorage::entries;
+      // Ghosts stand where multipliers would, and multigrid's smoothers and what is
+      // factored for each iteration need entries.
+      const bool is_plain = !between_bodies && !body.has_multipliers();
+      const bool on_one_rank =
+        Utilities::MPI::n_mpi_processes(body.communicator) == 1;
+      const bool has_blocks = multigrid
+        ? is_plain && setup.degree > 1
+        : is_plain || (on_one_rank && parameters.linear_solver.condense);
+      return is_linear && has_blocks ? MatrixStorage::blocks
+                                     : MatrixStorage::entries;
     }
 
     template <int dim>

@@ -373,7 +373,7 @@ namespace Ricochet
   {
     const unsigned int *const column = places->column.data();
     const unsigned int        n      = places->n_rows();
-    std::fill(to, to + std::size_t(n) * dim, Number(0));
+    std::fill(to, to + places->partitioner->locally_owned_size(), Number(0));
     for (unsigned int i = 0; i < n; ++i)
       {
         // In registers, whatever else the vectors share.
@@ -601,13 +601,19 @@ namespace Ricochet
 
     std::vector<unsigned int> columns;
     std::vector<double>       values;
-    const std::size_t         n_numbers = numbers ? numbers->size() : n * dim;
+    const std::size_t         n_numbers =
+      numbers ? numbers->size() : places->partitioner->locally_owned_size();
     for (std::size_t number = 0; number < n_numbers; ++number)
       {
         const unsigned int row = numbers ? (*numbers)[number] : number;
         const unsigned int i = row / dim, c = row % dim;
         columns.clear();
         values.clear();
+        if (i >= n)
+          {
+            action(row, columns, values);
+            continue;
+          }
         const auto take = [&](const Number      *block,
                               const unsigned int j,
                               const unsigned int step,

@@ -18,7 +18,9 @@ namespace Ricochet
   /**
    * Which nodes a symmetric matrix couples. The dim unknowns of a node stand
    * together. On a rank, nodes have numbers: first its own, in the order of their
-   * unknowns, then those of other ranks that they couple to (ghosts).
+   * unknowns, then those of other ranks that they couple to (ghosts). Where there are
+   * no ghosts, other unknowns may stand behind those of the nodes: multipliers, whose
+   * rows and columns are zero.
    */
   struct BlockPattern
   {
@@ -133,6 +135,8 @@ namespace Ricochet
     diagonal_entry(const unsigned int i) const
     {
       const unsigned int dim = places->dim;
+      if (i >= places->n_rows() * dim)
+        return Number(0);
       return isotropic ? diagonal[i / dim] : diagonal[i * dim + i % dim];
     }
 

@@ -90,6 +90,7 @@ namespace Ricochet
     half_columns.clear();
     if (options.group_size == 0)
       whole_columns.resize(direction_at_place.size());
+    positive_small.forget();
     has_change = false;
     changed.clear();
   }
@@ -416,25 +417,36 @@ namespace Ricochet
       }
     small = std::make_unique<LAPACKFullMatrix<double>>(n, n);
 
+    // The observables that rows look at: few of those that they could.
+    std::vector<unsigned int> seen;
+    for (const Row &row : rows)
+      for (const auto &entry : row)
+        seen.push_back(entry.first);
+    std::sort(seen.begin(), seen.end());
+    seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+    std::vector<unsigned int> number_of_seen(n_observables);
+    for (unsigned int k = 0; k < seen.size(); ++k)
+      number_of_seen[seen[k]] = k;
+
     // In blocks of columns, packed so that the innermost loop runs over
     // neighbours.
     constexpr unsigned int width = 16;
-    std::vector<double>    block(n_observables * width, 0.);
+    std::vector<double>    block(seen.size() * width, 0.);
     for (unsigned int begin = 0; begin < n; begin += width)
       {
         const unsigned int size = std::min(width, n - begin);
         for (unsigned int j = 0; j < size; ++j)
           {
             const std::vector<double> &column = columns[changed[begin + j]];
-            for (unsigned int o = 0; o < n_observables; ++o)
-              block[o * width + j] = column[o];
+            for (unsigned int k = 0; k < seen.size(); ++k)
+              block[k * width + j] = column[seen[k]];
           }
         for (unsigned int i = 0; i < n; ++i)
           {
             std::array<double, width> sum{};
             for (const auto &[o, value] : rows[i])
               for (unsigned int j = 0; j < width; ++j)
-                sum[j] += value * block[o * width + j];
+                sum[j] += value * block[number_of_seen[o] * width + j];
             for (unsigned int j = 0; j < size; ++j)
               (*small)(i, begin + j) = sum[j] + (i == begin + j ? 1. : 0.);
           }

@@ -3,6 +3,8 @@
 
 #include <deal.II/lac/lapack_templates.h>
 
+#include <algorithm>
+
 namespace Ricochet
 {
   using namespace dealii;
@@ -13,9 +15,29 @@ namespace Ricochet
                       const std::vector<std::vector<double>> &columns,
                       const bool                              may_update)
   {
-    if (may_update && is_factored && update(places, diagonal, columns))
+    if (may_update && n_factored == base_places.size() &&
+        update(places, diagonal, columns))
       return true;
     return factorise(places, diagonal, columns);
+  }
+
+
+
+  void
+  PositiveSystem::forget()
+  {
+    rest.reset();
+    base_places.clear();
+    base_diagonal.clear();
+    n_factored = 0;
+  }
+
+
+
+  double &
+  PositiveSystem::factor(const unsigned int i, const unsigned int j)
+  {
+    return upper[i + std::size_t(j) * n_rows];
   }
 
 
@@ -27,28 +49,59 @@ namespace Ricochet
   {
     const unsigned int n = places.size();
     rest.reset();
+    // With which places both sets begin, in whole blocks. A block has the same
+    // operands whether the one before it was kept or not.
+    unsigned int n_kept = 0;
+    while (n_kept < std::min(n, n_factored) &&
+           base_places[n_kept] == places[n_kept] &&
+           base_diagonal[n_kept] == diagonal[n_kept])
+      ++n_kept;
+    n_kept -= n_kept % block_size;
+    if (n > static_cast<unsigned int>(n_rows))
+      {
+        n_kept = 0;
+        n_rows = n + n / 2;
+        upper.assign(std::size_t(n_rows) * n_rows, 0.);
+      }
     base_places   = places;
     base_diagonal = diagonal;
-    base.reinit(n, n);
-    // LAPACK reads the lower triangle.
-    for (unsigned int j = 0; j < n; ++j)
+
+    for (n_factored = n_kept; n_factored < n;)
       {
-        const std::vector<double> &column = columns[places[j]];
-        for (unsigned int i = j; i < n; ++i)
-          base(i, j) = column[places[i]];
-        base(j, j) += diagonal[j];
+        const unsigned int begin = n_factored;
+        const int n_above = begin, n_columns = std::min(block_size, n - begin);
+        for (int j = 0; j < n_columns; ++j)
+          {
+            const std::vector<double> &column = columns[places[begin + j]];
+            for (unsigned int i = 0; i <= begin + j; ++i)
+              factor(i, begin + j) = column[places[i]];
+            factor(begin + j, begin + j) += diagonal[begin + j];
+          }
+        double *const corner = &factor(begin, begin);
+        if (begin > 0)
+          {
+            double *const above = &factor(0, begin);
+            solve_half("T", n_above, above, n_columns, n_rows);
+            constexpr double minus_one = -1., one = 1.;
+            syrk("U",
+                 "T",
+                 &n_columns,
+                 &n_above,
+                 &minus_one,
+                 above,
+                 &n_rows,
+                 &one,
+                 corner,
+                 &n_rows);
+          }
+        int info;
+        potrf("U", &n_columns, corner, &n_rows, &info);
+        AssertThrow(info >= 0, ExcInternalError());
+        if (info > 0)
+          return false;
+        n_factored += n_columns;
       }
-    base.set_property(LAPACKSupport::symmetric);
-    is_factored = true;
-    try
-      {
-        base.compute_cholesky_factorization();
-      }
-    catch (const LACExceptions::ExcSingular &)
-      {
-        is_factored = false;
-      }
-    return is_factored;
+    return true;
   }
 
 
@@ -98,7 +151,7 @@ namespace Ricochet
         border(i, k) = columns[joined[k]][base_places[i]];
     for (unsigned int k = 0; k < left.size(); ++k)
       border(left[k], n_joined + k) = 1.;
-    solve_half("N", &border(0, 0), n_rest);
+    solve_half("T", n, &border(0, 0), n_rest, n);
     rest.emplace(n_rest, n_rest);
     border.Tmmult(*rest, border);
     *rest *= -1.;
@@ -123,20 +176,21 @@ namespace Ricochet
 
   void
   PositiveSystem::solve_half(const char *transpose,
+                             const int   n,
                              double     *columns,
-                             const int   n_columns) const
+                             const int   n_columns,
+                             const int   distance) const
   {
-    const int n = base_places.size();
-    int       info;
-    trtrs("L",
+    int info;
+    trtrs("U",
           transpose,
           "N",
           &n,
           &n_columns,
-          &base(0, 0),
-          &n,
+          upper.data(),
+          &n_rows,
           columns,
-          &n,
+          &distance,
           &info);
     AssertThrow(info == 0, ExcInternalError());
   }
@@ -146,26 +200,28 @@ namespace Ricochet
   void
   PositiveSystem::solve(dealii::Vector<double> &vector) const
   {
+    const int n = base_places.size();
     if (!rest)
       {
-        base.solve(vector);
+        solve_half("T", n, vector.begin(), 1, n);
+        solve_half("N", n, vector.begin(), 1, n);
         return;
       }
-    dealii::Vector<double> inner(base_places.size()),
-      outer(joined.size() + left.size()), seen(outer.size());
+    dealii::Vector<double> inner(n), outer(joined.size() + left.size()),
+      seen(outer.size());
     for (unsigned int i = 0, k = 0; i < place_in_base.size(); ++i)
       if (place_in_base[i] >= 0)
         inner[place_in_base[i]] = vector[i];
       else
         outer[k++] = vector[i];
-    solve_half("N", inner.begin(), 1);
+    solve_half("T", n, inner.begin(), 1, n);
     border.Tvmult(seen, inner);
     outer -= seen;
     rest->solve(outer);
     dealii::Vector<double> back(inner.size());
     border.vmult(back, outer);
     inner -= back;
-    solve_half("T", inner.begin(), 1);
+    solve_half("N", n, inner.begin(), 1, n);
     for (unsigned int i = 0, k = 0; i < place_in_base.size(); ++i)
       vector[i] = place_in_base[i] >= 0 ? inner[place_in_base[i]] : outer[k++];
   }

@@ -15,6 +15,11 @@ namespace Ricochet
    *
    *     (C_ij + d_i delta_ij) z_j = b_i,   i, j in the set.
    *
+   * Steps of time ask for sets that grow and shrink at their ends, if places have the
+   * order in which they come into contact. A set is factored in blocks of columns
+   * from its beginning on, and those that the last one began with, too, are kept.
+   * They have the digits that they would get again.
+   *
    * The iterations of Newton's method ask for sets that differ by a few places. One
    * of them is factored, and another one that is near is solved for with that
    * factorisation: places that leave get z = 0 by a multiplier, places that join are
@@ -27,7 +32,7 @@ namespace Ricochet
     /**
      * @param places of the set, ascending.
      * @param diagonal d of each of them, not negative.
-     * @param columns of C, by place.
+     * @param columns of C, by place; the same ones until forget() is called.
      * @param may_update use the factorisation of another set; without it, the
      * result does not depend on what came before.
      * @return whether the matrix is positive definite, as far as is seen. If not,
@@ -38,6 +43,10 @@ namespace Ricochet
         const std::vector<double>              &diagonal,
         const std::vector<std::vector<double>> &columns,
         const bool                              may_update);
+
+    /// C becomes another one.
+    void
+    forget();
 
     /// Whether it is solved with the factorisation of another set.
     bool
@@ -63,26 +72,37 @@ namespace Ricochet
            const std::vector<double>              &diagonal,
            const std::vector<std::vector<double>> &columns);
 
-    /// Overwrite @p n_columns with L^{-1}, or its transposed, times them.
+    /// Overwrite columns of @p n rows with the inverse of the first @p n rows and columns
+    /// of the factor, or its transposed, times them.
+    /// @param distance between the beginnings of columns.
     void
     solve_half(const char *transpose,
+               const int   n,
                double     *columns,
-               const int   n_columns) const;
+               const int   n_columns,
+               const int   distance) const;
 
-    // The set that is factored.
+    /// Entry of the factor R, C = R^T R, by columns.
+    double &
+    factor(const unsigned int i, const unsigned int j);
+
+    /// Columns of a block: enough for matrix products, and few where sets end.
+    static constexpr unsigned int block_size = 64;
+
+    // The set that is factored, and how many of its places are.
     std::vector<unsigned int> base_places;
     std::vector<double>       base_diagonal;
-    // It keeps its memory.
-    DenseMatrix base;
-    bool        is_factored = false;
+    unsigned int              n_factored = 0;
+    // Its upper triangle, with space for more rows than it has.
+    std::vector<double> upper;
+    int                 n_rows = 0;
 
     // Another one: where its places are in the factored set (-1: they joined), and
     // what is beside it: those that joined, then those that left, by their place in
     // the factored set.
     std::vector<int>          place_in_base;
     std::vector<unsigned int> joined, left;
-    // With the factored set L L^T: L^{-1} times what couples to it, and the matrix of
-    // the rest.
+    // R^{-T} times what couples to the factored set, and the matrix of the rest.
     DenseMatrix                border;
     std::optional<DenseMatrix> rest;
   };

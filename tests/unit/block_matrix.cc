@@ -39,14 +39,11 @@ namespace
   template <int dim>
   struct StoredTwice
   {
-    StoredTwice(const bool simplices, const unsigned int degree)
+    StoredTwice(const bool            simplices,
+                const unsigned int    degree,
+                const MultiplierSpace multipliers = MultiplierSpace::none)
       : cube(simplices, 3)
-      , body(cube.triangulation,
-             degree,
-             {2},
-             {1},
-             MultiplierSpace::none,
-             MPI_COMM_WORLD)
+      , body(cube.triangulation, degree, {2}, {1}, multipliers, MPI_COMM_WORLD)
       , entries(body, {material})
       , blocks(body, {material}, MatrixStorage::blocks)
       , mass_by_entries(assemble_mass_matrix(body, {2.}))
@@ -80,9 +77,8 @@ namespace
 
   template <int dim>
   void
-  check_storage(const bool simplices, const unsigned int degree)
+  check_products(const StoredTwice<dim> &twice)
   {
-    const StoredTwice<dim> twice(simplices, degree);
     Vector vector = twice.body.make_vector(), exact(vector), found(vector);
     randomise(vector, 1., 1);
 
@@ -118,6 +114,20 @@ namespace
     twice.entries.force(vector, exact);
     twice.blocks.force(vector, found);
     BOOST_CHECK_SMALL(difference(found, exact), 1e-13);
+  }
+
+
+
+  template <int dim>
+  void
+  check_storage(const bool simplices, const unsigned int degree)
+  {
+    const StoredTwice<dim> twice(simplices, degree);
+    check_products(twice);
+    Vector vector = twice.body.make_vector(), exact(vector), found(vector);
+    randomise(vector, 1., 1);
+    const MatrixSum by_entries = twice.terms(MatrixStorage::entries),
+                    by_blocks  = twice.terms(MatrixStorage::blocks);
 
     // The sum, in one sweep, with clamped unknowns; and in single precision, from
     // either.
@@ -160,6 +170,18 @@ BOOST_AUTO_TEST_CASE(blocks_do_what_entries_do)
         check_storage<2>(simplices, degree);
         check_storage<3>(simplices, degree);
       }
+}
+
+// On one rank multipliers may stand behind the nodes, with rows and columns of zeros.
+BOOST_AUTO_TEST_CASE(multipliers_are_behind_blocks)
+{
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    return;
+  const StoredTwice<2> plane(true, 2, MultiplierSpace::nodal);
+  check_products(plane);
+  const StoredTwice<3> space(false, 1, MultiplierSpace::nodal_vector);
+  BOOST_REQUIRE_GT(space.body.multiplier_indices().n_elements(), 0);
+  check_products(space);
 }
 
 BOOST_AUTO_TEST_CASE(blocks_take_less_memory)

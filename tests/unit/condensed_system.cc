@@ -8,6 +8,7 @@
 #include <base/exceptions.h>
 #include <discretization/linear_bulk.h>
 #include <solvers/factorisation.h>
+#include <solvers/low_rank_correction.h>
 #include <solvers/mass_solver.h>
 #include <solvers/positive_system.h>
 
@@ -139,22 +140,35 @@ BOOST_DATA_TEST_CASE(halves_make_solutions,
     }
 }
 
+namespace
+{
+  /// A symmetric, positive definite matrix with entries of the size of one.
+  std::vector<std::vector<double>>
+  positive_columns(const unsigned int n, const unsigned int seed)
+  {
+    std::mt19937                     generator(seed);
+    std::uniform_real_distribution<> random(-1., 1.);
+    std::vector<std::vector<double>> root(n, std::vector<double>(n)),
+      columns(root);
+    for (auto &column : root)
+      for (double &entry : column)
+        entry = random(generator);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int k = 0; k < n; ++k)
+          columns[i][j] += root[i][k] * root[j][k];
+    return columns;
+  }
+} // namespace
+
 // Sets near the one that was factored, with other places and another diagonal, and
 // one that is far from it.
 BOOST_AUTO_TEST_CASE(nearby_sets_are_solved)
 {
   constexpr unsigned int           n = 80;
-  std::mt19937                     generator(5);
+  std::mt19937                     generator(6);
   std::uniform_real_distribution<> random(-1., 1.);
-  std::vector<std::vector<double>> root(n, std::vector<double>(n)),
-    columns(root);
-  for (auto &column : root)
-    for (double &entry : column)
-      entry = random(generator);
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int j = 0; j < n; ++j)
-      for (unsigned int k = 0; k < n; ++k)
-        columns[i][j] += root[i][k] * root[j][k];
+  auto                             columns = positive_columns(n, 5);
 
   struct Set
   {
@@ -198,7 +212,110 @@ BOOST_AUTO_TEST_CASE(nearby_sets_are_solved)
         }
     }
   columns[30][30] = -100.;
+  system.forget();
   BOOST_CHECK(!system.set({29, 30}, {1., 1.}, columns, false));
+}
+
+// Sets that begin as the one before them, of which the factorisation keeps blocks:
+// with the digits of a system that knows of none, and after the matrix is another one.
+BOOST_AUTO_TEST_CASE(kept_blocks_have_the_same_digits)
+{
+  constexpr unsigned int n = 250;
+  struct Set
+  {
+    unsigned int end, but;
+    double       diagonal_at_100;
+  };
+  PositiveSystem system;
+  for (const unsigned int seed : {7, 8})
+    {
+      const auto columns = positive_columns(n, seed);
+      system.forget();
+      for (const Set &set : {Set{130, n, 1.},
+                             Set{200, n, 1.},
+                             Set{150, n, 1.},
+                             Set{150, 140, 1.},
+                             Set{150, 20, 1.},
+                             Set{250, 20, 1.},
+                             Set{250, 20, 2.},
+                             Set{70, n, 1.}})
+        {
+          std::vector<unsigned int> places;
+          std::vector<double>       diagonal;
+          for (unsigned int place = 0; place < set.end; ++place)
+            if (place != set.but)
+              {
+                places.push_back(place);
+                diagonal.push_back(place == 100 ? set.diagonal_at_100 : 1.);
+              }
+          PositiveSystem fresh;
+          BOOST_REQUIRE(system.set(places, diagonal, columns, false));
+          BOOST_REQUIRE(fresh.set(places, diagonal, columns, false));
+          dealii::Vector<double> solution(places.size());
+          solution = 1.;
+          dealii::Vector<double> other(solution);
+          system.solve(solution);
+          fresh.solve(other);
+          for (unsigned int i = 0; i < places.size(); ++i)
+            {
+              BOOST_CHECK_EQUAL(solution[i], other[i]);
+              double sum = diagonal[i] * solution[i] - 1.;
+              for (unsigned int j = 0; j < places.size(); ++j)
+                sum += columns[places[j]][places[i]] * solution[j];
+              BOOST_CHECK_SMALL(sum, 1e-10);
+            }
+        }
+    }
+}
+
+// A change in more places than a block of the dense system has, before and after the
+// matrix becomes another one: solutions solve, whatever was kept.
+BOOST_AUTO_TEST_CASE(a_new_matrix_has_its_own_corrections)
+{
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    return;
+  const CubeAbovePlane<3>   cube(true, 3);
+  const Body<3>             body = cube_body(cube, {});
+  const LinearBulk<3>       bulk(body, material);
+  constexpr unsigned int    n = 90;
+  Functionals               functionals;
+  const std::vector<double> order(n, 0.);
+  for (unsigned int f = 0; f < n; ++f)
+    {
+      functionals.add(10 * f, 1.);
+      functionals.end_functional();
+    }
+  LowRankCorrection::Options options;
+  options.is_symmetric = true;
+  LowRankCorrection                   correction(body.owned_indices(),
+                               MPI_COMM_WORLD,
+                               functionals,
+                               order,
+                               {},
+                               options);
+  std::vector<LowRankCorrection::Row> change(n);
+  for (unsigned int f = 0; f < n; ++f)
+    change[f] = {{correction.place(f), 3. + f}};
+  const auto factorisation = make_cholesky_factorisation(false);
+  for (const double stiffness : {1., 5.})
+    {
+      Matrix matrix;
+      matrix.reinit(body.sparsity_pattern());
+      assemble_mass_matrix(body, 1.).add_to(20., matrix);
+      bulk.add_tangent(stiffness, body.make_vector(), matrix);
+      BOOST_REQUIRE(factorisation->factorise(matrix, false));
+      correction.forget_columns();
+      correction.set_change(change, *factorisation);
+      Vector right_hand_side = body.make_vector(), solution(right_hand_side),
+             rest(right_hand_side);
+      randomise(right_hand_side, 1., 4);
+      correction.solve(right_hand_side, solution, *factorisation);
+      matrix.vmult(rest, solution);
+      for (unsigned int f = 0; f < n; ++f)
+        rest(10 * f) += (3. + f) * solution(10 * f);
+      rest -= right_hand_side;
+      BOOST_CHECK_SMALL(rest.linfty_norm(), 1e-10);
+    }
 }
 
 // Also of clamped bodies, on any number of ranks.

@@ -11,6 +11,7 @@
 #include <base/exceptions.h>
 #include <contact/kinematics/points_before_triangles.h>
 #include <contact/surfaces/contact_surface.h>
+#include <contact/surfaces/facet_search.h>
 #include <contact/surfaces/point_passing_triangles.h>
 #include <discretization/curved_geometry.h>
 #include <discretization/distributed_mesh.h>
@@ -27,6 +28,7 @@
 
 #include <Sacado_Fad_SLFad.hpp>
 
+#include <numeric>
 #include <random>
 
 using namespace Ricochet;
@@ -841,6 +843,80 @@ BOOST_AUTO_TEST_CASE(surfaces_hang_together)
       BOOST_CHECK_CLOSE(area, 2. * (6. + 8. + 12.), 1e-10);
       BOOST_CHECK_SMALL(vector_area.norm(), 1e-12);
     }
+}
+
+
+
+// The closest facet is that of all facets one by one, also among some of them only, and
+// none beyond the largest distance.
+BOOST_AUTO_TEST_CASE(closest_facets_are_found)
+{
+  Triangulation<3> box, tetrahedra;
+  dealii::GridGenerator::subdivided_hyper_rectangle(box,
+                                                    {4, 5, 3},
+                                                    Point<3>(),
+                                                    Point<3>(4., 5., 3.));
+  dealii::GridGenerator::convert_hypercube_to_simplex_mesh(box, tetrahedra);
+  const auto mesh = distribute_mesh<3>(
+    [&](Triangulation<3> &whole) { whole.copy_triangulation(tetrahedra); },
+    MPI_COMM_WORLD);
+  const Body<3> body(*mesh, 1, {}, {0}, MultiplierSpace::none, MPI_COMM_WORLD);
+  const ContactSurface<3>                surface(body, {0});
+  std::mt19937                           generator(3);
+  std::uniform_real_distribution<double> noise(-1., 1.);
+  using Position = std::array<double, 3>;
+  std::vector<Position> positions;
+  for (const auto &node : surface.nodes)
+    {
+      positions.emplace_back();
+      for (unsigned int c = 0; c < 3; ++c)
+        positions.back()[c] =
+          node.reference_position[c] + .2 * noise(generator);
+    }
+  std::vector<unsigned int> facets(surface.facets.size()), some;
+  std::iota(facets.begin(), facets.end(), 0U);
+  for (const unsigned int f : facets)
+    if (f % 7 != 0)
+      some.push_back(f);
+  const FacetSearch<3> search(surface, positions),
+    search_of_some(surface, positions, some);
+  const auto faces = [&](const unsigned int f, const Position &normal) {
+    const auto own     = facet_normal<3>(surface, positions, f);
+    double     product = 0.;
+    for (unsigned int c = 0; c < 3; ++c)
+      product += own[c] * normal[c];
+    return product < 0.;
+  };
+  unsigned int n_far = 0;
+  for (unsigned int k = 0; k < 300; ++k)
+    {
+      Position y, normal;
+      // Inside and around, and some far away.
+      const double size = k % 3 == 0 ? 20. : 4.;
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          y[c]      = 2. + size * noise(generator);
+          normal[c] = noise(generator);
+        }
+      const auto closest = [&](const std::vector<unsigned int> &of) {
+        return closest_facing_of<3>(of, surface, positions, y, normal);
+      };
+      BOOST_REQUIRE(closest(facets));
+      BOOST_CHECK(search.closest_facing(y, normal) == closest(facets));
+      BOOST_CHECK(search_of_some.closest_facing(y, normal) == closest(some));
+      BOOST_CHECK(search.closest_facing(y, normal, [&](const unsigned int f) {
+        return f % 7 != 0 && faces(f, normal);
+      }) == closest(some));
+      const auto within = search.closest_facing(
+        y,
+        normal,
+        [&](const unsigned int f) { return faces(f, normal); },
+        3.);
+      BOOST_CHECK(!within || within == closest(facets));
+      n_far += within ? 0 : 1;
+    }
+  BOOST_CHECK_GT(n_far, 60);
+  BOOST_CHECK_LT(n_far, 200);
 }
 
 

@@ -106,7 +106,7 @@ namespace Ricochet
           self_distance = std::max(self_distance, facet.measure);
         self_distance += this->longest_way(old_positions, course.end);
       }
-    const FacetSearch<dim> search(master, old_positions.master);
+    find_places_now();
     const std::unique_ptr<FacetSearch<dim>> later = has_length
       ? std::make_unique<FacetSearch<dim>>(master, course.end.master)
       : nullptr;
@@ -122,7 +122,14 @@ namespace Ricochet
         step.last_allowed     = std::numeric_limits<unsigned int>::max();
         if (!own_points[p].can_touch || is_other_side(p))
           continue;
-        find_facet_now(p, search);
+        if (const auto &now = places_now[p])
+          {
+            gap.is_before_facet = true;
+            gap.old_gap         = now->gap;
+            step.chain          = now->chain;
+            step.old_facet      = now->facet;
+            step.may_pass       = now->may_pass;
+          }
         if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
           find_facet_later(p, *later, course.end);
         step.is_double = gap.is_before_facet && is_self && meets_node(p);
@@ -278,8 +285,27 @@ namespace Ricochet
 
   template <int dim>
   void
-  PointsBeforeFacets<dim>::find_facet_now(const unsigned int      p,
-                                          const FacetSearch<dim> &search)
+  PointsBeforeFacets<dim>::find_places_now()
+  {
+    const bool are_known = found_at.slave == old_positions.slave &&
+      found_at.master == old_positions.master;
+    // How far a surface looks for itself depends on the step.
+    if (are_known && !is_self)
+      return;
+    const FacetSearch<dim> search(master, old_positions.master);
+    places_now.resize(own_points.size());
+    for (unsigned int p = 0; p < own_points.size(); ++p)
+      if (own_points[p].can_touch && !is_other_side(p))
+        places_now[p] = place_now(p, search);
+    found_at = old_positions;
+  }
+
+
+
+  template <int dim>
+  std::optional<typename PointsBeforeFacets<dim>::Place>
+  PointsBeforeFacets<dim>::place_now(const unsigned int      p,
+                                     const FacetSearch<dim> &search) const
   {
     const Point &point = own_points[p];
     auto         facing =
@@ -290,15 +316,15 @@ namespace Ricochet
                        is_self ? &point : nullptr,
                        self_distance);
     if (!facing)
-      return;
-    const double gap = this->gap_before(work, facing->chain, facing->facet);
-    if (!(gap > -this->largest_depth(*facing)))
-      return;
-    gaps[p].is_before_facet = true;
-    gaps[p].old_gap         = gap;
-    steps[p].may_pass       = may_pass(work, facing->facet);
-    steps[p].old_facet      = facing->facet;
-    steps[p].chain          = std::move(facing->chain);
+      return {};
+    Place place;
+    place.gap = this->gap_before(work, facing->chain, facing->facet);
+    if (!(place.gap > -this->largest_depth(*facing)))
+      return {};
+    place.may_pass = may_pass(work, facing->facet);
+    place.facet    = facing->facet;
+    place.chain    = std::move(facing->chain);
+    return place;
   }
 
 

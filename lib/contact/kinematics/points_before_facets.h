@@ -177,9 +177,23 @@ namespace Ricochet
     bool
     meets_node(const unsigned int p) const;
 
-    /// The facet before which a point is at the beginning of a step, if there is one.
+    /// Where a point is before a facet of the chain.
+    struct Place
+    {
+      Chain        chain;
+      unsigned int facet    = 0;
+      bool         may_pass = false;
+      double       gap      = 0.;
+    };
+
+    /// Where points are at #old_positions: not looked for again where the last step or
+    /// report has done so.
     void
-    find_facet_now(const unsigned int p, const FacetSearch<dim> &search);
+    find_places_now();
+
+    /// The facet before which a point is at #old_positions, if there is one.
+    std::optional<Place>
+    place_now(const unsigned int p, const FacetSearch<dim> &search) const;
 
     /// For a point that is not pressed, a facet that it is in front of and before
     /// which it will be @p later, if there is one.
@@ -201,9 +215,12 @@ namespace Ricochet
     void
     update(const unsigned int p) const;
 
-    Positions                     old_positions, new_positions;
-    mutable std::vector<Step>     steps;
-    mutable std::vector<Position> old_work;
+    Positions old_positions, new_positions;
+    /// Of each point, and for which positions they were found.
+    std::vector<std::optional<Place>>                    places_now;
+    Positions                                            found_at;
+    mutable std::vector<Step>                            steps;
+    mutable std::vector<Position>                        old_work;
     mutable std::vector<std::array<Differentiable, dim>> differentiable_work;
     mutable ChainRows<double>                            chain_rows;
     mutable ChainRows<Differentiable>                    differentiable_rows;

@@ -15,17 +15,6 @@ namespace Ricochet
   using namespace dealii;
 
   template <int dim>
-  struct FacetSearch<dim>::Tree
-  {
-    using Entry = std::pair<BoundingBox<dim>, unsigned int>;
-    RTree<Entry> boxes;
-    /// Of all facets.
-    Point<dim> lower, upper;
-  };
-
-
-
-  template <int dim>
   std::array<double, dim>
   facet_normal(const ContactSurface<dim>                  &surface,
                const std::vector<std::array<double, dim>> &positions,
@@ -60,6 +49,222 @@ namespace Ricochet
 
   namespace
   {
+    template <int dim>
+    double
+    dot(const std::array<double, dim> &a, const std::array<double, dim> &b)
+    {
+      double sum = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        sum += a[c] * b[c];
+      return sum;
+    }
+
+    template <int dim>
+    Point<dim>
+    to_point(const std::array<double, dim> &x)
+    {
+      Point<dim> point;
+      for (unsigned int c = 0; c < dim; ++c)
+        point[c] = x[c];
+      return point;
+    }
+
+    /// Where a facet is.
+    template <int dim>
+    struct Place
+    {
+      Place(const ContactSurface<dim>                  &surface,
+            const std::vector<std::array<double, dim>> &positions,
+            const unsigned int                          f)
+        : facet(f)
+        , measure(surface.facets[f].measure)
+        , normal(facet_normal<dim>(surface, positions, f))
+      {
+        for (unsigned int v = 0; v < dim; ++v)
+          corners[v] = positions[surface.facets[f].nodes[v]];
+      }
+
+      double
+      squared_distance(const std::array<double, dim> &y) const
+      {
+        std::array<double, dim> r = y;
+        const auto             &a = corners[0];
+        for (unsigned int c = 0; c < dim; ++c)
+          r[c] -= a[c];
+        if constexpr (dim == 2)
+          {
+            std::array<double, dim> e = corners[1];
+            for (unsigned int c = 0; c < dim; ++c)
+              e[c] -= a[c];
+            const double along =
+              std::clamp(dot<dim>(e, r) / dot<dim>(e, e), 0., 1.);
+            for (unsigned int c = 0; c < dim; ++c)
+              r[c] -= along * e[c];
+          }
+        if constexpr (dim == 3)
+          {
+            std::array<Tensor<1, 3>, 3> vertices;
+            for (unsigned int v = 0; v < 3; ++v)
+              vertices[v] = to_tensor(corners[v]);
+            const Tensor<1, 3> point = to_tensor(y);
+            const auto         shares =
+              closest_in_triangle(point, vertices[0], vertices[1], vertices[2]);
+            Tensor<1, 3> distance = point;
+            for (unsigned int v = 0; v < 3; ++v)
+              distance -= shares[v] * vertices[v];
+            return distance.norm_square();
+          }
+        return dot<dim>(r, r);
+      }
+
+      /// Of either side.
+      double
+      distance_from_plane(const std::array<double, dim> &y) const
+      {
+        return std::abs(dot<dim>(normal, y) - dot<dim>(normal, corners[0])) /
+          std::sqrt(dot<dim>(normal, normal));
+      }
+
+      /// Whether its outward normal points against @p other.
+      bool
+      faces(const std::array<double, dim> &other) const
+      {
+        return dot<dim>(normal, other) < 0.;
+      }
+
+      unsigned int                             facet;
+      double                                   measure;
+      std::array<double, dim>                  normal;
+      std::array<std::array<double, dim>, dim> corners;
+    };
+
+    /// The closest facet of those that it is told of.
+    template <int dim>
+    struct Closest
+    {
+      /// @param accept is only asked of what would be the closest.
+      template <typename Accept>
+      void
+      consider(const Place<dim>              &place,
+               const std::array<double, dim> &y,
+               const Accept                  &accept)
+      {
+        const double distance = place.squared_distance(y);
+        // In space the facets around an edge or a vertex that is closest are equally
+        // far, but for round-off, which must not choose. The point is before the one
+        // from whose plane it is farthest: behind the planes of others it may be, in
+        // front of the body.
+        const double equal =
+          dim < 3 ? 0. : 1e-9 * smallest + 1e-18 * place.measure;
+        if (distance > smallest + equal || !accept(place.facet))
+          return;
+        const double from_plane = dim < 3 ? 0. : place.distance_from_plane(y);
+        const double margin     = 1e-6 * std::sqrt(distance);
+        if (!best || distance < smallest - equal ||
+            from_plane > farthest + margin ||
+            (place.facet < *best && from_plane >= farthest - margin))
+          {
+            smallest = distance;
+            best     = place.facet;
+            farthest = from_plane;
+          }
+      }
+
+      std::optional<unsigned int> best;
+      /// Square of the distance (m^2).
+      double smallest = std::numeric_limits<double>::max();
+      double farthest = 0.;
+    };
+
+    /// The smallest box around some vectors.
+    template <int dim>
+    struct Box
+    {
+      Box()
+      {
+        lower.fill(std::numeric_limits<double>::max());
+        upper.fill(-std::numeric_limits<double>::max());
+      }
+
+      void
+      add(const std::array<double, dim> &vector)
+      {
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            lower[c] = std::min(lower[c], vector[c]);
+            upper[c] = std::max(upper[c], vector[c]);
+          }
+      }
+
+      /// Square of the distance of a point from it.
+      double
+      squared_distance(const std::array<double, dim> &y) const
+      {
+        double sum = 0.;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const double outside =
+              std::max(0., std::max(lower[c] - y[c], y[c] - upper[c]));
+            sum += outside * outside;
+          }
+        return sum;
+      }
+
+      double
+      square_of_diagonal() const
+      {
+        double sum = 0.;
+        for (unsigned int c = 0; c < dim; ++c)
+          sum += (upper[c] - lower[c]) * (upper[c] - lower[c]);
+        return sum;
+      }
+
+      /// Not more than any product of @p other with a vector in it, to the last digit:
+      /// all operations are those of dot(), and they round monotonically.
+      double
+      smallest_product(const std::array<double, dim> &other) const
+      {
+        double sum = 0.;
+        for (unsigned int c = 0; c < dim; ++c)
+          sum += std::min(lower[c] * other[c], upper[c] * other[c]);
+        return sum;
+      }
+
+      std::array<double, dim> lower, upper;
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  struct FacetSearch<dim>::Groups
+  {
+    /// So many facets one after the other, which mostly are neighbours, have a common
+    /// box. A search looks at the boxes of all groups: surfaces are small.
+    static constexpr unsigned int size = 16;
+
+    struct Group
+    {
+      Box<dim>     corners, normals;
+      unsigned int begin = 0, end = 0;
+    };
+
+    std::vector<Place<dim>> places;
+    std::vector<Group>      groups;
+  };
+
+
+
+  template <int dim>
+  struct FacetSearch<dim>::Tree
+  {
+    RTree<std::pair<BoundingBox<dim>, unsigned int>> boxes;
+  };
+
+
+
+  namespace
+  {
     std::vector<unsigned int>
     all_up_to(const unsigned int n)
     {
@@ -85,155 +290,26 @@ namespace Ricochet
     const ContactSurface<dim>                  &surface,
     const std::vector<std::array<double, dim>> &positions,
     const std::vector<unsigned int>            &facets)
-    : surface(surface)
-    , positions(positions)
-    , tree(std::make_unique<Tree>())
+    : all(std::make_unique<Groups>())
   {
-    if (facets.empty())
-      return;
-    std::vector<typename Tree::Entry> entries;
+    all->places.reserve(facets.size());
     for (const unsigned int f : facets)
       {
-        std::vector<Point<dim>> corners;
-        for (const unsigned int node : surface.facets[f].nodes)
-          {
-            Point<dim> corner;
-            for (unsigned int c = 0; c < dim; ++c)
-              corner[c] = positions[node][c];
-            corners.push_back(corner);
-          }
-        entries.emplace_back(BoundingBox<dim>(corners), f);
+        if (all->places.size() % Groups::size == 0)
+          all->groups.emplace_back().begin = all->places.size();
+        auto &group = all->groups.back();
+        all->places.emplace_back(surface, positions, f);
+        group.end = all->places.size();
+        for (const auto &corner : all->places.back().corners)
+          group.corners.add(corner);
+        group.normals.add(all->places.back().normal);
       }
-    BoundingBox<dim> all = entries.front().first;
-    for (const auto &entry : entries)
-      all.merge_with(entry.first);
-    tree->lower = all.get_boundary_points().first;
-    tree->upper = all.get_boundary_points().second;
-    tree->boxes = pack_rtree(entries);
   }
 
 
 
   template <int dim>
   FacetSearch<dim>::~FacetSearch() = default;
-
-
-
-  namespace
-  {
-    template <int dim>
-    double
-    dot(const std::array<double, dim> &a, const std::array<double, dim> &b)
-    {
-      double sum = 0.;
-      for (unsigned int c = 0; c < dim; ++c)
-        sum += a[c] * b[c];
-      return sum;
-    }
-
-    template <int dim>
-    double
-    squared_distance(const ContactSurface<dim>                  &surface,
-                     const std::vector<std::array<double, dim>> &positions,
-                     const unsigned int                          f,
-                     const std::array<double, dim>              &y)
-    {
-      std::array<double, dim> r = y;
-      const auto             &a = positions[surface.facets[f].nodes[0]];
-      for (unsigned int c = 0; c < dim; ++c)
-        r[c] -= a[c];
-      if constexpr (dim == 2)
-        {
-          std::array<double, dim> e = positions[surface.facets[f].nodes[1]];
-          for (unsigned int c = 0; c < dim; ++c)
-            e[c] -= a[c];
-          const double along =
-            std::clamp(dot<dim>(e, r) / dot<dim>(e, e), 0., 1.);
-          for (unsigned int c = 0; c < dim; ++c)
-            r[c] -= along * e[c];
-        }
-      if constexpr (dim == 3)
-        {
-          std::array<Tensor<1, 3>, 3> corners;
-          for (unsigned int v = 0; v < 3; ++v)
-            corners[v] = to_tensor(positions[surface.facets[f].nodes[v]]);
-          const Tensor<1, 3> point = to_tensor(y);
-          const auto         shares =
-            closest_in_triangle(point, corners[0], corners[1], corners[2]);
-          Tensor<1, 3> distance = point;
-          for (unsigned int v = 0; v < 3; ++v)
-            distance -= shares[v] * corners[v];
-          return distance.norm_square();
-        }
-      return dot<dim>(r, r);
-    }
-
-    /// Of either side.
-    template <int dim>
-    double
-    distance_from_plane(const ContactSurface<dim>                  &surface,
-                        const std::vector<std::array<double, dim>> &positions,
-                        const unsigned int                          f,
-                        const std::array<double, dim>              &y)
-    {
-      const auto  normal = facet_normal<dim>(surface, positions, f);
-      const auto &a      = positions[surface.facets[f].nodes[0]];
-      return std::abs(dot<dim>(normal, y) - dot<dim>(normal, a)) /
-        std::sqrt(dot<dim>(normal, normal));
-    }
-
-    /// Whether its outward normal points against @p normal.
-    template <int dim>
-    bool
-    faces(const ContactSurface<dim>                  &surface,
-          const std::vector<std::array<double, dim>> &positions,
-          const unsigned int                          f,
-          const std::array<double, dim>              &normal)
-    {
-      return dot<dim>(facet_normal<dim>(surface, positions, f), normal) < 0.;
-    }
-
-    /// The closest facet of those that it is told of.
-    template <int dim>
-    struct Closest
-    {
-      /// @param accept is only asked of what would be the closest.
-      template <typename Accept>
-      void
-      consider(const ContactSurface<dim>                  &surface,
-               const std::vector<std::array<double, dim>> &positions,
-               const unsigned int                          f,
-               const std::array<double, dim>              &y,
-               const Accept                               &accept)
-      {
-        const double distance = squared_distance<dim>(surface, positions, f, y);
-        // In space the facets around an edge or a vertex that is closest are equally
-        // far, but for round-off, which must not choose. The point is before the one
-        // from whose plane it is farthest: behind the planes of others it may be, in
-        // front of the body.
-        const double equal =
-          dim < 3 ? 0. : 1e-9 * smallest + 1e-18 * surface.facets[f].measure;
-        if (distance > smallest + equal || !accept(f))
-          return;
-        const double from_plane =
-          dim < 3 ? 0. : distance_from_plane<dim>(surface, positions, f, y);
-        const double margin = 1e-6 * std::sqrt(distance);
-        if (!best || distance < smallest - equal ||
-            from_plane > farthest + margin ||
-            (f < *best && from_plane >= farthest - margin))
-          {
-            smallest = distance;
-            best     = f;
-            farthest = from_plane;
-          }
-      }
-
-      std::optional<unsigned int> best;
-      /// Square of the distance (m^2).
-      double smallest = std::numeric_limits<double>::max();
-      double farthest = 0.;
-    };
-  } // namespace
 
 
 
@@ -245,56 +321,44 @@ namespace Ricochet
     const std::function<bool(const unsigned int f)> &accept,
     const double                                     largest_distance) const
   {
-    namespace bgi = boost::geometry::index;
-    Point<dim> point;
-    for (unsigned int c = 0; c < dim; ++c)
-      point[c] = y[c];
-    // In boxes around y that grow until the closest facet is in them for sure. The first
-    // one reaches beyond the nearest facet, the last one holds them all.
-    const auto &boxes = tree->boxes;
-    const auto  first = boxes.qbegin(bgi::nearest(point, 1));
-    if (first == boxes.qend())
-      return {};
-    double radius = 0., farthest = 0.;
-    for (unsigned int c = 0; c < dim; ++c)
-      {
-        const double lower = first->first.lower_bound(c),
-                     upper = first->first.upper_bound(c);
-        radius = std::max({radius, lower - y[c], y[c] - upper, upper - lower});
-        farthest =
-          std::max({farthest, y[c] - tree->lower[c], tree->upper[c] - y[c]});
-      }
-    farthest = std::min(farthest, largest_distance);
-    radius   = std::max(radius, 1e-3 * farthest);
+    using Group = typename Groups::Group;
     Closest<dim> closest;
-    for (bool is_last = false; !is_last; radius *= 2.)
-      {
-        is_last          = radius >= farthest;
-        radius           = std::min(radius, farthest);
-        Point<dim> lower = point, upper = point;
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            lower[c] -= radius;
-            upper[c] += radius;
-          }
-        closest = {};
-        closest.smallest =
-          std::min(closest.smallest, largest_distance * largest_distance);
-        for (auto entry = boxes.qbegin(
-               bgi::intersects(BoundingBox<dim>(std::pair(lower, upper))));
-             entry != boxes.qend();
-             ++entry)
+    closest.smallest =
+      std::min(closest.smallest, largest_distance * largest_distance);
+    const auto may_face = [&](const Group &group) {
+      return accept || group.normals.smallest_product(normal) < 0.;
+    };
+    const auto look_at = [&](const Group &group) {
+      for (unsigned int k = group.begin; k < group.end; ++k)
+        {
+          const Place<dim> &place = all->places[k];
           if (accept)
-            closest.consider(surface, positions, entry->second, y, accept);
-          else if (faces<dim>(surface, positions, entry->second, normal))
-            closest.consider(surface,
-                             positions,
-                             entry->second,
-                             y,
-                             [](const unsigned int) { return true; });
-        // What is as far as this one is in the box as well.
-        if (closest.best && closest.smallest * (1. + 1e-6) <= radius * radius)
-          break;
+            closest.consider(place, y, accept);
+          else if (place.faces(normal))
+            closest.consider(place, y, [](const unsigned int) { return true; });
+        }
+    };
+    // The group with the nearest box first: few others are nearer than its facets.
+    const Group *first    = nullptr;
+    double       smallest = std::numeric_limits<double>::max();
+    for (const Group &group : all->groups)
+      if (const double distance = group.corners.squared_distance(y);
+          distance < smallest && may_face(group))
+        {
+          smallest = distance;
+          first    = &group;
+        }
+    if (!first)
+      return {};
+    look_at(*first);
+    for (const Group &group : all->groups)
+      {
+        // What is as far as the closest one, but for round-off, counts as well.
+        const double enough = closest.smallest * (1. + 1e-6) +
+          1e-12 * group.corners.square_of_diagonal();
+        if (&group != first && group.corners.squared_distance(y) <= enough &&
+            may_face(group))
+          look_at(group);
       }
     return closest.best;
   }
@@ -311,9 +375,12 @@ namespace Ricochet
   {
     Closest<dim> closest;
     for (const unsigned int f : facets)
-      closest.consider(surface, positions, f, y, [&](const unsigned int other) {
-        return faces<dim>(surface, positions, other, normal);
-      });
+      {
+        const Place<dim> place(surface, positions, f);
+        closest.consider(place, y, [&](const unsigned int) {
+          return place.faces(normal);
+        });
+      }
     return closest.best;
   }
 
@@ -324,17 +391,27 @@ namespace Ricochet
   FacetSearch<dim>::near(const std::array<double, dim> &lower,
                          const std::array<double, dim> &upper) const
   {
-    std::pair<Point<dim>, Point<dim>> corners;
-    for (unsigned int c = 0; c < dim; ++c)
+    if (!tree)
       {
-        corners.first[c]  = lower[c];
-        corners.second[c] = upper[c];
+        std::vector<std::pair<BoundingBox<dim>, unsigned int>> entries;
+        for (const Place<dim> &place : all->places)
+          {
+            Box<dim> box;
+            for (const auto &corner : place.corners)
+              box.add(corner);
+            entries.emplace_back(std::pair(to_point<dim>(box.lower),
+                                           to_point<dim>(box.upper)),
+                                 place.facet);
+          }
+        tree        = std::make_unique<Tree>();
+        tree->boxes = pack_rtree(entries);
       }
     std::vector<unsigned int> found;
     for (const auto &entry :
          tree->boxes |
            boost::geometry::index::adaptors::queried(
-             boost::geometry::index::intersects(BoundingBox<dim>(corners))))
+             boost::geometry::index::intersects(BoundingBox<dim>(
+               std::pair(to_point<dim>(lower), to_point<dim>(upper))))))
       found.push_back(entry.second);
     std::sort(found.begin(), found.end());
     return found;

@@ -15,7 +15,7 @@ namespace Ricochet
   class FacetSearch
   {
   public:
-    /// Both are kept by reference. @param positions of the nodes of @p surface (m).
+    /// @param positions of the nodes of @p surface (m).
     FacetSearch(const ContactSurface<dim>                  &surface,
                 const std::vector<std::array<double, dim>> &positions);
 
@@ -47,10 +47,11 @@ namespace Ricochet
          const std::array<double, dim> &upper) const;
 
   private:
+    struct Groups;
     struct Tree;
-    const ContactSurface<dim>                  &surface;
-    const std::vector<std::array<double, dim>> &positions;
-    std::unique_ptr<Tree>                       tree;
+    std::unique_ptr<Groups> all;
+    /// For near(), made when it is called first.
+    mutable std::unique_ptr<Tree> tree;
   };
 
   /// As FacetSearch::closest_facing(), but only of @p facets.

@@ -519,8 +519,9 @@ namespace Ricochet
     if (sets_recur)
       change_worst_only();
 
-    force         = 0.;
-    friction_part = 0.;
+    force = 0.;
+    if (has_friction)
+      friction_part = 0.;
     for (const PointState &state : states)
       add_force(state);
     force.compress(VectorOperation::add);
