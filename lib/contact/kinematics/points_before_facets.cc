@@ -287,8 +287,7 @@ namespace Ricochet
   void
   PointsBeforeFacets<dim>::find_places_now()
   {
-    const bool are_known = found_at.slave == old_positions.slave &&
-      found_at.master == old_positions.master;
+    const bool are_known = found_at.is_same(old_positions);
     // How far a surface looks for itself depends on the step.
     if (are_known && !is_self)
       return;

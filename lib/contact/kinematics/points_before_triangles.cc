@@ -203,15 +203,16 @@ namespace Ricochet
   std::optional<unsigned int>
   PointsBeforeTriangles::find_facet(const unsigned int    p,
                                     const FacetSearch<3> &search,
-                                    const Positions      &positions) const
+                                    const Positions      &positions,
+                                    const double largest_distance) const
   {
     if (is_self)
-      return find_own_facet(p, search, positions);
+      return find_own_facet(p, search, positions, largest_distance);
     const Point &point = own_points[p];
     const auto   f = search.closest_facing(position_of(point, positions.slave),
                                          normal_of(point, positions.slave),
                                          {},
-                                         reach);
+                                         largest_distance);
     if (!f)
       return {};
     const Corners<double> x   = corners(p, *f, positions);
@@ -224,10 +225,13 @@ namespace Ricochet
     // in, at an edge.
     if (gap < 0.)
       {
-        const auto nearest =
-          search.closest_facing(x[0], x[0], [](const unsigned int) {
-            return true;
-          });
+        // As far as the facet itself, but for round-off.
+        const auto nearest = search.closest_facing(
+          x[0],
+          x[0],
+          [](const unsigned int) { return true; },
+          (1. + 1e-6) * distance(x) +
+            1e-6 * std::sqrt(master.facets[*f].measure));
         const Corners<double> other = corners(p, *nearest, positions);
         const double          size = std::sqrt(master.facets[*nearest].measure);
         if (*nearest != *f && distance(other) < .999 * distance(x) &&
@@ -243,7 +247,8 @@ namespace Ricochet
   std::optional<unsigned int>
   PointsBeforeTriangles::find_own_facet(const unsigned int    p,
                                         const FacetSearch<3> &search,
-                                        const Positions      &positions) const
+                                        const Positions      &positions,
+                                        const double largest_distance) const
   {
     const Point   &point  = own_points[p];
     const Position y      = position_of(point, positions.slave),
@@ -259,7 +264,7 @@ namespace Ricochet
         return !is_around(other) &&
           own_facets->can_touch(y, normal, other, positions.master);
       },
-      reach);
+      largest_distance);
     if (!f)
       return {};
     const Corners<double> x   = corners(p, *f, positions);
@@ -399,15 +404,16 @@ namespace Ricochet
 
 
   void
-  PointsBeforeTriangles::find_facet_now(const unsigned int    p,
-                                        const FacetSearch<3> &search)
+  PointsBeforeTriangles::find_facets_now()
   {
-    if (const auto f = find_facet(p, search, old_positions))
-      begin_before(p,
-                   *f,
-                   PointBeforeTriangle<double>::gap(
-                     corners(p, *f, old_positions)),
-                   true);
+    if (found_at.is_same(old_positions))
+      return;
+    const FacetSearch<3> search(master, old_positions.master, near_facets);
+    facets_now.resize(own_points.size());
+    for (unsigned int p = 0; p < own_points.size(); ++p)
+      if (own_points[p].can_touch)
+        facets_now[p] = find_facet(p, search, old_positions, smallest_reach);
+    found_at = old_positions;
   }
 
 
@@ -417,7 +423,7 @@ namespace Ricochet
                                           const FacetSearch<3> &search,
                                           const Positions      &later)
   {
-    const auto f = find_facet(p, search, later);
+    const auto f = find_facet(p, search, later, reach);
     if (!f)
       return;
     // The way there, from where the point is now; should it not be before this part of
@@ -450,14 +456,14 @@ namespace Ricochet
   {
     Course course;
     begin_course(start, course);
-    reach                           = course.reach;
-    old_positions                   = std::move(course.begin);
-    new_positions                   = old_positions;
-    const bool           has_length = start.time_step > 0.;
-    const FacetSearch<3> search(master, old_positions.master, near_facets);
-    const auto           later = has_length
-                ? std::make_unique<FacetSearch<3>>(master, course.end.master, near_facets)
-                : nullptr;
+    reach                 = course.reach;
+    old_positions         = std::move(course.begin);
+    new_positions         = old_positions;
+    const bool has_length = start.time_step > 0.;
+    find_facets_now();
+    const auto later = has_length
+      ? std::make_unique<FacetSearch<3>>(master, course.end.master, near_facets)
+      : nullptr;
     for (unsigned int p = 0; p < own_points.size(); ++p)
       {
         Step &step          = steps[p];
@@ -467,7 +473,12 @@ namespace Ricochet
         if (!own_points[p].can_touch)
           continue;
         step.normal = normal_of(own_points[p], old_positions.slave);
-        find_facet_now(p, search);
+        if (const auto f = facets_now[p])
+          begin_before(p,
+                       *f,
+                       PointBeforeTriangle<double>::gap(
+                         corners(p, *f, old_positions)),
+                       true);
         if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
           find_facet_later(p, *later, course.end);
         step.is_double = gap.is_before_facet && is_self && meets_node(p);

@@ -149,26 +149,30 @@ namespace Ricochet
            const double           tolerance = .5) const;
 
     /// The facet before which the point is, of those that @p search knows, if there
-    /// is one.
+    /// is one not farther off than @p largest_distance (m).
     std::optional<unsigned int>
     find_facet(const unsigned int    p,
                const FacetSearch<3> &search,
-               const Positions      &positions) const;
+               const Positions      &positions,
+               const double          largest_distance) const;
 
     /// The same of a surface against itself.
     std::optional<unsigned int>
     find_own_facet(const unsigned int    p,
                    const FacetSearch<3> &search,
-                   const Positions      &positions) const;
+                   const Positions      &positions,
+                   const double          largest_distance) const;
 
     /// Of two nodes of one surface that meet each other exactly, whether @p p is the
     /// one to leave out: two constraints would be the same.
     bool
     meets_node(const unsigned int p) const;
 
-    /// The facet before which a point is at the beginning of a step, if there is one.
+    /// The facets before which points are at #old_positions, as far as the
+    /// #smallest_reach: what comes from farther off is found where it will be. They are
+    /// not looked for again where the last step or report has done so.
     void
-    find_facet_now(const unsigned int p, const FacetSearch<3> &search);
+    find_facets_now();
 
     /// For a point that is not pressed, a facet that it is in front of and before
     /// which it will be @p later, if there is one.
@@ -206,9 +210,12 @@ namespace Ricochet
     std::unique_ptr<OwnFacets>             own_facets;
     std::vector<std::vector<unsigned int>> own_around;
     Positions                              old_positions, new_positions;
-    mutable std::vector<unsigned int>      allowed;
-    mutable std::vector<Step>              steps;
-    mutable Derivatives                    result;
+    /// Of each point, and for which positions they were found.
+    std::vector<std::optional<unsigned int>> facets_now;
+    Positions                                found_at;
+    mutable std::vector<unsigned int>        allowed;
+    mutable std::vector<Step>                steps;
+    mutable Derivatives                      result;
   };
 } // namespace Ricochet
 

@@ -9,6 +9,7 @@
 #include <contact/surfaces/contact_surface.h>
 #include <contact/surfaces/facet_patches.h>
 
+#include <cstring>
 #include <limits>
 
 namespace Ricochet
@@ -247,6 +248,18 @@ namespace Ricochet
     struct Positions
     {
       std::vector<Position> slave, master;
+
+      /// To the last digit, and the same ones are known.
+      bool
+      is_same(const Positions &other) const
+      {
+        const auto are_same = [](const std::vector<Position> &a,
+                                 const std::vector<Position> &b) {
+          return a.size() == b.size() &&
+            std::memcmp(a.data(), b.data(), a.size() * sizeof(Position)) == 0;
+        };
+        return are_same(slave, other.slave) && are_same(master, other.master);
+      }
     };
 
     /// Where nodes are at the beginning of a step, and where the mean velocity of the

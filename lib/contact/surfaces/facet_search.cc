@@ -69,113 +69,6 @@ namespace Ricochet
       return point;
     }
 
-    /// Where a facet is.
-    template <int dim>
-    struct Place
-    {
-      Place(const ContactSurface<dim>                  &surface,
-            const std::vector<std::array<double, dim>> &positions,
-            const unsigned int                          f)
-        : facet(f)
-        , measure(surface.facets[f].measure)
-        , normal(facet_normal<dim>(surface, positions, f))
-      {
-        for (unsigned int v = 0; v < dim; ++v)
-          corners[v] = positions[surface.facets[f].nodes[v]];
-      }
-
-      double
-      squared_distance(const std::array<double, dim> &y) const
-      {
-        std::array<double, dim> r = y;
-        const auto             &a = corners[0];
-        for (unsigned int c = 0; c < dim; ++c)
-          r[c] -= a[c];
-        if constexpr (dim == 2)
-          {
-            std::array<double, dim> e = corners[1];
-            for (unsigned int c = 0; c < dim; ++c)
-              e[c] -= a[c];
-            const double along =
-              std::clamp(dot<dim>(e, r) / dot<dim>(e, e), 0., 1.);
-            for (unsigned int c = 0; c < dim; ++c)
-              r[c] -= along * e[c];
-          }
-        if constexpr (dim == 3)
-          {
-            std::array<Tensor<1, 3>, 3> vertices;
-            for (unsigned int v = 0; v < 3; ++v)
-              vertices[v] = to_tensor(corners[v]);
-            const Tensor<1, 3> point = to_tensor(y);
-            const auto         shares =
-              closest_in_triangle(point, vertices[0], vertices[1], vertices[2]);
-            Tensor<1, 3> distance = point;
-            for (unsigned int v = 0; v < 3; ++v)
-              distance -= shares[v] * vertices[v];
-            return distance.norm_square();
-          }
-        return dot<dim>(r, r);
-      }
-
-      /// Of either side.
-      double
-      distance_from_plane(const std::array<double, dim> &y) const
-      {
-        return std::abs(dot<dim>(normal, y) - dot<dim>(normal, corners[0])) /
-          std::sqrt(dot<dim>(normal, normal));
-      }
-
-      /// Whether its outward normal points against @p other.
-      bool
-      faces(const std::array<double, dim> &other) const
-      {
-        return dot<dim>(normal, other) < 0.;
-      }
-
-      unsigned int                             facet;
-      double                                   measure;
-      std::array<double, dim>                  normal;
-      std::array<std::array<double, dim>, dim> corners;
-    };
-
-    /// The closest facet of those that it is told of.
-    template <int dim>
-    struct Closest
-    {
-      /// @param accept is only asked of what would be the closest.
-      template <typename Accept>
-      void
-      consider(const Place<dim>              &place,
-               const std::array<double, dim> &y,
-               const Accept                  &accept)
-      {
-        const double distance = place.squared_distance(y);
-        // In space the facets around an edge or a vertex that is closest are equally
-        // far, but for round-off, which must not choose. The point is before the one
-        // from whose plane it is farthest: behind the planes of others it may be, in
-        // front of the body.
-        const double equal =
-          dim < 3 ? 0. : 1e-9 * smallest + 1e-18 * place.measure;
-        if (distance > smallest + equal || !accept(place.facet))
-          return;
-        const double from_plane = dim < 3 ? 0. : place.distance_from_plane(y);
-        const double margin     = 1e-6 * std::sqrt(distance);
-        if (!best || distance < smallest - equal ||
-            from_plane > farthest + margin ||
-            (place.facet < *best && from_plane >= farthest - margin))
-          {
-            smallest = distance;
-            best     = place.facet;
-            farthest = from_plane;
-          }
-      }
-
-      std::optional<unsigned int> best;
-      /// Square of the distance (m^2).
-      double smallest = std::numeric_limits<double>::max();
-      double farthest = 0.;
-    };
-
     /// The smallest box around some vectors.
     template <int dim>
     struct Box
@@ -232,6 +125,118 @@ namespace Ricochet
 
       std::array<double, dim> lower, upper;
     };
+
+
+    /// Where a facet is.
+    template <int dim>
+    struct Place
+    {
+      Place(const ContactSurface<dim>                  &surface,
+            const std::vector<std::array<double, dim>> &positions,
+            const unsigned int                          f)
+        : facet(f)
+        , measure(surface.facets[f].measure)
+        , normal(facet_normal<dim>(surface, positions, f))
+      {
+        for (unsigned int v = 0; v < dim; ++v)
+          {
+            corners[v] = positions[surface.facets[f].nodes[v]];
+            box.add(corners[v]);
+          }
+      }
+
+      double
+      squared_distance(const std::array<double, dim> &y) const
+      {
+        std::array<double, dim> r = y;
+        const auto             &a = corners[0];
+        for (unsigned int c = 0; c < dim; ++c)
+          r[c] -= a[c];
+        if constexpr (dim == 2)
+          {
+            std::array<double, dim> e = corners[1];
+            for (unsigned int c = 0; c < dim; ++c)
+              e[c] -= a[c];
+            const double along =
+              std::clamp(dot<dim>(e, r) / dot<dim>(e, e), 0., 1.);
+            for (unsigned int c = 0; c < dim; ++c)
+              r[c] -= along * e[c];
+          }
+        if constexpr (dim == 3)
+          {
+            std::array<Tensor<1, 3>, 3> vertices;
+            for (unsigned int v = 0; v < 3; ++v)
+              vertices[v] = to_tensor(corners[v]);
+            const Tensor<1, 3> point = to_tensor(y);
+            const auto         shares =
+              closest_in_triangle(point, vertices[0], vertices[1], vertices[2]);
+            Tensor<1, 3> distance = point;
+            for (unsigned int v = 0; v < 3; ++v)
+              distance -= shares[v] * vertices[v];
+            return distance.norm_square();
+          }
+        return dot<dim>(r, r);
+      }
+
+      /// Of either side.
+      double
+      distance_from_plane(const std::array<double, dim> &y) const
+      {
+        return std::abs(dot<dim>(normal, y) - dot<dim>(normal, corners[0])) /
+          std::sqrt(dot<dim>(normal, normal));
+      }
+
+      /// Whether its outward normal points against @p other.
+      bool
+      faces(const std::array<double, dim> &other) const
+      {
+        return dot<dim>(normal, other) < 0.;
+      }
+
+      unsigned int                             facet;
+      double                                   measure;
+      std::array<double, dim>                  normal;
+      std::array<std::array<double, dim>, dim> corners;
+      Box<dim>                                 box;
+    };
+
+    /// The closest facet of those that it is told of.
+    template <int dim>
+    struct Closest
+    {
+      /// @param accept is only asked of what would be the closest.
+      template <typename Accept>
+      void
+      consider(const Place<dim>              &place,
+               const std::array<double, dim> &y,
+               const Accept                  &accept)
+      {
+        const double distance = place.squared_distance(y);
+        // In space the facets around an edge or a vertex that is closest are equally
+        // far, but for round-off, which must not choose. The point is before the one
+        // from whose plane it is farthest: behind the planes of others it may be, in
+        // front of the body.
+        const double equal =
+          dim < 3 ? 0. : 1e-9 * smallest + 1e-18 * place.measure;
+        if (distance > smallest + equal || !accept(place.facet))
+          return;
+        const double from_plane = dim < 3 ? 0. : place.distance_from_plane(y);
+        const double margin     = 1e-6 * std::sqrt(distance);
+        if (!best || distance < smallest - equal ||
+            from_plane > farthest + margin ||
+            (place.facet < *best && from_plane >= farthest - margin))
+          {
+            smallest = distance;
+            best     = place.facet;
+            farthest = from_plane;
+          }
+      }
+
+      std::optional<unsigned int> best;
+      /// Square of the distance (m^2).
+      double smallest = std::numeric_limits<double>::max();
+      double farthest = 0.;
+    };
   } // namespace
 
 
@@ -239,9 +244,9 @@ namespace Ricochet
   template <int dim>
   struct FacetSearch<dim>::Groups
   {
-    /// So many facets one after the other, which mostly are neighbours, have a common
-    /// box. A search looks at the boxes of all groups: surfaces are small.
-    static constexpr unsigned int size = 16;
+    /// So many facets one after the other, which mostly are neighbours, make a group; so
+    /// many groups a larger one.
+    static constexpr unsigned int size = 8;
 
     struct Group
     {
@@ -250,7 +255,23 @@ namespace Ricochet
     };
 
     std::vector<Place<dim>> places;
-    std::vector<Group>      groups;
+    /// Of places, of groups of the level before, and so on up to a single one.
+    std::vector<std::vector<Group>> levels;
+
+    /// Groups of @p n_members of the level before.
+    template <typename Add>
+    void
+    add_level(const unsigned int n_members, const Add &add_member)
+    {
+      std::vector<Group> &groups = levels.emplace_back();
+      for (unsigned int k = 0; k < n_members; ++k)
+        {
+          if (k % size == 0)
+            groups.emplace_back().begin = k;
+          groups.back().end = k + 1;
+          add_member(k, groups.back());
+        }
+    }
   };
 
 
@@ -292,17 +313,26 @@ namespace Ricochet
     const std::vector<unsigned int>            &facets)
     : all(std::make_unique<Groups>())
   {
+    using Group = typename Groups::Group;
     all->places.reserve(facets.size());
     for (const unsigned int f : facets)
+      all->places.emplace_back(surface, positions, f);
+    all->add_level(all->places.size(), [&](const unsigned int k, Group &group) {
+      const Place<dim> &place = all->places[k];
+      group.corners.add(place.box.lower);
+      group.corners.add(place.box.upper);
+      group.normals.add(place.normal);
+    });
+    while (all->levels.back().size() > 1)
       {
-        if (all->places.size() % Groups::size == 0)
-          all->groups.emplace_back().begin = all->places.size();
-        auto &group = all->groups.back();
-        all->places.emplace_back(surface, positions, f);
-        group.end = all->places.size();
-        for (const auto &corner : all->places.back().corners)
-          group.corners.add(corner);
-        group.normals.add(all->places.back().normal);
+        const std::vector<Group> below = all->levels.back();
+        all->add_level(below.size(), [&](const unsigned int k, Group &group) {
+          for (const auto box : {&Group::corners, &Group::normals})
+            {
+              (group.*box).add((below[k].*box).lower);
+              (group.*box).add((below[k].*box).upper);
+            }
+        });
       }
   }
 
@@ -325,41 +355,54 @@ namespace Ricochet
     Closest<dim> closest;
     closest.smallest =
       std::min(closest.smallest, largest_distance * largest_distance);
-    const auto may_face = [&](const Group &group) {
-      return accept || group.normals.smallest_product(normal) < 0.;
+    // What is as far as the closest one, but for round-off, counts as well.
+    const auto is_near = [&](const Box<dim> &box) {
+      return box.squared_distance(y) <=
+        closest.smallest * (1. + 1e-6) + 1e-12 * box.square_of_diagonal();
     };
-    const auto look_at = [&](const Group &group) {
+    const auto may_count = [&](const Group &group) {
+      return is_near(group.corners) &&
+        (accept || group.normals.smallest_product(normal) < 0.);
+    };
+    const auto look_at_facets = [&](const Group &group) {
       for (unsigned int k = group.begin; k < group.end; ++k)
         {
           const Place<dim> &place = all->places[k];
+          if (!is_near(place.box))
+            continue;
           if (accept)
             closest.consider(place, y, accept);
           else if (place.faces(normal))
             closest.consider(place, y, [](const unsigned int) { return true; });
         }
     };
-    // The group with the nearest box first: few others are nearer than its facets.
-    const Group *first    = nullptr;
-    double       smallest = std::numeric_limits<double>::max();
-    for (const Group &group : all->groups)
-      if (const double distance = group.corners.squared_distance(y);
-          distance < smallest && may_face(group))
-        {
-          smallest = distance;
-          first    = &group;
-        }
-    if (!first)
-      return {};
-    look_at(*first);
-    for (const Group &group : all->groups)
-      {
-        // What is as far as the closest one, but for round-off, counts as well.
-        const double enough = closest.smallest * (1. + 1e-6) +
-          1e-12 * group.corners.square_of_diagonal();
-        if (&group != first && group.corners.squared_distance(y) <= enough &&
-            may_face(group))
-          look_at(group);
-      }
+    const auto look_at = [&](const auto        &self,
+                             const unsigned int level,
+                             const Group       &group) -> void {
+      if (level == 0)
+        return look_at_facets(group);
+      // The member with the nearest box first: few others are nearer than what is in
+      // it.
+      const std::vector<Group> &members  = all->levels[level - 1];
+      unsigned int              first    = group.end;
+      double                    smallest = std::numeric_limits<double>::max();
+      for (unsigned int k = group.begin; k < group.end; ++k)
+        if (may_count(members[k]))
+          if (const double distance = members[k].corners.squared_distance(y);
+              distance < smallest)
+            {
+              smallest = distance;
+              first    = k;
+            }
+      if (first == group.end)
+        return;
+      self(self, level - 1, members[first]);
+      for (unsigned int k = group.begin; k < group.end; ++k)
+        if (k != first && may_count(members[k]))
+          self(self, level - 1, members[k]);
+    };
+    if (!all->places.empty() && may_count(all->levels.back().front()))
+      look_at(look_at, all->levels.size() - 1, all->levels.back().front());
     return closest.best;
   }
 

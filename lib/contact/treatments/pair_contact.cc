@@ -163,6 +163,11 @@ namespace Ricochet
         skin.push_back(index);
         skin_order.push_back(distance);
       }
+    if (!skin.empty())
+      place_in_skin.resize(skin.back() - skin.front() + 1, no_place);
+    for (unsigned int f = 0; f < skin.size(); ++f)
+      place_in_skin[skin[f] - skin.front()] = f;
+    place_in_row.assign(skin.size(), no_place);
     skin_values.resize(skin.size());
     skin_force.resize(skin.size());
   }
@@ -722,7 +727,7 @@ namespace Ricochet
   unsigned int
   PairContact<dim>::skin_place(const types::global_dof_index index) const
   {
-    return std::lower_bound(skin.begin(), skin.end(), index) - skin.begin();
+    return place_in_skin[index - skin.front()];
   }
 
 
@@ -759,22 +764,25 @@ namespace Ricochet
     // Each column once, and none whose parts cancel: those of open points.
     for (FunctionalRow &row : change)
       {
-        std::sort(row.begin(), row.end(), [](const auto &a, const auto &b) {
-          return a.first < b.first;
-        });
-        FunctionalRow sums;
+        unsigned int n_columns = 0;
         for (const auto &[column, value] : row)
-          if (!sums.empty() && sums.back().first == column)
-            sums.back().second += value;
+          if (unsigned int &place = place_in_row[column]; place == no_place)
+            {
+              place            = n_columns;
+              row[n_columns++] = {column, value};
+            }
           else
-            sums.emplace_back(column, value);
-        sums.erase(std::remove_if(sums.begin(),
-                                  sums.end(),
-                                  [](const auto &entry) {
-                                    return entry.second == 0.;
-                                  }),
-                   sums.end());
-        row.swap(sums);
+            row[place].second += value;
+        row.resize(n_columns);
+        for (const auto &entry : row)
+          place_in_row[entry.first] = no_place;
+        row.erase(std::remove_if(row.begin(),
+                                 row.end(),
+                                 [](const auto &entry) {
+                                   return entry.second == 0.;
+                                 }),
+                  row.end());
+        std::sort(row.begin(), row.end());
       }
   }
 

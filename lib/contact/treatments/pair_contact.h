@@ -390,7 +390,13 @@ namespace Ricochet
     // contact is expected to spread over them, their values at the last
     // complete_residual(), and what contact does to each.
     std::vector<dealii::types::global_dof_index> skin;
-    std::vector<double> skin_order, skin_values, skin_force;
+    std::vector<double>           skin_order, skin_values, skin_force;
+    static constexpr unsigned int no_place =
+      dealii::numbers::invalid_unsigned_int;
+    /// Of each unknown from the first of the skin on; and, for sums over a row, of each
+    /// column in it.
+    std::vector<unsigned int>         place_in_skin;
+    mutable std::vector<unsigned int> place_in_row;
     // Where look_at_change() looks.
     Vector point_of_change;
     // Work space.

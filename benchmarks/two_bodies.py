@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Two linear bodies that meet head on, against one of them that meets the plane between
+them: the same motion, but for the meshes. Disks with persistent contact in their nodes on
+meshes of several sizes, and the soft sphere with a penalty in the points of its faces.
+"""
+
+import argparse
+import pathlib
+import tempfile
+
+from measuring import measure
+
+MESHES = pathlib.Path(__file__).resolve().parent.parent / "meshes"
+
+DISK = """
+  set Shape        = disk
+  set Cells        = triangles or tetrahedra
+  set Radius       = 1
+  set Nodes around = {around}
+  set Nodes        = {nodes}
+  set Density       = 1000
+  set Young modulus = 1e6
+  set Poisson ratio = 0.3
+"""
+SPHERE = """
+  set File = {meshes}/sphere_h4.msh
+  set Density       = 1
+  set Young modulus = 50
+  set Poisson ratio = 0.25
+"""
+BODY = """
+subsection Body {name}
+  set Law         = linear elastic
+  set Translation = {translation}
+  set Velocity    = {velocity}
+{body}end
+"""
+CONTACT = """
+subsection Contact middle
+  set Surface   = first
+  set Against   = {other}
+  set Treatment = {treatment}
+end
+"""
+PLANE = """
+subsection Obstacle plane
+  set Shape = half space
+end
+"""
+PERSISTENT = "persistent contact\n  set Augmentation = 1e6"
+PENALTY = "penalty\n  set Penalty epsilon0 = 1e-3"
+
+
+def scene(dim, body, places, speed, treatment, steps):
+    """One body, or two: where they are along the last axis, and their speeds."""
+    text = f"set Program = ricochet\nset Dimension = {dim}\n"
+    axes = ["0"] * (dim - 1)
+    for name, place, sign in zip(("first", "second"), places, (-1, 1)):
+        text += BODY.format(name=name, body=body,
+                            translation=", ".join(axes + [str(place)]),
+                            velocity=", ".join(axes + [str(sign * speed)]))
+    is_alone = len(places) == 1
+    text += PLANE if is_alone else ""
+    text += CONTACT.format(other="plane" if is_alone else "second",
+                           treatment=treatment)
+    time_step, n_steps = steps
+    return text + (f"subsection Mesh\n  set Degree = {dim - 1}\nend\n"
+                   f"subsection Time\n  set Time step = {time_step}\n"
+                   f"  set Final time = {time_step * n_steps}\nend\n")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build-dir", default="build/release")
+    parser.add_argument("--quick", action="store_true",
+                        help="disks of at most 13 000 unknowns, no spheres")
+    arguments = parser.parse_args()
+    program = str(pathlib.Path(arguments.build_dir) / "ricochet")
+    cases = []
+    for rings in (20, 45) if arguments.quick else (20, 45, 90):
+        disk = DISK.format(around=6 * rings, nodes=3 * rings * (rings + 1) + 1)
+        cases.append(("disks", 2, disk, (1.01, -1.01), PERSISTENT, (1e-3, 200)))
+    if not arguments.quick:
+        # Its mesh stands 2 m above the plane, the other one as much below it.
+        sphere = SPHERE.format(meshes=MESHES)
+        cases.append(("spheres", 3, sphere, (0., -44.), PENALTY, (.1, 240)))
+    print("| bodies | unknowns of one | of two | s in steps, one | two | ratio "
+          "| Newton iterations, one | two |\n|---|---|---|---|---|---|---|---|")
+    for name, dim, body, places, treatment, steps in cases:
+        runs = []
+        for n_bodies in (1, 2):
+            with tempfile.TemporaryDirectory() as folder:
+                file = pathlib.Path(folder) / "scene.prm"
+                file.write_text(scene(dim, body, places[:n_bodies], 1, treatment,
+                                      steps))
+                runs.append(measure(program, [], str(file)))
+        one, two = runs
+        print(f"| {name} | {one['unknowns']} | {two['unknowns']} "
+              f"| {one['seconds']:.3g} | {two['seconds']:.3g} "
+              f"| {two['seconds'] / one['seconds']:.2f} "
+              f"| {one['iterations']:.0f} | {two['iterations']:.0f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
