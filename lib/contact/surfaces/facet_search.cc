@@ -2,9 +2,6 @@
 #include <contact/surfaces/closest_point.h>
 #include <contact/surfaces/facet_search.h>
 
-#include <deal.II/base/bounding_box.h>
-#include <deal.II/numerics/rtree.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -59,16 +56,6 @@ namespace Ricochet
       return sum;
     }
 
-    template <int dim>
-    Point<dim>
-    to_point(const std::array<double, dim> &x)
-    {
-      Point<dim> point;
-      for (unsigned int c = 0; c < dim; ++c)
-        point[c] = x[c];
-      return point;
-    }
-
     /// The smallest box around some vectors.
     template <int dim>
     struct Box
@@ -110,6 +97,16 @@ namespace Ricochet
         for (unsigned int c = 0; c < dim; ++c)
           sum += (upper[c] - lower[c]) * (upper[c] - lower[c]);
         return sum;
+      }
+
+      /// Also if they touch.
+      bool
+      meets(const Box &other) const
+      {
+        for (unsigned int c = 0; c < dim; ++c)
+          if (!(lower[c] <= other.upper[c] && other.lower[c] <= upper[c]))
+            return false;
+        return true;
       }
 
       /// Not more than any product of @p other with a vector in it, to the last digit:
@@ -276,14 +273,6 @@ namespace Ricochet
 
 
 
-  template <int dim>
-  struct FacetSearch<dim>::Tree
-  {
-    RTree<std::pair<BoundingBox<dim>, unsigned int>> boxes;
-  };
-
-
-
   namespace
   {
     std::vector<unsigned int>
@@ -434,28 +423,24 @@ namespace Ricochet
   FacetSearch<dim>::near(const std::array<double, dim> &lower,
                          const std::array<double, dim> &upper) const
   {
-    if (!tree)
-      {
-        std::vector<std::pair<BoundingBox<dim>, unsigned int>> entries;
-        for (const Place<dim> &place : all->places)
-          {
-            Box<dim> box;
-            for (const auto &corner : place.corners)
-              box.add(corner);
-            entries.emplace_back(std::pair(to_point<dim>(box.lower),
-                                           to_point<dim>(box.upper)),
-                                 place.facet);
-          }
-        tree        = std::make_unique<Tree>();
-        tree->boxes = pack_rtree(entries);
-      }
+    using Group = typename Groups::Group;
+    Box<dim> box;
+    box.add(lower);
+    box.add(upper);
     std::vector<unsigned int> found;
-    for (const auto &entry :
-         tree->boxes |
-           boost::geometry::index::adaptors::queried(
-             boost::geometry::index::intersects(BoundingBox<dim>(
-               std::pair(to_point<dim>(lower), to_point<dim>(upper))))))
-      found.push_back(entry.second);
+    const auto                look_at = [&](const auto        &self,
+                             const unsigned int level,
+                             const Group       &group) -> void {
+      if (!group.corners.meets(box))
+        return;
+      for (unsigned int k = group.begin; k < group.end; ++k)
+        if (level > 0)
+          self(self, level - 1, all->levels[level - 1][k]);
+        else if (all->places[k].box.meets(box))
+          found.push_back(all->places[k].facet);
+    };
+    if (!all->places.empty())
+      look_at(look_at, all->levels.size() - 1, all->levels.back().front());
     std::sort(found.begin(), found.end());
     return found;
   }

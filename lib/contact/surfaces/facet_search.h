@@ -48,10 +48,7 @@ namespace Ricochet
 
   private:
     struct Groups;
-    struct Tree;
     std::unique_ptr<Groups> all;
-    /// For near(), made when it is called first.
-    mutable std::unique_ptr<Tree> tree;
   };
 
   /// As FacetSearch::closest_facing(), but only of @p facets.
