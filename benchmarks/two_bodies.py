@@ -34,6 +34,7 @@ subsection Body {name}
   set Law         = linear elastic
   set Translation = {translation}
   set Velocity    = {velocity}
+  set Rotation    = {rotation}
 {body}end
 """
 CONTACT = """
@@ -56,10 +57,13 @@ def scene(dim, body, places, speed, treatment, steps):
     """One body, or two: where they are along the last axis, and their speeds."""
     text = f"set Program = ricochet\nset Dimension = {dim}\n"
     axes = ["0"] * (dim - 1)
-    for name, place, sign in zip(("first", "second"), places, (-1, 1)):
+    # Nodes of disks are not to meet nodes. (The halves of the sphere's mesh differ.)
+    angles = (0, 3 if dim == 2 else 0)
+    for name, place, sign, angle in zip(("first", "second"), places, (-1, 1), angles):
         text += BODY.format(name=name, body=body,
                             translation=", ".join(axes + [str(place)]),
-                            velocity=", ".join(axes + [str(sign * speed)]))
+                            velocity=", ".join(axes + [str(sign * speed)]),
+                            rotation=angle)
     is_alone = len(places) == 1
     text += PLANE if is_alone else ""
     text += CONTACT.format(other="plane" if is_alone else "second",
