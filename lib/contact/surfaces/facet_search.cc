@@ -109,14 +109,18 @@ namespace Ricochet
         return true;
       }
 
-      /// Not more than any product of @p other with a vector in it, to the last digit:
-      /// all operations are those of dot(), and they round monotonically.
+      /// Not more than any product of @p other with a vector in it, round-off included.
       double
       smallest_product(const std::array<double, dim> &other) const
       {
         double sum = 0.;
         for (unsigned int c = 0; c < dim; ++c)
-          sum += std::min(lower[c] * other[c], upper[c] * other[c]);
+          {
+            const double first = lower[c] * other[c],
+                         last  = upper[c] * other[c];
+            sum += std::min(first, last) -
+              1e-14 * std::max(std::abs(first), std::abs(last));
+          }
         return sum;
       }
 
