@@ -122,14 +122,8 @@ namespace Ricochet
         step.last_allowed     = std::numeric_limits<unsigned int>::max();
         if (!own_points[p].can_touch || is_other_side(p))
           continue;
-        if (const auto &now = places_now[p])
-          {
-            gap.is_before_facet = true;
-            gap.old_gap         = now->gap;
-            step.chain          = now->chain;
-            step.old_facet      = now->facet;
-            step.may_pass       = now->may_pass;
-          }
+        if (places_now[p])
+          begin_before(p, *places_now[p]);
         if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
           find_facet_later(p, *later, course.end);
         step.is_double = gap.is_before_facet && is_self && meets_node(p);
@@ -287,9 +281,9 @@ namespace Ricochet
   void
   PointsBeforeFacets<dim>::find_places_now()
   {
-    const bool are_known = found_at.is_same(old_positions);
     // How far a surface looks for itself depends on the step.
-    if (are_known && !is_self)
+    const bool are_known = !is_self && found_at.is_same(old_positions);
+    if (are_known)
       return;
     const FacetSearch<dim> search(master, old_positions.master);
     places_now.resize(own_points.size());
@@ -353,11 +347,20 @@ namespace Ricochet
     const double       old_gap = this->gap_before(x, facing->chain, old_facet);
     if (!(old_gap > 0.))
       return;
+    begin_before(p, {std::move(facing->chain), old_facet, passes, old_gap});
+  }
+
+
+
+  template <int dim>
+  void
+  PointsBeforeFacets<dim>::begin_before(const unsigned int p, Place place)
+  {
     gaps[p].is_before_facet = true;
-    gaps[p].old_gap         = old_gap;
-    steps[p].may_pass       = passes;
-    steps[p].old_facet      = old_facet;
-    steps[p].chain          = std::move(facing->chain);
+    gaps[p].old_gap         = place.gap;
+    steps[p].may_pass       = place.may_pass;
+    steps[p].old_facet      = place.facet;
+    steps[p].chain          = std::move(place.chain);
   }
 
 

@@ -195,6 +195,10 @@ namespace Ricochet
     std::optional<Place>
     place_now(const unsigned int p, const FacetSearch<dim> &search) const;
 
+    /// Let the point @p p begin there.
+    void
+    begin_before(const unsigned int p, Place place);
+
     /// For a point that is not pressed, a facet that it is in front of and before
     /// which it will be @p later, if there is one.
     void
