@@ -7,6 +7,8 @@
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/utility.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -16,6 +18,93 @@
 namespace Ricochet
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// Columns of the dense system that are summed at once, and rows: the components of
+    /// a node, which look at the same observables.
+    constexpr unsigned int block_width = 16, n_rows_at_once = 3;
+
+    /// Rows of C that look at the same observables.
+    struct RowGroup
+    {
+      unsigned int              first_row, n_rows;
+      std::vector<unsigned int> observables;
+      /// For each observable one of each row.
+      std::vector<double> values;
+    };
+
+    /// @param number of each observable.
+    std::vector<RowGroup>
+    groups_of_rows(const std::vector<FunctionalRow> &rows,
+                   const std::vector<unsigned int>  &number)
+    {
+      const auto looks_like = [&](const unsigned int i, const unsigned int j) {
+        return i < rows.size() &&
+          std::equal(rows[i].begin(),
+                     rows[i].end(),
+                     rows[j].begin(),
+                     rows[j].end(),
+                     [](const auto &a, const auto &b) {
+                       return a.first == b.first;
+                     });
+      };
+      std::vector<RowGroup> groups;
+      for (unsigned int i = 0; i < rows.size(); i += groups.back().n_rows)
+        {
+          RowGroup group{i, 1, {}, {}};
+          while (group.n_rows < n_rows_at_once &&
+                 looks_like(i + group.n_rows, i))
+            ++group.n_rows;
+          if (group.n_rows < n_rows_at_once)
+            group.n_rows = 1;
+          for (unsigned int k = 0; k < rows[i].size(); ++k)
+            {
+              group.observables.push_back(number[rows[i][k].first]);
+              for (unsigned int r = 0; r < group.n_rows; ++r)
+                group.values.push_back(rows[i + r][k].second);
+            }
+          groups.push_back(std::move(group));
+        }
+      return groups;
+    }
+
+    /// Products of the rows of @p group with @p block, packed by observables.
+    template <unsigned int n_rows>
+    void
+    multiply(const RowGroup                                   &group,
+             const std::vector<double>                        &block,
+             std::array<double, n_rows_at_once * block_width> &products)
+    {
+      // As many numbers as a register of AVX2 has.
+      using Four                     = Eigen::Array<double, 4, 1>;
+      constexpr unsigned int n_fours = block_width / 4;
+      Four                   sums[n_rows][n_fours];
+      for (auto &row : sums)
+        for (Four &sum : row)
+          sum.setZero();
+      const double *value = group.values.data();
+      for (const unsigned int o : group.observables)
+        {
+          const double *seen = block.data() + o * block_width;
+#pragma GCC unroll 4
+          for (unsigned int f = 0; f < n_fours; ++f)
+            {
+              const Four entry = Eigen::Map<const Four>(seen + 4 * f);
+#pragma GCC unroll 3
+              for (unsigned int r = 0; r < n_rows; ++r)
+                sums[r][f] += value[r] * entry;
+            }
+          value += n_rows;
+        }
+      for (unsigned int r = 0; r < n_rows; ++r)
+        for (unsigned int f = 0; f < n_fours; ++f)
+          Eigen::Map<Four>(products.data() + r * block_width + 4 * f) =
+            sums[r][f];
+    }
+  } // namespace
+
+
 
   LowRankCorrection::LowRankCorrection(const IndexSet            &owned,
                                        const MPI_Comm             communicator,
@@ -415,23 +504,28 @@ namespace Ricochet
         if (small_is_positive)
           return;
       }
-    small = std::make_unique<LAPACKFullMatrix<double>>(n, n);
+    // Its memory is kept: pages that are new cost more than to fill them.
+    if (!small)
+      small = std::make_unique<LAPACKFullMatrix<double>>();
+    small->reinit(n, n);
 
     // The observables that rows look at: few of those that they could.
-    std::vector<unsigned int> seen;
+    std::vector<unsigned int> seen, number_of_seen(n_observables, 0);
     for (const Row &row : rows)
       for (const auto &entry : row)
-        seen.push_back(entry.first);
-    std::sort(seen.begin(), seen.end());
-    seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-    std::vector<unsigned int> number_of_seen(n_observables);
-    for (unsigned int k = 0; k < seen.size(); ++k)
-      number_of_seen[seen[k]] = k;
+        number_of_seen[entry.first] = 1;
+    for (unsigned int o = 0; o < n_observables; ++o)
+      if (number_of_seen[o] == 1)
+        {
+          number_of_seen[o] = seen.size();
+          seen.push_back(o);
+        }
 
-    // In blocks of columns, packed so that the innermost loop runs over
-    // neighbours.
-    constexpr unsigned int width = 16;
-    std::vector<double>    block(seen.size() * width, 0.);
+    // In blocks of columns, packed so that the innermost loop runs over neighbours.
+    const std::vector<RowGroup> groups = groups_of_rows(rows, number_of_seen);
+    constexpr unsigned int      width  = block_width;
+    std::vector<double>         block(seen.size() * width, 0.);
+    std::array<double, n_rows_at_once * width> products_of_group;
     for (unsigned int begin = 0; begin < n; begin += width)
       {
         const unsigned int size = std::min(width, n - begin);
@@ -441,16 +535,20 @@ namespace Ricochet
             for (unsigned int k = 0; k < seen.size(); ++k)
               block[k * width + j] = column[seen[k]];
           }
-        for (unsigned int i = 0; i < n; ++i)
+        for (const RowGroup &group : groups)
           {
-            std::array<double, width> sum{};
-            for (const auto &[o, value] : rows[i])
-              for (unsigned int j = 0; j < width; ++j)
-                sum[j] += value * block[number_of_seen[o] * width + j];
+            if (group.n_rows == n_rows_at_once)
+              multiply<n_rows_at_once>(group, block, products_of_group);
+            else
+              multiply<1>(group, block, products_of_group);
             for (unsigned int j = 0; j < size; ++j)
-              (*small)(i, begin + j) = sum[j] + (i == begin + j ? 1. : 0.);
+              for (unsigned int r = 0; r < group.n_rows; ++r)
+                (*small)(group.first_row + r, begin + j) =
+                  products_of_group[r * width + j];
           }
       }
+    for (unsigned int i = 0; i < n; ++i)
+      (*small)(i, i) += 1.;
     for (unsigned int i = 0; i < n; ++i)
       for (const auto &[place, value] : taken_rows[i])
         if (const int j = number_of_changed[place]; j >= 0)

@@ -151,13 +151,22 @@ namespace Ricochet
 
 
   void
-  CondensedStage::linear_solve(const Vector &right_hand_side, Vector &update)
+  CondensedStage::linear_solve(const Vector &right_hand_side,
+                               Vector       &update,
+                               const bool    may_reuse)
   {
-    Unknowns                   rest = read(right_hand_side);
-    std::vector<FunctionalRow> change(rest.coefficients.size());
-    contact.tangent_change(change);
-    std::vector<FunctionalRow> excess_change(change.size());
-    contact.excess_change(excess_change);
+    Unknowns rest = read(right_hand_side);
+    // Where Newton's method converges fast, its dense system costs more than the one
+    // or two iterations that another one would save.
+    const std::uint64_t active_set = contact.active_set_signature();
+    if (!may_reuse || tangent_active_set != active_set)
+      {
+        change.assign(rest.coefficients.size(), {});
+        contact.tangent_change(change);
+        excess_change.assign(change.size(), {});
+        contact.excess_change(excess_change);
+        tangent_active_set = active_set;
+      }
     for (unsigned int f = 0; f < open_excess.size(); ++f)
       for (const auto &[g, value] : excess_change[f])
         rest.coefficients[f] -= value * rest.share * open_excess[g];
@@ -195,9 +204,9 @@ namespace Ricochet
       [this](const Vector &point, Vector &result) { residual(point, result); },
       [this](const Vector &right_hand_side,
              Vector       &update,
-             const bool /*may_reuse*/,
+             const bool    may_reuse,
              const double /*tolerance*/) {
-        linear_solve(right_hand_side, update);
+        linear_solve(right_hand_side, update, may_reuse);
       },
       [this](const Vector &result) { return norm(result); },
       problem.accept,

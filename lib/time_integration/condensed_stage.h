@@ -6,6 +6,8 @@
 #include <solvers/condensed_system.h>
 #include <solvers/newton.h>
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace Ricochet
@@ -81,8 +83,12 @@ namespace Ricochet
     void
     residual(const Vector &point, Vector &result);
 
+    /// @param may_reuse solve with the tangent of the last call, if contact is in the
+    /// state that it was in there.
     void
-    linear_solve(const Vector &right_hand_side, Vector &update);
+    linear_solve(const Vector &right_hand_side,
+                 Vector       &update,
+                 const bool    may_reuse);
 
     double
     norm(const Vector &small_residual);
@@ -105,6 +111,9 @@ namespace Ricochet
     // What the former has along the functionals (N), where contact takes rows.
     std::vector<double> open_excess, excess;
     std::vector<double> forces;
+    // The tangent of the last linear_solve(), and the active set that it is for.
+    std::vector<FunctionalRow>   change, excess_change;
+    std::optional<std::uint64_t> tangent_active_set;
   };
 } // namespace Ricochet
 
