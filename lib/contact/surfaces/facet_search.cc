@@ -205,6 +205,15 @@ namespace Ricochet
     template <int dim>
     struct Closest
     {
+      /// Whether what is in @p box can be it. What is as far as the closest one, but for
+      /// round-off, counts as well.
+      bool
+      may_be_in(const Box<dim> &box, const std::array<double, dim> &y) const
+      {
+        return box.squared_distance(y) <=
+          smallest * (1. + 1e-6) + 1e-12 * box.square_of_diagonal();
+      }
+
       /// @param accept is only asked of what would be the closest.
       template <typename Accept>
       void
@@ -348,20 +357,15 @@ namespace Ricochet
     Closest<dim> closest;
     closest.smallest =
       std::min(closest.smallest, largest_distance * largest_distance);
-    // What is as far as the closest one, but for round-off, counts as well.
-    const auto is_near = [&](const Box<dim> &box) {
-      return box.squared_distance(y) <=
-        closest.smallest * (1. + 1e-6) + 1e-12 * box.square_of_diagonal();
-    };
     const auto may_count = [&](const Group &group) {
-      return is_near(group.corners) &&
+      return closest.may_be_in(group.corners, y) &&
         (accept || group.normals.smallest_product(normal) < 0.);
     };
     const auto look_at_facets = [&](const Group &group) {
       for (unsigned int k = group.begin; k < group.end; ++k)
         {
           const Place<dim> &place = all->places[k];
-          if (!is_near(place.box))
+          if (!closest.may_be_in(place.box, y))
             continue;
           if (accept)
             closest.consider(place, y, accept);
@@ -413,9 +417,8 @@ namespace Ricochet
     for (const unsigned int f : facets)
       {
         const Place<dim> place(surface, positions, f);
-        closest.consider(place, y, [&](const unsigned int) {
-          return place.faces(normal);
-        });
+        if (place.faces(normal) && closest.may_be_in(place.box, y))
+          closest.consider(place, y, [](const unsigned int) { return true; });
       }
     return closest.best;
   }
