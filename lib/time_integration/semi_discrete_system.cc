@@ -72,6 +72,20 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    /// What solves the condensed system has to solve the whole one, too, whose residual
+    /// has other round-off.
+    NewtonSolver::Parameters
+    with_margin(NewtonSolver::Parameters parameters)
+    {
+      parameters.tolerance *= .5;
+      return parameters;
+    }
+  } // namespace
+
+
+
   SemiDiscreteSystem::SemiDiscreteSystem(
     const BodyMatrix               &mass,
     const BodyMatrix               &invertible_mass,
@@ -91,7 +105,7 @@ namespace Ricochet
     , load(std::move(load))
     , follower(follower)
     , newton(newton_parameters)
-    , condensed_newton(newton_parameters)
+    , condensed_newton(with_margin(newton_parameters))
     , quasi_newton(newton_parameters)
     , linear_solver(solver_parameters,
                     contact_structure(contact,
