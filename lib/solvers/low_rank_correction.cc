@@ -505,17 +505,16 @@ namespace Ricochet
           return;
       }
     // Its memory is kept: pages that are new cost more than to fill them.
-    if (!small)
-      small = std::make_unique<LAPACKFullMatrix<double>>();
-    small->reinit(n, n);
+    small.reinit(n, n);
 
     // The observables that rows look at: few of those that they could.
-    std::vector<unsigned int> seen, number_of_seen(n_observables, 0);
+    std::vector<bool> is_seen(n_observables, false);
     for (const Row &row : rows)
       for (const auto &entry : row)
-        number_of_seen[entry.first] = 1;
+        is_seen[entry.first] = true;
+    std::vector<unsigned int> seen, number_of_seen(n_observables);
     for (unsigned int o = 0; o < n_observables; ++o)
-      if (number_of_seen[o] == 1)
+      if (is_seen[o])
         {
           number_of_seen[o] = seen.size();
           seen.push_back(o);
@@ -543,19 +542,19 @@ namespace Ricochet
               multiply<1>(group, block, products_of_group);
             for (unsigned int j = 0; j < size; ++j)
               for (unsigned int r = 0; r < group.n_rows; ++r)
-                (*small)(group.first_row + r, begin + j) =
+                small(group.first_row + r, begin + j) =
                   products_of_group[r * width + j];
           }
       }
     for (unsigned int i = 0; i < n; ++i)
-      (*small)(i, i) += 1.;
+      small(i, i) += 1.;
     for (unsigned int i = 0; i < n; ++i)
       for (const auto &[place, value] : taken_rows[i])
         if (const int j = number_of_changed[place]; j >= 0)
-          (*small)(i, j) += value;
+          small(i, j) += value;
     try
       {
-        small->compute_lu_factorization();
+        small.compute_lu_factorization();
       }
     catch (const LACExceptions::ExcSingular &)
       {
@@ -573,7 +572,7 @@ namespace Ricochet
     if (small_is_positive)
       positive_small.solve(vector);
     else
-      small->solve(vector);
+      small.solve(vector);
   }
 
 

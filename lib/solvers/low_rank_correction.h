@@ -12,7 +12,6 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -248,13 +247,13 @@ namespace Ricochet
     std::vector<Row>          rows, excess_rows, taken_rows;
     FunctionalProducts        products;
     // Number of each place among those that change; -1 for none.
-    std::vector<int>                                  number_of_changed;
-    std::unique_ptr<dealii::LAPACKFullMatrix<double>> small;
-    PositiveSystem                                    positive_small;
-    bool                                              small_is_positive = false;
-    GhostedVector                                     ghosted;
-    Vector                                            work;
-    std::vector<double>                               observed;
+    std::vector<int>                 number_of_changed;
+    dealii::LAPACKFullMatrix<double> small;
+    PositiveSystem                   positive_small;
+    bool                             small_is_positive = false;
+    GhostedVector                    ghosted;
+    Vector                           work;
+    std::vector<double>              observed;
   };
 } // namespace Ricochet
 

@@ -161,13 +161,9 @@ namespace Ricochet
     const std::uint64_t active_set = contact.active_set_signature();
     if (!may_reuse || tangent_active_set != active_set)
       {
-        for (auto *rows : {&change, &excess_change})
-          {
-            rows->resize(rest.coefficients.size());
-            for (FunctionalRow &row : *rows)
-              row.clear();
-          }
+        change.assign(rest.coefficients.size(), {});
         contact.tangent_change(change);
+        excess_change.assign(change.size(), {});
         contact.excess_change(excess_change);
         tangent_active_set = active_set;
       }

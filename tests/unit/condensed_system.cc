@@ -300,17 +300,20 @@ BOOST_DATA_TEST_CASE(a_new_matrix_has_its_own_corrections,
   std::vector<LowRankCorrection::Row> change(n);
   for (unsigned int f = 0; f < n; ++f)
     change[f] = {{correction.place(f), 3. + f}};
-  for (unsigned int first = 0, size = 1; has_clusters && first < n;
-       first += size, size          = 1 + size % 5)
-    for (unsigned int f = first; f < std::min(first + size, n); ++f)
-      {
-                 change[f].clear();
-                 for (unsigned int other = first; other < std::min(first + 8, n);
-             ++other)
-          change[f].emplace_back(correction.place(other),
-                                 (f == other ? 3. + f : 0.) +
-                                   std::sin(5. * f + other));
-      }
+  unsigned int size = 1;
+  for (unsigned int first = 0; has_clusters && first < n; first += size)
+    {
+      size = 1 + size % 5;
+      for (unsigned int f = first; f < std::min(first + size, n); ++f)
+        {
+          change[f].clear();
+          for (unsigned int other = first; other < std::min(first + 8, n);
+               ++other)
+            change[f].emplace_back(correction.place(other),
+                                   (f == other ? 3. + f : 0.) +
+                                     std::sin(5. * f + other));
+        }
+    }
   const auto factorisation = make_cholesky_factorisation(false);
   for (const double stiffness : {1., 5.})
     {
