@@ -16,7 +16,8 @@ namespace Ricochet
             factorisations.name(false) == factorisations.name(true))
           break;
         LowRankCorrection::Options options;
-        options.is_symmetric = symmetric && !contact.is_clamped;
+        options.is_symmetric  = symmetric && !contact.is_clamped;
+        options.may_be_single = !contact.has_multipliers && !contact.takes_rows;
         Corrected entry{tangent.body,
                         {},
                         std::make_unique<CorrectedFactorisation>(

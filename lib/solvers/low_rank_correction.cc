@@ -7,8 +7,6 @@
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/utility.hpp>
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -18,93 +16,6 @@
 namespace Ricochet
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// Columns of the dense system that are summed at once, and rows: the components of
-    /// a node, which look at the same observables.
-    constexpr unsigned int block_width = 16, n_rows_at_once = 3;
-
-    /// Rows of C that look at the same observables.
-    struct RowGroup
-    {
-      unsigned int              first_row, n_rows;
-      std::vector<unsigned int> observables;
-      /// For each observable one of each row.
-      std::vector<double> values;
-    };
-
-    /// @param number of each observable.
-    std::vector<RowGroup>
-    groups_of_rows(const std::vector<FunctionalRow> &rows,
-                   const std::vector<unsigned int>  &number)
-    {
-      const auto looks_like = [&](const unsigned int i, const unsigned int j) {
-        return i < rows.size() &&
-          std::equal(rows[i].begin(),
-                     rows[i].end(),
-                     rows[j].begin(),
-                     rows[j].end(),
-                     [](const auto &a, const auto &b) {
-                       return a.first == b.first;
-                     });
-      };
-      std::vector<RowGroup> groups;
-      for (unsigned int i = 0; i < rows.size(); i += groups.back().n_rows)
-        {
-          RowGroup group{i, 1, {}, {}};
-          while (group.n_rows < n_rows_at_once &&
-                 looks_like(i + group.n_rows, i))
-            ++group.n_rows;
-          if (group.n_rows < n_rows_at_once)
-            group.n_rows = 1;
-          for (unsigned int k = 0; k < rows[i].size(); ++k)
-            {
-              group.observables.push_back(number[rows[i][k].first]);
-              for (unsigned int r = 0; r < group.n_rows; ++r)
-                group.values.push_back(rows[i + r][k].second);
-            }
-          groups.push_back(std::move(group));
-        }
-      return groups;
-    }
-
-    /// Products of the rows of @p group with @p block, packed by observables.
-    template <unsigned int n_rows>
-    void
-    multiply(const RowGroup                                   &group,
-             const std::vector<double>                        &block,
-             std::array<double, n_rows_at_once * block_width> &products)
-    {
-      // As many numbers as a register of AVX2 has.
-      using Four                     = Eigen::Array<double, 4, 1>;
-      constexpr unsigned int n_fours = block_width / 4;
-      Four                   sums[n_rows][n_fours];
-      for (auto &row : sums)
-        for (Four &sum : row)
-          sum.setZero();
-      const double *value = group.values.data();
-      for (const unsigned int o : group.observables)
-        {
-          const double *seen = block.data() + o * block_width;
-#pragma GCC unroll 4
-          for (unsigned int f = 0; f < n_fours; ++f)
-            {
-              const Four entry = Eigen::Map<const Four>(seen + 4 * f);
-#pragma GCC unroll 3
-              for (unsigned int r = 0; r < n_rows; ++r)
-                sums[r][f] += value[r] * entry;
-            }
-          value += n_rows;
-        }
-      for (unsigned int r = 0; r < n_rows; ++r)
-        for (unsigned int f = 0; f < n_fours; ++f)
-          Eigen::Map<Four>(products.data() + r * block_width + 4 * f) =
-            sums[r][f];
-    }
-  } // namespace
-
-
 
   LowRankCorrection::LowRankCorrection(const IndexSet            &owned,
                                        const MPI_Comm             communicator,
@@ -458,10 +369,8 @@ namespace Ricochet
     rows.clear();
     excess_rows.clear();
     taken_rows.clear();
-    number_of_changed.assign(n_places(), -1);
     for (auto &[place, own] : all)
       {
-        number_of_changed[place] = changed.size();
         changed.push_back(place);
         rows.push_back(std::move(own[0]));
         excess_rows.push_back(std::move(own[1]));
@@ -504,75 +413,18 @@ namespace Ricochet
         if (small_is_positive)
           return;
       }
-    // Its memory is kept: pages that are new cost more than to fill them.
-    small.reinit(n, n);
-
-    // The observables that rows look at: few of those that they could.
-    std::vector<bool> is_seen(n_observables, false);
-    for (const Row &row : rows)
-      for (const auto &entry : row)
-        is_seen[entry.first] = true;
-    std::vector<unsigned int> seen, number_of_seen(n_observables);
-    for (unsigned int o = 0; o < n_observables; ++o)
-      if (is_seen[o])
-        {
-          number_of_seen[o] = seen.size();
-          seen.push_back(o);
-        }
-
-    // In blocks of columns, packed so that the innermost loop runs over neighbours.
-    const std::vector<RowGroup> groups = groups_of_rows(rows, number_of_seen);
-    constexpr unsigned int      width  = block_width;
-    std::vector<double>         block(seen.size() * width, 0.);
-    std::array<double, n_rows_at_once * width> products_of_group;
-    for (unsigned int begin = 0; begin < n; begin += width)
-      {
-        const unsigned int size = std::min(width, n - begin);
-        for (unsigned int j = 0; j < size; ++j)
-          {
-            const std::vector<double> &column = columns[changed[begin + j]];
-            for (unsigned int k = 0; k < seen.size(); ++k)
-              block[k * width + j] = column[seen[k]];
-          }
-        for (const RowGroup &group : groups)
-          {
-            if (group.n_rows == n_rows_at_once)
-              multiply<n_rows_at_once>(group, block, products_of_group);
-            else
-              multiply<1>(group, block, products_of_group);
-            for (unsigned int j = 0; j < size; ++j)
-              for (unsigned int r = 0; r < group.n_rows; ++r)
-                small(group.first_row + r, begin + j) =
-                  products_of_group[r * width + j];
-          }
-      }
-    for (unsigned int i = 0; i < n; ++i)
-      small(i, i) += 1.;
-    for (unsigned int i = 0; i < n; ++i)
-      for (const auto &[place, value] : taken_rows[i])
-        if (const int j = number_of_changed[place]; j >= 0)
-          small(i, j) += value;
-    try
-      {
-        small.compute_lu_factorization();
-      }
-    catch (const LACExceptions::ExcSingular &)
-      {
-        throw NewtonFailure(
-          "The tangent matrix cannot be factored: with this state of contact it "
-          "is singular.");
-      }
+    small.factorise(small_terms(), options.may_be_single);
   }
 
 
 
   void
-  LowRankCorrection::solve_with_small(dealii::Vector<double> &vector) const
+  LowRankCorrection::solve_with_small(dealii::Vector<double> &vector)
   {
     if (small_is_positive)
       positive_small.solve(vector);
     else
-      small.solve(vector);
+      small.solve(small_terms(), vector);
   }
 
 
@@ -647,23 +499,10 @@ namespace Ricochet
       for (unsigned int o = 0; o < values.size(); o += options.group_size)
         needed.push_back(o);
     solve_missing_columns(needed, factorisation);
-    // Several columns at once, so that the sums are read and written less often.
-    constexpr unsigned int                                    n_at_once = 4;
-    std::array<std::vector<double>::const_pointer, n_at_once> column{};
-    std::array<double, n_at_once>                             weight{};
-    for (std::size_t first = 0; first < places.size(); first += n_at_once)
-      {
-        for (unsigned int c = 0; c < n_at_once; ++c)
-          {
-            const bool         is_there = first + c < places.size();
-            const unsigned int place    = places[is_there ? first + c : first];
-            column[c]                   = columns[place].data();
-            weight[c] = is_there ? factor * coefficients[place] : 0.;
-          }
-        for (std::size_t o = 0; o < values.size(); ++o)
-          values[o] += (weight[0] * column[0][o] + weight[1] * column[1][o]) +
-            (weight[2] * column[2][o] + weight[3] * column[3][o]);
-      }
+    std::vector<double> of_places;
+    for (const unsigned int place : places)
+      of_places.push_back(coefficients[place]);
+    add_columns(factor, columns, places, of_places, values);
   }
 
 

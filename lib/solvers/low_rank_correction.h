@@ -7,9 +7,9 @@
 #include <solvers/factorisation.h>
 #include <solvers/functional_products.h>
 #include <solvers/positive_system.h>
+#include <solvers/unsymmetric_system.h>
 
 #include <deal.II/base/index_set.h>
-#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <map>
 #include <optional>
@@ -60,6 +60,8 @@ namespace Ricochet
       /// A is symmetric but for rows that it decouples; then the observables have
       /// to be the directions.
       bool is_symmetric = false;
+      /// Coefficients are of one kind: see UnsymmetricSystem.
+      bool may_be_single = false;
     };
 
     /**
@@ -213,7 +215,14 @@ namespace Ricochet
 
     /// Solve the small system.
     void
-    solve_with_small(dealii::Vector<double> &vector) const;
+    solve_with_small(dealii::Vector<double> &vector);
+
+    /// What #small is made of.
+    UnsymmetricSystem::Terms
+    small_terms() const
+    {
+      return {changed, taken_rows, rows, columns};
+    }
 
     const MPI_Comm    communicator;
     const Functionals directions;
@@ -246,14 +255,12 @@ namespace Ricochet
     std::vector<unsigned int> changed;
     std::vector<Row>          rows, excess_rows, taken_rows;
     FunctionalProducts        products;
-    // Number of each place among those that change; -1 for none.
-    std::vector<int>                 number_of_changed;
-    dealii::LAPACKFullMatrix<double> small;
-    PositiveSystem                   positive_small;
-    bool                             small_is_positive = false;
-    GhostedVector                    ghosted;
-    Vector                           work;
-    std::vector<double>              observed;
+    UnsymmetricSystem         small;
+    PositiveSystem            positive_small;
+    bool                      small_is_positive = false;
+    GhostedVector             ghosted;
+    Vector                    work;
+    std::vector<double>       observed;
   };
 } // namespace Ricochet
 

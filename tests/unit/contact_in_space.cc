@@ -880,7 +880,9 @@ BOOST_AUTO_TEST_CASE(closest_facets_are_found)
       some.push_back(f);
   const FacetSearch<3> search(surface, positions),
     search_of_some(surface, positions, some);
-  const auto faces = [&](const unsigned int f, const Position &normal) {
+  FacetsAround<3>    around(surface, positions);
+  const unsigned int n_facets = facets.size();
+  const auto         faces = [&](const unsigned int f, const Position &normal) {
     const auto own     = facet_normal<3>(surface, positions, f);
     double     product = 0.;
     for (unsigned int c = 0; c < 3; ++c)
@@ -899,7 +901,8 @@ BOOST_AUTO_TEST_CASE(closest_facets_are_found)
           normal[c] = noise(generator);
         }
       const auto closest = [&](const std::vector<unsigned int> &of) {
-        return closest_facing_of<3>(of, surface, positions, y, normal);
+        return FacetsAround<3>(surface, positions)
+          .closest_facing(of, y, normal);
       };
       BOOST_REQUIRE(closest(facets));
       BOOST_CHECK(search.closest_facing(y, normal) == closest(facets));
@@ -907,6 +910,21 @@ BOOST_AUTO_TEST_CASE(closest_facets_are_found)
       BOOST_CHECK(search.closest_facing(y, normal, [&](const unsigned int f) {
         return f % 7 != 0 && faces(f, normal);
       }) == closest(some));
+      // Whatever is looked at first, and whatever is known already.
+      for (const unsigned int likely :
+           std::vector<unsigned int>{*closest(facets),
+                                     n_facets / 2,
+                                     n_facets + 3})
+        {
+          BOOST_CHECK(search_of_some.closest_facing(
+                        y,
+                        normal,
+                        {},
+                        std::numeric_limits<double>::infinity(),
+                        likely) == closest(some));
+          BOOST_CHECK(around.closest_facing(some, y, normal, likely) ==
+                      closest(some));
+        }
       const auto within = search.closest_facing(
         y,
         normal,

@@ -201,18 +201,21 @@ namespace Ricochet
 
 
   std::optional<unsigned int>
-  PointsBeforeTriangles::find_facet(const unsigned int    p,
-                                    const FacetSearch<3> &search,
-                                    const Positions      &positions,
-                                    const double largest_distance) const
+  PointsBeforeTriangles::find_facet(
+    const unsigned int                p,
+    const FacetSearch<3>             &search,
+    const Positions                  &positions,
+    const double                      largest_distance,
+    const std::optional<unsigned int> likely) const
   {
     if (is_self)
-      return find_own_facet(p, search, positions, largest_distance);
+      return find_own_facet(p, search, positions, largest_distance, likely);
     const Point &point = own_points[p];
     const auto   f = search.closest_facing(position_of(point, positions.slave),
                                          normal_of(point, positions.slave),
                                          {},
-                                         largest_distance);
+                                         largest_distance,
+                                         likely);
     if (!f)
       return {};
     const Corners<double> x   = corners(p, *f, positions);
@@ -231,7 +234,8 @@ namespace Ricochet
           x[0],
           [](const unsigned int) { return true; },
           (1. + 1e-6) * distance(x) +
-            1e-6 * std::sqrt(master.facets[*f].measure));
+            1e-6 * std::sqrt(master.facets[*f].measure),
+          f);
         const Corners<double> other = corners(p, *nearest, positions);
         const double          size = std::sqrt(master.facets[*nearest].measure);
         if (*nearest != *f && distance(other) < .999 * distance(x) &&
@@ -245,10 +249,12 @@ namespace Ricochet
 
 
   std::optional<unsigned int>
-  PointsBeforeTriangles::find_own_facet(const unsigned int    p,
-                                        const FacetSearch<3> &search,
-                                        const Positions      &positions,
-                                        const double largest_distance) const
+  PointsBeforeTriangles::find_own_facet(
+    const unsigned int                p,
+    const FacetSearch<3>             &search,
+    const Positions                  &positions,
+    const double                      largest_distance,
+    const std::optional<unsigned int> likely) const
   {
     const Point   &point  = own_points[p];
     const Position y      = position_of(point, positions.slave),
@@ -264,7 +270,8 @@ namespace Ricochet
         return !is_around(other) &&
           own_facets->can_touch(y, normal, other, positions.master);
       },
-      largest_distance);
+      largest_distance,
+      likely);
     if (!f)
       return {};
     const Corners<double> x   = corners(p, *f, positions);
@@ -276,10 +283,12 @@ namespace Ricochet
     // that, is beside the body.
     if (gap < 0.)
       {
-        const auto nearest =
-          search.closest_facing(y, normal, [&](const unsigned int other) {
-            return !is_around(other);
-          });
+        const auto nearest = search.closest_facing(
+          y,
+          normal,
+          [&](const unsigned int other) { return !is_around(other); },
+          std::numeric_limits<double>::infinity(),
+          f);
         const Corners<double> other     = corners(p, *nearest, positions);
         const bool            is_nearer = distance(other) < .999 * distance(x);
         if (*nearest != *f && is_nearer &&
@@ -337,18 +346,15 @@ namespace Ricochet
   PointsBeforeTriangles::walk(const unsigned int p,
                               const unsigned int f,
                               const Position    &normal,
-                              const Positions   &positions) const
+                              const Position    &y,
+                              FacetsAround<3>   &facets) const
   {
-    const Position y       = position_of(own_points[p], positions.slave);
-    unsigned int   closest = f;
+    unsigned int closest = f;
     // What is fast may pass several facets, but not the whole surface.
     for (unsigned int n = 0; n < farthest_walk; ++n)
       {
-        const auto next = closest_facing_of<3>(allowed_around(p, closest),
-                                               master,
-                                               positions.master,
-                                               y,
-                                               normal);
+        const auto next =
+          facets.closest_facing(allowed_around(p, closest), y, normal, closest);
         if (!next || *next == closest)
           break;
         closest = *next;
@@ -360,16 +366,19 @@ namespace Ricochet
 
   unsigned int
   PointsBeforeTriangles::last_facet(const unsigned int p,
-                                    const Positions   &now) const
+                                    const Positions   &now,
+                                    FacetsAround<3>   &facets) const
   {
     const Step        &step = steps[p];
     const unsigned int old  = step.old_facet;
     const double       size = std::sqrt(master.facets[old].measure);
     // What is far off needs no closer look.
-    if (!step.may_pass ||
-        PointBeforeTriangle<double>::gap(corners(p, old, now)) > 2. * size)
+    if (!step.may_pass)
       return old;
-    const unsigned int closest = walk(p, old, step.normal, now);
+    const Corners<double> x = corners(p, old, now);
+    if (PointBeforeTriangle<double>::gap(x) > 2. * size)
+      return old;
+    const unsigned int closest = walk(p, old, step.normal, x[0], facets);
     if (closest == old)
       return old;
     // Where both gaps are the same but for so little that the energy does not notice,
@@ -403,6 +412,16 @@ namespace Ricochet
 
 
 
+  std::optional<unsigned int>
+  PointsBeforeTriangles::likely_facet(const unsigned int p) const
+  {
+    if (gaps[p].is_before_facet)
+      return steps[p].new_facet;
+    return facets_now[p];
+  }
+
+
+
   void
   PointsBeforeTriangles::find_facets_now()
   {
@@ -412,7 +431,8 @@ namespace Ricochet
     facets_now.resize(own_points.size());
     for (unsigned int p = 0; p < own_points.size(); ++p)
       if (own_points[p].can_touch)
-        facets_now[p] = find_facet(p, search, old_positions, smallest_reach);
+        facets_now[p] =
+          find_facet(p, search, old_positions, smallest_reach, likely_facet(p));
     found_at = old_positions;
   }
 
@@ -421,14 +441,16 @@ namespace Ricochet
   void
   PointsBeforeTriangles::find_facet_later(const unsigned int    p,
                                           const FacetSearch<3> &search,
-                                          const Positions      &later)
+                                          const Positions      &later,
+                                          FacetsAround<3>      &facets)
   {
-    const auto f = find_facet(p, search, later, reach);
+    const auto f = find_facet(p, search, later, reach, facets_now[p]);
     if (!f)
       return;
     // The way there, from where the point is now; should it not be before this part of
     // the surface yet, along this facet.
-    const unsigned int first = walk(p, *f, steps[p].normal, old_positions);
+    const Position     y     = position_of(own_points[p], old_positions.slave);
+    const unsigned int first = walk(p, *f, steps[p].normal, y, facets);
     for (const unsigned int old_facet : {first, *f})
       {
         const double gap = PointBeforeTriangle<double>::gap(
@@ -461,6 +483,8 @@ namespace Ricochet
     new_positions         = old_positions;
     const bool has_length = start.time_step > 0.;
     find_facets_now();
+    FacetsAround<3> facets(master, old_positions.master),
+      facets_between(master, course.middle.master);
     const auto later = has_length
       ? std::make_unique<FacetSearch<3>>(master, course.end.master, near_facets)
       : nullptr;
@@ -480,7 +504,7 @@ namespace Ricochet
                          corners(p, *f, old_positions)),
                        true);
         if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
-          find_facet_later(p, *later, course.end);
+          find_facet_later(p, *later, course.end, facets);
         step.is_double = gap.is_before_facet && is_self && meets_node(p);
         if (step.is_double)
           gap.is_before_facet = false;
@@ -491,7 +515,9 @@ namespace Ricochet
         gap.predicted_gap = gap.old_gap;
         if (has_length)
           gap.predicted_gap = PointBeforeTriangle<double>::gap(
-            corners(p, last_facet(p, course.middle), course.middle));
+            corners(p,
+                    last_facet(p, course.middle, facets_between),
+                    course.middle));
       }
   }
 
@@ -501,11 +527,12 @@ namespace Ricochet
   PointsBeforeTriangles::evaluate(const Vector &solution)
   {
     read(solution, new_positions);
+    FacetsAround<3> facets(master, new_positions.master);
     for (unsigned int p = 0; p < own_points.size(); ++p)
       if (gaps[p].is_before_facet)
         {
           Step &step      = steps[p];
-          step.new_facet  = last_facet(p, new_positions);
+          step.new_facet  = last_facet(p, new_positions, facets);
           gaps[p].new_gap = PointBeforeTriangle<double>::gap(
             corners(p, step.new_facet, new_positions));
           step.up_to_date = false;
@@ -555,7 +582,8 @@ namespace Ricochet
         PointBeforeTriangle<double>::evaluate(
           corners(p, step.old_facet, old_positions),
           corners(p, step.old_facet, new_positions),
-          one);
+          one,
+          needs_slip);
         all.gap_increment = one.gap_increment;
         all.slip          = one.slip;
         std::copy(one.normal.begin(), one.normal.end(), all.normal.begin());
@@ -662,7 +690,7 @@ namespace Ricochet
       {
         result.gap[share.place] +=
           share.factor * all.new_gap.dx(share.coordinate);
-        for (unsigned int d = 0; d < n_tangents; ++d)
+        for (unsigned int d = 0; needs_slip && d < n_tangents; ++d)
           result.slip[d][share.place] +=
             share.factor * all.slip[d].dx(share.coordinate);
       }
@@ -670,7 +698,7 @@ namespace Ricochet
     for (const Share &a : step.shares)
       {
         Differentiable entry = -pressure * all.normal[a.coordinate];
-        for (unsigned int d = 0; d < n_tangents; ++d)
+        for (unsigned int d = 0; needs_slip && d < n_tangents; ++d)
           entry += traction[d] * all.tangential[d][a.coordinate];
         for (const Share &b : step.shares)
           result.forces[a.place * m + b.place] +=
@@ -694,7 +722,8 @@ namespace Ricochet
         using Number = std::decay_t<decltype(x[0][0])>;
         PointBeforeTriangle<Number>::evaluate(corners(p, old, old_positions),
                                               x,
-                                              rows);
+                                              rows,
+                                              needs_slip);
       });
     else
       differentiate<7>(p, pressure, traction, [&](const auto &x, auto &rows) {

@@ -12,6 +12,8 @@ namespace Ricochet
 {
   template <int dim>
   class FacetSearch;
+  template <int dim>
+  class FacetsAround;
 
   /**
    * Each point of the slave, a node or a quadrature point, is held by the one triangle
@@ -129,17 +131,23 @@ namespace Ricochet
     const std::vector<unsigned int> &
     allowed_around(const unsigned int p, const unsigned int f) const;
 
-    /// The closest facet, found by walking over the surface from facet @p f.
+    /// The facet closest to point @p p, found by walking over the surface from facet @p
+    /// f.
+    /// @param y where the point is when @p facets are where they are.
     unsigned int
     walk(const unsigned int p,
          const unsigned int f,
          const Position    &normal,
-         const Positions   &positions) const;
+         const Position    &y,
+         FacetsAround<3>   &facets) const;
 
     /// The facet before which the point is at the end of the step, with positions @p
     /// now.
+    /// @param facets are there.
     unsigned int
-    last_facet(const unsigned int p, const Positions &now) const;
+    last_facet(const unsigned int p,
+               const Positions   &now,
+               FacetsAround<3>   &facets) const;
 
     /// Whether the point, the first of @p x, is beyond an open edge of the surface, or
     /// beside the facet @p f by more than @p tolerance times its longest edge.
@@ -150,18 +158,25 @@ namespace Ricochet
 
     /// The facet before which the point is, of those that @p search knows, if there
     /// is one not farther off than @p largest_distance (m).
+    /// @param likely which one it may well be.
     std::optional<unsigned int>
-    find_facet(const unsigned int    p,
-               const FacetSearch<3> &search,
-               const Positions      &positions,
-               const double          largest_distance) const;
+    find_facet(const unsigned int                p,
+               const FacetSearch<3>             &search,
+               const Positions                  &positions,
+               const double                      largest_distance,
+               const std::optional<unsigned int> likely) const;
 
     /// The same of a surface against itself.
     std::optional<unsigned int>
-    find_own_facet(const unsigned int    p,
-                   const FacetSearch<3> &search,
-                   const Positions      &positions,
-                   const double          largest_distance) const;
+    find_own_facet(const unsigned int                p,
+                   const FacetSearch<3>             &search,
+                   const Positions                  &positions,
+                   const double                      largest_distance,
+                   const std::optional<unsigned int> likely) const;
+
+    /// Before which it was last, as far as is known.
+    std::optional<unsigned int>
+    likely_facet(const unsigned int p) const;
 
     /// Of two nodes of one surface that meet each other exactly, whether @p p is the
     /// one to leave out: two constraints would be the same.
@@ -176,10 +191,12 @@ namespace Ricochet
 
     /// For a point that is not pressed, a facet that it is in front of and before
     /// which it will be @p later, if there is one.
+    /// @param facets where they are now.
     void
     find_facet_later(const unsigned int    p,
                      const FacetSearch<3> &search,
-                     const Positions      &later);
+                     const Positions      &later,
+                     FacetsAround<3>      &facets);
 
     /// Let the point @p p begin before facet @p f.
     void

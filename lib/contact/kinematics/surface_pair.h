@@ -111,6 +111,14 @@ namespace Ricochet
       return is_self;
     }
 
+    /// Nobody will ask for slip, for rows of it or for its derivatives, as there is no
+    /// friction: they need not be computed, and may be zero.
+    void
+    leave_out_slip()
+    {
+      needs_slip = false;
+    }
+
     /// The displacements of all nodes of both surfaces, and the multipliers of this
     /// rank's points: all that contact acts on. With each a distance (m) that tells
     /// in which order contact is expected to spread: how much farther it is from the
@@ -328,7 +336,9 @@ namespace Ricochet
     Position
     position_of(const Point &point, const std::vector<Position> &slave_x) const;
 
-    const bool          is_self;
+    const bool is_self;
+    /// See leave_out_slip().
+    bool                needs_slip = true;
     ContactSurface<dim> slave, master;
     std::vector<Point>  own_points;
     std::vector<Gaps>   gaps;

@@ -2,6 +2,8 @@
 #include <contact/surfaces/closest_point.h>
 #include <contact/surfaces/facet_search.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -210,8 +212,14 @@ namespace Ricochet
       bool
       may_be_in(const Box<dim> &box, const std::array<double, dim> &y) const
       {
-        return box.squared_distance(y) <=
-          smallest * (1. + 1e-6) + 1e-12 * box.square_of_diagonal();
+        return may_be_at(box.squared_distance(y), box.square_of_diagonal());
+      }
+
+      /// The same with the square of the distance of the box, and that of its diagonal.
+      bool
+      may_be_at(const double distance, const double diagonal) const
+      {
+        return distance <= smallest * (1. + 1e-6) + 1e-12 * diagonal;
       }
 
       /// @param accept is only asked of what would be the closest.
@@ -262,6 +270,36 @@ namespace Ricochet
     {
       Box<dim>     corners, normals;
       unsigned int begin = 0, end = 0;
+      /// Boxes around the corners of its members, all of which are compared at once,
+      /// and squares of their diagonals.
+      using EachMember = Eigen::Array<double, size, 1>;
+      std::array<EachMember, dim> lower, upper;
+      EachMember                  diagonals;
+
+      Group()
+      {
+        diagonals.setZero();
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            lower[c].setZero();
+            upper[c].setZero();
+          }
+      }
+
+      /// Squares of the distances of the members' boxes from @p y, those of members that
+      /// there are not besides.
+      EachMember
+      squared_distances(const std::array<double, dim> &y) const
+      {
+        EachMember sum = EachMember::Zero();
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const EachMember outside =
+              (lower[c] - y[c]).max(y[c] - upper[c]).max(0.);
+            sum += outside * outside;
+          }
+        return sum;
+      }
     };
 
     std::vector<Place<dim>> places;
@@ -269,18 +307,33 @@ namespace Ricochet
     std::vector<std::vector<Group>> levels;
 
     /// Groups of @p n_members of the level before.
-    template <typename Add>
+    /// @param corners,normals boxes of each member.
+    template <typename Corners, typename Normals>
     void
-    add_level(const unsigned int n_members, const Add &add_member)
+    add_level(const unsigned int n_members,
+              const Corners     &corners,
+              const Normals     &normals)
     {
-      std::vector<Group> &groups = levels.emplace_back();
+      std::vector<Group> groups((n_members + size - 1) / size);
       for (unsigned int k = 0; k < n_members; ++k)
         {
+          Group &group = groups[k / size];
           if (k % size == 0)
-            groups.emplace_back().begin = k;
-          groups.back().end = k + 1;
-          add_member(k, groups.back());
+            group.begin = k;
+          group.end          = k + 1;
+          const Box<dim> box = corners(k), directions = normals(k);
+          group.corners.add(box.lower);
+          group.corners.add(box.upper);
+          group.normals.add(directions.lower);
+          group.normals.add(directions.upper);
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              group.lower[c][k % size] = box.lower[c];
+              group.upper[c][k % size] = box.upper[c];
+            }
+          group.diagonals[k % size] = box.square_of_diagonal();
         }
+      levels.push_back(std::move(groups));
     }
   };
 
@@ -315,26 +368,24 @@ namespace Ricochet
     const std::vector<unsigned int>            &facets)
     : all(std::make_unique<Groups>())
   {
-    using Group = typename Groups::Group;
     all->places.reserve(facets.size());
     for (const unsigned int f : facets)
       all->places.emplace_back(surface, positions, f);
-    all->add_level(all->places.size(), [&](const unsigned int k, Group &group) {
-      const Place<dim> &place = all->places[k];
-      group.corners.add(place.box.lower);
-      group.corners.add(place.box.upper);
-      group.normals.add(place.normal);
-    });
+    all->add_level(
+      all->places.size(),
+      [&](const unsigned int k) { return all->places[k].box; },
+      [&](const unsigned int k) {
+        Box<dim> box;
+        box.add(all->places[k].normal);
+        return box;
+      });
     while (all->levels.back().size() > 1)
       {
-        const std::vector<Group> below = all->levels.back();
-        all->add_level(below.size(), [&](const unsigned int k, Group &group) {
-          for (const auto box : {&Group::corners, &Group::normals})
-            {
-              (group.*box).add((below[k].*box).lower);
-              (group.*box).add((below[k].*box).upper);
-            }
-        });
+        const auto &below = all->levels.back();
+        all->add_level(
+          below.size(),
+          [&](const unsigned int k) { return below[k].corners; },
+          [&](const unsigned int k) { return below[k].normals; });
       }
   }
 
@@ -351,75 +402,140 @@ namespace Ricochet
     const std::array<double, dim>                   &y,
     const std::array<double, dim>                   &normal,
     const std::function<bool(const unsigned int f)> &accept,
-    const double                                     largest_distance) const
+    const double                                     largest_distance,
+    const std::optional<unsigned int>                likely) const
   {
     using Group = typename Groups::Group;
     Closest<dim> closest;
     closest.smallest =
       std::min(closest.smallest, largest_distance * largest_distance);
-    const auto may_count = [&](const Group &group) {
-      return closest.may_be_in(group.corners, y) &&
-        (accept || group.normals.smallest_product(normal) < 0.);
+    const auto consider = [&](const Place<dim> &place) {
+      if (accept)
+        closest.consider(place, y, accept);
+      else if (place.faces(normal))
+        closest.consider(place, y, [](const unsigned int) { return true; });
     };
-    const auto look_at_facets = [&](const Group &group) {
-      for (unsigned int k = group.begin; k < group.end; ++k)
-        {
-          const Place<dim> &place = all->places[k];
-          if (!closest.may_be_in(place.box, y))
-            continue;
-          if (accept)
-            closest.consider(place, y, accept);
-          else if (place.faces(normal))
-            closest.consider(place, y, [](const unsigned int) { return true; });
-        }
+    if (likely)
+      {
+        const auto found =
+          std::lower_bound(all->places.begin(),
+                           all->places.end(),
+                           *likely,
+                           [](const Place<dim> &place, const unsigned int f) {
+                             return place.facet < f;
+                           });
+        if (found != all->places.end() && found->facet == *likely)
+          consider(*found);
+      }
+    const auto faces = [&](const Group &group) {
+      return accept || group.normals.smallest_product(normal) < 0.;
     };
     const auto look_at = [&](const auto        &self,
                              const unsigned int level,
                              const Group       &group) -> void {
+      const auto distances = group.squared_distances(y);
+      const auto may_count = [&](const unsigned int k) {
+        return closest.may_be_at(distances[k - group.begin],
+                                 group.diagonals[k - group.begin]);
+      };
       if (level == 0)
-        return look_at_facets(group);
+        {
+          for (unsigned int k = group.begin; k < group.end; ++k)
+            if (may_count(k))
+              consider(all->places[k]);
+          return;
+        }
       // The member with the nearest box first: few others are nearer than what is in
       // it.
       const std::vector<Group> &members  = all->levels[level - 1];
       unsigned int              first    = group.end;
       double                    smallest = std::numeric_limits<double>::max();
       for (unsigned int k = group.begin; k < group.end; ++k)
-        if (may_count(members[k]))
-          if (const double distance = members[k].corners.squared_distance(y);
-              distance < smallest)
-            {
-              smallest = distance;
-              first    = k;
-            }
+        if (distances[k - group.begin] < smallest && may_count(k) &&
+            faces(members[k]))
+          {
+            smallest = distances[k - group.begin];
+            first    = k;
+          }
       if (first == group.end)
         return;
       self(self, level - 1, members[first]);
       for (unsigned int k = group.begin; k < group.end; ++k)
-        if (k != first && may_count(members[k]))
+        if (k != first && may_count(k) && faces(members[k]))
           self(self, level - 1, members[k]);
     };
-    if (!all->places.empty() && may_count(all->levels.back().front()))
-      look_at(look_at, all->levels.size() - 1, all->levels.back().front());
+    if (!all->places.empty())
+      {
+        const Group &root = all->levels.back().front();
+        if (closest.may_be_in(root.corners, y) && faces(root))
+          look_at(look_at, all->levels.size() - 1, root);
+      }
     return closest.best;
   }
 
 
 
   template <int dim>
+  struct FacetsAround<dim>::Known
+  {
+    const ContactSurface<dim>                  &surface;
+    const std::vector<std::array<double, dim>> &positions;
+    /// Number of each facet among the places, one more than that; 0: not yet.
+    std::vector<unsigned int> number;
+    std::vector<Place<dim>>   places;
+
+    const Place<dim> &
+    place(const unsigned int f)
+    {
+      if (number[f] == 0)
+        {
+          places.emplace_back(surface, positions, f);
+          number[f] = places.size();
+        }
+      return places[number[f] - 1];
+    }
+  };
+
+
+
+  template <int dim>
+  FacetsAround<dim>::FacetsAround(
+    const ContactSurface<dim>                  &surface,
+    const std::vector<std::array<double, dim>> &positions)
+    : known(std::make_unique<Known>(
+        Known{surface,
+              positions,
+              std::vector<unsigned int>(surface.facets.size(), 0),
+              {}}))
+  {}
+
+
+
+  template <int dim>
+  FacetsAround<dim>::~FacetsAround() = default;
+
+
+
+  template <int dim>
   std::optional<unsigned int>
-  closest_facing_of(const std::vector<unsigned int>            &facets,
-                    const ContactSurface<dim>                  &surface,
-                    const std::vector<std::array<double, dim>> &positions,
-                    const std::array<double, dim>              &y,
-                    const std::array<double, dim>              &normal)
+  FacetsAround<dim>::closest_facing(const std::vector<unsigned int>  &facets,
+                                    const std::array<double, dim>    &y,
+                                    const std::array<double, dim>    &normal,
+                                    const std::optional<unsigned int> likely)
   {
     Closest<dim> closest;
+    const auto   consider = [&](const unsigned int f) {
+      const Place<dim> &place = known->place(f);
+      if (closest.may_be_in(place.box, y) && place.faces(normal))
+        closest.consider(place, y, [](const unsigned int) { return true; });
+    };
+    const bool knows_likely = likely &&
+      std::find(facets.begin(), facets.end(), *likely) != facets.end();
+    if (knows_likely)
+      consider(*likely);
     for (const unsigned int f : facets)
-      {
-        const Place<dim> place(surface, positions, f);
-        if (place.faces(normal) && closest.may_be_in(place.box, y))
-          closest.consider(place, y, [](const unsigned int) { return true; });
-      }
+      if (!knows_likely || f != *likely)
+        consider(f);
     return closest.best;
   }
 
@@ -456,6 +572,7 @@ namespace Ricochet
   template class FacetSearch<1>;
   template class FacetSearch<2>;
   template class FacetSearch<3>;
+  template class FacetsAround<3>;
   template std::array<double, 1>
   facet_normal<1>(const ContactSurface<1> &,
                   const std::vector<std::array<double, 1>> &,
@@ -468,10 +585,4 @@ namespace Ricochet
   facet_normal<3>(const ContactSurface<3> &,
                   const std::vector<std::array<double, 3>> &,
                   const unsigned int);
-  template std::optional<unsigned int>
-  closest_facing_of<3>(const std::vector<unsigned int> &,
-                       const ContactSurface<3> &,
-                       const std::vector<std::array<double, 3>> &,
-                       const std::array<double, 3> &,
-                       const std::array<double, 3> &);
 } // namespace Ricochet

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 
 namespace Ricochet
 {
@@ -19,8 +20,8 @@ namespace Ricochet
     FacetSearch(const ContactSurface<dim>                  &surface,
                 const std::vector<std::array<double, dim>> &positions);
 
-    /// The same with only some of its @p facets, whose nodes alone need to have
-    /// positions.
+    /// The same with only some of its @p facets, ascending, whose nodes alone need to
+    /// have positions.
     FacetSearch(const ContactSurface<dim>                  &surface,
                 const std::vector<std::array<double, dim>> &positions,
                 const std::vector<unsigned int>            &facets);
@@ -33,12 +34,15 @@ namespace Ricochet
     ///
     /// @param accept whether a facet may be it at all; empty for all of them.
     /// @param largest_distance facets farther from y are not looked at (m).
+    /// @param likely is looked at first, if the search knows it: when it is the one, or
+    /// near to it, few others have to be looked at. It does not change which one is found.
     std::optional<unsigned int>
-    closest_facing(const std::array<double, dim>                   &y,
-                   const std::array<double, dim>                   &normal,
-                   const std::function<bool(const unsigned int f)> &accept = {},
-                   const double largest_distance =
-                     std::numeric_limits<double>::infinity()) const;
+    closest_facing(
+      const std::array<double, dim>                   &y,
+      const std::array<double, dim>                   &normal,
+      const std::function<bool(const unsigned int f)> &accept = {},
+      const double largest_distance = std::numeric_limits<double>::infinity(),
+      const std::optional<unsigned int> likely = {}) const;
 
     /// Facets whose bounding box meets that between @p lower and @p upper, in
     /// ascending order.
@@ -51,14 +55,30 @@ namespace Ricochet
     std::unique_ptr<Groups> all;
   };
 
-  /// As FacetSearch::closest_facing(), but only of @p facets.
+  /// Where facets of a surface are at an instant, each found out when it is first asked
+  /// for: closest ones of a few.
   template <int dim>
-  std::optional<unsigned int>
-  closest_facing_of(const std::vector<unsigned int>            &facets,
-                    const ContactSurface<dim>                  &surface,
-                    const std::vector<std::array<double, dim>> &positions,
-                    const std::array<double, dim>              &y,
-                    const std::array<double, dim>              &normal);
+  class FacetsAround
+  {
+  public:
+    /// @param positions of the nodes of @p surface (m). Both have to outlive this.
+    FacetsAround(const ContactSurface<dim>                  &surface,
+                 const std::vector<std::array<double, dim>> &positions);
+
+    ~FacetsAround();
+
+    /// As FacetSearch::closest_facing(), but only of @p facets.
+    /// @param likely is looked at first, if it is one of them.
+    std::optional<unsigned int>
+    closest_facing(const std::vector<unsigned int>  &facets,
+                   const std::array<double, dim>    &y,
+                   const std::array<double, dim>    &normal,
+                   const std::optional<unsigned int> likely = {});
+
+  private:
+    struct Known;
+    std::unique_ptr<Known> known;
+  };
 
   /// Outward normal of facet @p f, as long as the facet; in space, twice its area.
   template <int dim>

@@ -64,10 +64,12 @@ namespace Ricochet
     using Rows = RowsOfPoint<Number, n_coordinates>;
 
     /// Positions of y, a, b, c at the beginning of a step and at its end (m).
+    /// @param needs_slip otherwise slip and T are left as they are.
     static void
     evaluate(const Points<double> &old_x,
              const Points<Number> &new_x,
-             Rows                 &rows)
+             Rows                 &rows,
+             const bool            needs_slip = true)
     {
       const Step step(old_x, new_x);
       using Scalar     = DiscreteScalar<Number, n_coordinates>;
@@ -78,9 +80,12 @@ namespace Ricochet
       const Scalar area           = sqrt(square_of_area);
       const Scalar volume =
         step.volume({{&q11, &q12, &q22, &q13, &q23, &q33}}, area);
-      const Scalar gap = volume / area;
-      rows.normal      = gap.row;
-      rows.new_gap     = gap.new_value;
+      const Scalar gap   = volume / area;
+      rows.normal        = gap.row;
+      rows.new_gap       = gap.new_value;
+      rows.gap_increment = step.times_change(rows.normal);
+      if (!needs_slip)
+        return;
 
       const Scalar first  = (q22 * q13 - q12 * q23) / square_of_area;
       const Scalar second = (q11 * q23 - q12 * q13) / square_of_area;
@@ -90,7 +95,6 @@ namespace Ricochet
           rows.tangential[d][i] =
             metric[d] * first.row[i] + metric[d + 1] * second.row[i];
 
-      rows.gap_increment = step.times_change(rows.normal);
       for (unsigned int d = 0; d < 2; ++d)
         rows.slip[d] = step.times_change(rows.tangential[d]);
     }

@@ -122,6 +122,8 @@ namespace Ricochet
     for (const ContactPair &pair : pair_list)
       {
         pairs.push_back(make_surface_pair(body, pair, method));
+        if (!has_friction)
+          pairs.back()->leave_out_slip();
         for (unsigned int p = 0; p < pairs.back()->points().size(); ++p)
           {
             PointState state;
@@ -745,12 +747,46 @@ namespace Ricochet
         if (entries[k] != 0.)
           own.emplace_back(skin_place(columns[k]), entries[k]);
     };
+    // Points of a facet that are before the same other one act on the same unknowns:
+    // what they make is summed first.
+    std::vector<types::global_dof_index> unknowns;
+    std::vector<double>                  sums;
+    const auto                           add_sums = [&]() {
+      for (unsigned int a = 0; a < unknowns.size(); ++a)
+        add(unknowns[a],
+            unknowns.size(),
+            unknowns.data(),
+            &sums[a * unknowns.size()]);
+      unknowns.clear();
+    };
     for (const PointState &state : states)
       {
+        if (method.law)
+          {
+            if (!is_in_contact(state))
+              continue;
+            const auto &own = pair_of(state).rows(state.point).unknowns;
+            if (own != unknowns)
+              {
+                add_sums();
+                unknowns = own;
+                sums.assign(own.size() * own.size(), 0.);
+              }
+            double *sum = sums.data();
+            add_tangent(state,
+                        [&](const types::global_dof_index /*row*/,
+                            const unsigned int n_columns,
+                            const types::global_dof_index * /*columns*/,
+                            const double *entries) {
+                          for (unsigned int k = 0; k < n_columns; ++k)
+                            *sum++ += entries[k];
+                        });
+            continue;
+          }
         // The multiplier of an open point is not to change if it is zero: then it is
         // no matter what it would push.
         const auto &multipliers = pair_of(state).multipliers(state.point);
-        if (!method.law && state.status == Status::open &&
+        if (state.status == Status::open &&
             std::all_of(multipliers.begin(),
                         multipliers.end(),
                         [](const double value) { return value == 0.; }))
@@ -761,6 +797,7 @@ namespace Ricochet
           add(index, 1, &index, &open);
         });
       }
+    add_sums();
     // Each column once, and none whose parts cancel: those of open points.
     for (FunctionalRow &row : change)
       {
@@ -798,12 +835,10 @@ namespace Ricochet
                                const double                  entry) {
       add(row, 1, &column, &entry);
     };
-    const Point       &point      = point_of(state);
-    const Pair        &pair       = pair_of(state);
-    const unsigned int p          = state.point;
-    const double       r          = stiffness(state);
-    const bool         in_contact = state.candidate &&
-      (!method.law || state.pressure != 0. || state.with_gap != 0.);
+    const Point       &point = point_of(state);
+    const Pair        &pair  = pair_of(state);
+    const unsigned int p     = state.point;
+    const double       r     = stiffness(state);
 
     // Rows of the multipliers, on multipliers.
     if (!method.law)
@@ -830,7 +865,7 @@ namespace Ricochet
                               across(state, c - 1, d));
               }
           }
-    if (!in_contact)
+    if (!is_in_contact(state))
       return;
 
     const auto &rows = pair.rows(p);
@@ -871,7 +906,7 @@ namespace Ricochet
               {
                 double change =
                   state.with_gap * rows.normal[a] * derivatives.gap[b];
-                for (unsigned int d = 0; d < n_tangents; ++d)
+                for (unsigned int d = 0; has_friction && d < n_tangents; ++d)
                   {
                     double with_b = 0.;
                     for (unsigned int e = 0; e < n_tangents; ++e)
@@ -961,9 +996,7 @@ namespace Ricochet
     bool more = false;
     for (PointState &state : states)
       {
-        const bool in_contact = state.candidate &&
-          (!method.law || state.pressure != 0. || state.with_gap != 0.);
-        if (!in_contact)
+        if (!is_in_contact(state))
           continue;
         for (const auto index : pair_of(state).rows(state.point).unknowns)
           if (!std::binary_search(state.coupled.begin(),
@@ -1025,9 +1058,7 @@ namespace Ricochet
     // Directions turn; nothing stays the same but a tangent without contact.
     bool none = true;
     for (const PointState &state : states)
-      none = none &&
-        !(state.candidate &&
-          (!method.law || state.pressure != 0. || state.with_gap != 0.));
+      none = none && !is_in_contact(state);
     if (Utilities::MPI::min(none ? 1 : 0, communicator) == 0)
       return {};
     return global_hash({}, communicator);

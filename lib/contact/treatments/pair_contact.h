@@ -245,6 +245,14 @@ namespace Ricochet
       return method.augmentation / point_of(state).cell_diameter;
     }
 
+    /// Whether the point makes forces, or derivatives of forces.
+    bool
+    is_in_contact(const PointState &state) const
+    {
+      return state.candidate &&
+        (!method.law || state.pressure != 0. || state.with_gap != 0.);
+    }
+
     bool
     has_exact_friction() const
     {
