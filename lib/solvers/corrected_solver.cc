@@ -17,7 +17,8 @@ namespace Ricochet
           break;
         LowRankCorrection::Options options;
         options.is_symmetric  = symmetric && !contact.is_clamped;
-        options.may_be_single = !contact.has_multipliers && !contact.takes_rows;
+        options.may_be_single = !contact.has_multipliers &&
+          !contact.takes_rows && !contact.has_mixed_functionals;
         Corrected entry{tangent.body,
                         {},
                         std::make_unique<CorrectedFactorisation>(

@@ -52,6 +52,11 @@ namespace Ricochet
   /// A row of a sparse matrix between functionals: numbers of columns, and
   /// values.
   using FunctionalRow = std::vector<std::pair<unsigned int, double>>;
+
+  /// Of the @p rows of a square matrix, put entries with the same column into one,
+  /// ascending, and leave out those that are zero.
+  void
+  sum_columns(std::vector<FunctionalRow> &rows);
 } // namespace Ricochet
 
 #endif

@@ -42,6 +42,8 @@ namespace Ricochet
     bool couplings_change = false;
     /// It takes rows of the body out, and puts its own there.
     bool takes_rows = false;
+    /// Coefficients of its functionals are not of one kind: some are not forces.
+    bool has_mixed_functionals = false;
   };
 
   /// What names the body's part of a tangent: the weights of its terms.

@@ -132,6 +132,61 @@ subsection Contact balls
 end
 """
 
+# A ball that falls on another one, which moves and turns: directions of contact turn.
+TURNING = """
+set Program   = ricochet
+set Dimension = {dim}
+subsection Time
+  set Final time = 0.006
+  set Time step  = 1e-4
+end
+subsection Mesh
+  set Degree = {degree}
+end
+subsection Body ball
+{mesh}
+  set Radius        = 0.02
+  set Velocity      = {velocity}
+  set Law           = linear elastic
+  set Young modulus = 1e6
+  set Density       = 1000
+end
+subsection Obstacle round
+{shape}
+  set Radius          = 0.03
+  set Rotation        = 20*t
+end
+subsection Contact below
+  set Surface              = ball
+  set Against              = round
+end
+"""
+BALLS = {
+    2: {"mesh": "  set Shape = disk\n  set Nodes around = 64", "degree": 1,
+        "velocity": "0.3, -1",
+        "shape": "  set Shape = circle\n  set Centre = 0.002, -0.0505\n"
+                 "  set Rotation centre = 0.002, -0.0505\n"
+                 "  set Translation = 0.2*t; 0.3*t"},
+    3: {"mesh": "  set Shape = ball\n  set Mesh size = 0.006", "degree": 1,
+        "velocity": "0.3, 0.1, -1",
+        "shape": "  set Shape = sphere\n  set Centre = 0.002, 0.001, -0.0505\n"
+                 "  set Rotation centre = 0.002, 0.001, -0.0505\n"
+                 "  set Translation = 0.2*t; 0; 0.3*t"}}
+FRICTION = "Contact below/Friction coefficient=0.3"
+TURNING_CASES = [
+    (2, 1, "Nitsche", "Time/Scheme=TR-BDF2"),
+    (2, 1, "Nitsche", "Contact below/Nitsche theta=-1"),
+    (2, 2, "Nitsche-hybrid"),
+    (2, 2, "penalty", FRICTION),
+    (2, 1, "proximal augmented Lagrangian", "Time/Scheme=HHT"),
+    (2, 1, "Signorini active set", "Time/Scheme=TR-BDF2"),
+    (3, 1, "penalty", FRICTION),
+    (3, 1, "improved normal compliance", FRICTION),
+    (3, 1, "Signorini active set"),
+    (3, 1, "persistent contact", FRICTION),
+    (3, 1, "Ayyad-Barboteu two-step", FRICTION),
+]
+
 
 class Condensed(ProgramTest):
 
@@ -205,6 +260,38 @@ class Condensed(ProgramTest):
                     for k in (0, 1))
                 self.assertLessEqual(spent, 2 * passes * (len(one["time"]) - 1))
                 self.assertLess(spent, .6 * spent_before)
+
+    def test_directions_that_turn(self):
+        """Before curved obstacles that move, too; on two ranks, and resumed."""
+        cases = TURNING_CASES[3:10:6] if is_debug_build() else TURNING_CASES
+        for number, (dim, degree, treatment, *more) in enumerate(cases):
+            with self.subTest(f"{dim}D, {treatment} " + " ".join(more)):
+                scene = self.folder / f"{number}.prm"
+                scene.write_text(TURNING.format(dim=dim, **{**BALLS[dim],
+                                                            "degree": degree}))
+                parameters = CORRECTED + more + [
+                    f"Contact below/Treatment={treatment}", "Output/Checkpoint every=1000"]
+                run = lambda name, parameters=parameters, **how: self.run_program(
+                    "ricochet", parameters, self.folder / f"{number}-{name}", prm=scene,
+                    **how)
+                one, other = run("condensed"), run("whole", parameters + WHOLE)
+                self.compare(one, other, 1e-9)
+                self.assertLess(largest(one["balance_residual"]), 1e-12)
+                self.assertGreater(max(one["contact_force_below"]), 0.)
+                self.assertGreater(largest(one["obstacle_work"]), 0.)
+                stages = len(one["time"]) - 1
+                if re.search("TR-BDF2|two-step", " ".join([treatment, *more])):
+                    stages *= 2
+                self.assertLessEqual(
+                    self.substitutions(self.folder / f"{number}-condensed"),
+                    2 * stages + 1 + stages // 20)
+                if number in (6, 9):
+                    self.compare(one, run("ranks", n_ranks=2), 1e-9)
+                    run("parts", parameters + ["Time/Final time=0.004"])
+                    run("parts", options=["--resume"])
+                    self.assertEqual(
+                        *((self.folder / f"{number}-{name}" / "energy.csv").read_text()
+                          for name in ("condensed", "parts")))
 
     def test_one_and_two_ranks(self):
         for program, parameters in (CASES[0], CASES[6], CASES[10]):

@@ -124,6 +124,22 @@ namespace Ricochet
     evaluate(const Vector                     &solution,
              std::vector<ContactPointState<>> &states) = 0;
 
+    /// The same where points are displaced by @p displacements (m): the gaps, and
+    /// geometry(). Only where rows are not constant.
+    virtual void
+    displace(const std::vector<dealii::Tensor<1, 3>> & /*displacements*/,
+             std::vector<ContactPointState<>> & /*states*/)
+    {
+      AssertThrow(false, dealii::ExcMessage("Directions do not turn."));
+    }
+
+    /// Where evaluate() or displace() put the points (m), where rows are not constant.
+    const std::vector<dealii::Tensor<1, 3>> &
+    displacements() const
+    {
+      return displacement;
+    }
+
     /// The gap in the middle of the step, if the mean velocity of the step
     /// before goes on (B (3.7)); to be called after begin_step().
     virtual double

@@ -78,6 +78,16 @@ namespace Ricochet
   {
     evaluator.evaluate(solution, states);
     evaluator.evaluate_displacement(solution, displacement);
+    displace(displacement, states);
+  }
+
+
+
+  void
+  RigidObstacles::displace(const std::vector<Tensor<1, 3>>  &displacements,
+                           std::vector<ContactPointState<>> &states)
+  {
+    displacement = displacements;
     for (unsigned int p = 0; p < states.size(); ++p)
       states[p].gap = gap(p, steps[obstacle_of_point[p]].end, displacement[p]);
     up_to_date.assign(states.size(), false);

@@ -40,6 +40,10 @@ namespace Ricochet
     evaluate(const Vector                     &solution,
              std::vector<ContactPointState<>> &states) override;
 
+    void
+    displace(const std::vector<dealii::Tensor<1, 3>> &displacements,
+             std::vector<ContactPointState<>>        &states) override;
+
     double
     predicted_gap(const unsigned int p) const override;
 

@@ -103,23 +103,33 @@ namespace Ricochet
   ActiveSetContact::make_functionals()
   {
     const ContactPoints &coefficients = evaluator.coefficients();
-    functionals.emplace();
     for (const ContactPoint &point : coefficients.points)
       {
-        const auto add = [&](const Tensor<1, 3> &direction) {
-          for (unsigned int k = point.begin; k < point.end; ++k)
-            functionals->functionals.add(coefficients.index[k],
-                                         direction[coefficients.component[k]]);
-          functionals->functionals.end_functional();
-          functionals->order.push_back(point.initial_gap);
-        };
-        add(point.obstacle_normal);
-        along_plane.emplace_back();
-        if (friction_coefficient > 0.)
-          along_plane.back() = directions_along_plane(point.obstacle_normal,
-                                                      point.end - point.begin);
-        for (const Tensor<1, 3> &direction : along_plane.back())
-          add(direction);
+        const unsigned int         n_axes = point.end - point.begin;
+        std::vector<Tensor<1, 3>> &own    = directions.emplace_back();
+        if (kinematics->has_constant_rows())
+          {
+            own.push_back(point.obstacle_normal);
+            if (friction_coefficient > 0.)
+              for (const Tensor<1, 3> &direction :
+                   directions_along_plane(point.obstacle_normal, n_axes))
+                own.push_back(direction);
+          }
+        else
+          for (unsigned int axis = 0; axis < n_axes; ++axis)
+            {
+              own.emplace_back();
+              own.back()[axis] = 1.;
+            }
+        for (const Tensor<1, 3> &direction : own)
+          {
+            for (unsigned int k = point.begin; k < point.end; ++k)
+              if (const double value = direction[coefficients.component[k]];
+                  value != 0.)
+                functionals.functionals.add(coefficients.index[k], value);
+            functionals.functionals.end_functional();
+            functionals.order.push_back(point.initial_gap);
+          }
       }
   }
 
@@ -132,11 +142,8 @@ namespace Ricochet
     unsigned int functional = 0;
     for (unsigned int p = 0; p < nodes.size(); ++p)
       {
-        use(p,
-            functional,
-            evaluator.contact_points()[p].obstacle_normal,
-            along_plane[p]);
-        functional += 1 + along_plane[p].size();
+        use(p, functional, directions[p]);
+        functional += directions[p].size();
       }
   }
 
@@ -214,11 +221,8 @@ namespace Ricochet
         Node &node = nodes[p];
         if (node.candidate)
           {
-            kinematics->update_geometry(p);
-            node.closing = closing(p);
-            node.excess  = evaluator.at_node(p, residual);
-            if (friction_coefficient > 0.)
-              node.slip = kinematics->geometry(p).slip();
+            look_at_geometry(p);
+            node.excess = evaluator.at_node(p, residual);
           }
         choose_status(p);
         if (node.status == Status::open)
@@ -280,29 +284,34 @@ namespace Ricochet
 
 
 
+  template <typename Entries>
   void
   ActiveSetContact::change_of_functionals(
-    const Tensor<2, 3> ExchangeDerivatives::*derivative,
-    std::vector<FunctionalRow>              &change) const
+    const Entries              &entries_of,
+    std::vector<FunctionalRow> &change) const
   {
-    // In the frame of the directions, where ones and zeros are exact.
-    for_each_node([&](const unsigned int p,
-                      const unsigned int first,
-                      const Tensor<1, 3> & /*normal*/,
-                      const auto &tangential) {
-      if (nodes[p].status == Status::open)
-        return;
-      Tensor<1, 3> normal, friction_direction;
-      normal[0] = 1.;
-      for (unsigned int t = 0; t < tangential.size(); ++t)
-        friction_direction[t + 1] = nodes[p].friction_direction * tangential[t];
-      const Tensor<2, 3> entries =
-        exchange_derivatives(p, normal, friction_direction).*derivative;
-      for (unsigned int a = 0; a <= tangential.size(); ++a)
-        for (unsigned int b = 0; b <= tangential.size(); ++b)
-          if (entries[a][b] != 0.)
-            change[first + a].emplace_back(first + b, entries[a][b]);
-    });
+    for_each_node(
+      [&](const unsigned int p, const unsigned int first, const auto &own) {
+        if (nodes[p].status == Status::open)
+          return;
+        Tensor<1, 3> normal             = kinematics->geometry(p).normal,
+                     friction_direction = nodes[p].friction_direction;
+        if (kinematics->has_constant_rows())
+          {
+            // In the frame of the directions, where ones and zeros are exact.
+            normal    = 0.;
+            normal[0] = 1.;
+            for (unsigned int t = 1; t < own.size(); ++t)
+              friction_direction[t] = nodes[p].friction_direction * own[t];
+            friction_direction[0] = 0.;
+          }
+        const Tensor<2, 3> entries =
+          entries_of(p, exchange_derivatives(p, normal, friction_direction));
+        for (unsigned int a = 0; a < own.size(); ++a)
+          for (unsigned int b = 0; b < own.size(); ++b)
+            if (entries[a][b] != 0.)
+              change[first + a].emplace_back(first + b, entries[a][b]);
+      });
   }
 
 
@@ -310,7 +319,14 @@ namespace Ricochet
   void
   ActiveSetContact::tangent_change(std::vector<FunctionalRow> &change) const
   {
-    change_of_functionals(&ExchangeDerivatives::with_displacement, change);
+    change_of_functionals(
+      [&](const unsigned int p, const ExchangeDerivatives &derivatives) {
+        Tensor<2, 3> entries = derivatives.with_displacement;
+        if (!kinematics->has_constant_rows())
+          add_turning(p, entries);
+        return entries;
+      },
+      change);
   }
 
 
@@ -318,7 +334,11 @@ namespace Ricochet
   void
   ActiveSetContact::excess_change(std::vector<FunctionalRow> &change) const
   {
-    change_of_functionals(&ExchangeDerivatives::with_excess, change);
+    change_of_functionals(
+      [&](const unsigned int /*p*/, const ExchangeDerivatives &derivatives) {
+        return derivatives.with_excess;
+      },
+      change);
   }
 
 
@@ -327,30 +347,59 @@ namespace Ricochet
   ActiveSetContact::look_at_change(const std::vector<double> &change,
                                    const std::vector<double> &excess)
   {
+    const bool turns = !kinematics->has_constant_rows();
     if (!looks_at_change)
-      for (unsigned int p = 0; p < nodes.size(); ++p)
-        {
-          nodes[p].gap_before     = state[p].gap;
-          nodes[p].closing_before = nodes[p].closing;
-          nodes[p].slip_before    = nodes[p].slip;
-        }
+      {
+        for (unsigned int p = 0; p < nodes.size(); ++p)
+          {
+            nodes[p].gap_before     = state[p].gap;
+            nodes[p].closing_before = nodes[p].closing;
+            nodes[p].slip_before    = nodes[p].slip;
+          }
+        if (turns)
+          displacements_before = kinematics->displacements();
+      }
     looks_at_change = true;
-    for_each_node([&](const unsigned int  p,
-                      const unsigned int  first,
-                      const Tensor<1, 3> &normal,
-                      const auto         &tangential) {
-      Node &node   = nodes[p];
-      state[p].gap = node.gap_before + change[first];
-      node.closing = node.closing_before + closing_derivative() * change[first];
-      node.excess  = excess[first] * normal;
-      node.slip    = node.slip_before;
-      for (unsigned int t = 0; t < tangential.size(); ++t)
-        {
-          node.slip += change[first + t + 1] * tangential[t];
-          node.excess += excess[first + t + 1] * tangential[t];
-        }
-      choose_status(p);
-    });
+    if (turns)
+      displaced = displacements_before;
+    for_each_node(
+      [&](const unsigned int p, const unsigned int first, const auto &own) {
+        Node &node  = nodes[p];
+        node.excess = 0.;
+        for (unsigned int a = 0; a < own.size(); ++a)
+          node.excess += excess[first + a] * own[a];
+        if (turns)
+          {
+            for (unsigned int a = 0; a < own.size(); ++a)
+              displaced[p] += change[first + a] * own[a];
+            return;
+          }
+        state[p].gap = node.gap_before + change[first];
+        node.closing =
+          node.closing_before + closing_derivative() * change[first];
+        node.slip = node.slip_before;
+        for (unsigned int t = 1; t < own.size(); ++t)
+          node.slip += change[first + t] * own[t];
+      });
+    if (turns)
+      kinematics->displace(displaced, state);
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      {
+        if (turns && nodes[p].candidate)
+          look_at_geometry(p);
+        choose_status(p);
+      }
+  }
+
+
+
+  void
+  ActiveSetContact::look_at_geometry(const unsigned int p)
+  {
+    kinematics->update_geometry(p);
+    nodes[p].closing = closing(p);
+    if (friction_coefficient > 0.)
+      nodes[p].slip = kinematics->geometry(p).slip();
   }
 
 
@@ -358,18 +407,13 @@ namespace Ricochet
   void
   ActiveSetContact::force_change(std::vector<double> &coefficients) const
   {
-    coefficients.assign(functionals->order.size(), 0.);
-    for_each_node([&](const unsigned int  p,
-                      const unsigned int  first,
-                      const Tensor<1, 3> &normal,
-                      const auto         &tangential) {
-      const Node &node = nodes[p];
-      if (node.status == Status::open)
-        return;
-      coefficients[first] = node.exchange * normal;
-      for (unsigned int t = 0; t < tangential.size(); ++t)
-        coefficients[first + t + 1] = node.exchange * tangential[t];
-    });
+    coefficients.assign(functionals.order.size(), 0.);
+    for_each_node(
+      [&](const unsigned int p, const unsigned int first, const auto &own) {
+        if (nodes[p].status != Status::open)
+          for (unsigned int a = 0; a < own.size(); ++a)
+            coefficients[first + a] = nodes[p].exchange * own[a];
+      });
   }
 
 
@@ -513,12 +557,14 @@ namespace Ricochet
   std::optional<std::uint64_t>
   ActiveSetContact::tangent_signature() const
   {
-    // The direction of slip is part of the tangent.
-    if (friction_coefficient > 0.)
+    // The direction of slip is part of the tangent, and so are normals that turn.
+    const bool turns = !kinematics->has_constant_rows();
+    if (friction_coefficient > 0. || turns)
       {
         const bool slips =
-          std::any_of(nodes.begin(), nodes.end(), [](const Node &node) {
-            return node.status == Status::slip;
+          std::any_of(nodes.begin(), nodes.end(), [&](const Node &node) {
+            return node.status == Status::slip ||
+              (turns && node.status == Status::stick);
           });
         if (dealii::Utilities::MPI::max(slips ? 1 : 0,
                                         evaluator.communicator) == 1)

@@ -63,8 +63,7 @@ namespace Ricochet
       , nodes(evaluator.contact_points().size())
     {
       scaling = 1.;
-      if (kinematics->has_constant_rows())
-        make_functionals();
+      make_functionals();
     }
 
     void
@@ -246,12 +245,12 @@ namespace Ricochet
     }
 
     /// The functionals: displacement of each node along the normal, and with friction
-    /// along the plane.
+    /// along the plane. Where normals turn, along the axes.
     void
     make_functionals();
 
-    /// Call @p use with node, number of the functional along its normal, that normal
-    /// and the directions along the plane, which have the next functionals.
+    /// Call @p use with node, number of its first functional, and the directions along
+    /// which this and the next ones are.
     template <typename Use>
     void
     for_each_node(const Use &use) const;
@@ -275,11 +274,16 @@ namespace Ricochet
                          const dealii::Tensor<1, 3> &normal,
                          const dealii::Tensor<1, 3> &friction_direction) const;
 
-    /// Those with the excess or with the displacement, between functionals.
+    /// Rows between functionals of what @p entries_of makes of an active node and these
+    /// derivatives: a matrix between their directions.
+    template <typename Entries>
     void
-    change_of_functionals(
-      const dealii::Tensor<2, 3> ExchangeDerivatives::*derivative,
-      std::vector<FunctionalRow>                      &change) const;
+    change_of_functionals(const Entries              &entries_of,
+                          std::vector<FunctionalRow> &change) const;
+
+    /// Bring closing and slip of node @p p to the state of #kinematics.
+    void
+    look_at_geometry(const unsigned int p);
 
     /// What curved or moving obstacles add to the rows of an active node in the
     /// columns of the node, beside what planes have: normal and gap depend on
@@ -309,11 +313,12 @@ namespace Ricochet
     std::vector<ContactPointState<>> state, old_state, stress_state;
     Vector                           force, friction_part, scaling;
     std::vector<Node>                nodes;
-    // Before planes at rest: the functionals, and of each node the directions of those
-    // that follow the one along its normal.
-    std::optional<ContactStructure::ActsThrough>   functionals;
-    std::vector<std::vector<dealii::Tensor<1, 3>>> along_plane;
+    // The functionals, and the directions of those of each node.
+    ContactStructure::ActsThrough                  functionals;
+    std::vector<std::vector<dealii::Tensor<1, 3>>> directions;
     bool                                           looks_at_change = false;
+    // Where look_at_change() begins and what it looks at, where directions turn (m).
+    std::vector<dealii::Tensor<1, 3>> displacements_before, displaced;
     // Work space of complete_tangent(): the rows of a node.
     mutable std::vector<double> normal_row, new_rows;
   };

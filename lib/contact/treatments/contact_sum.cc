@@ -233,6 +233,8 @@ namespace Ricochet
         sum.has_multipliers  = sum.has_multipliers || own.has_multipliers;
         sum.couplings_change = sum.couplings_change || own.couplings_change;
         sum.takes_rows       = sum.takes_rows || own.takes_rows;
+        sum.has_mixed_functionals =
+          sum.has_mixed_functionals || own.has_mixed_functionals;
         if (!sum.functionals)
           continue;
         sum.functionals->functionals.add(own.functionals->functionals);

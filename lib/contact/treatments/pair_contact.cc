@@ -169,7 +169,6 @@ namespace Ricochet
       place_in_skin.resize(skin.back() - skin.front() + 1, no_place);
     for (unsigned int f = 0; f < skin.size(); ++f)
       place_in_skin[skin[f] - skin.front()] = f;
-    place_in_row.assign(skin.size(), no_place);
     skin_values.resize(skin.size());
     skin_force.resize(skin.size());
   }
@@ -798,29 +797,8 @@ namespace Ricochet
         });
       }
     add_sums();
-    // Each column once, and none whose parts cancel: those of open points.
-    for (FunctionalRow &row : change)
-      {
-        unsigned int n_columns = 0;
-        for (const auto &[column, value] : row)
-          if (unsigned int &place = place_in_row[column]; place == no_place)
-            {
-              place            = n_columns;
-              row[n_columns++] = {column, value};
-            }
-          else
-            row[place].second += value;
-        row.resize(n_columns);
-        for (const auto &entry : row)
-          place_in_row[entry.first] = no_place;
-        row.erase(std::remove_if(row.begin(),
-                                 row.end(),
-                                 [](const auto &entry) {
-                                   return entry.second == 0.;
-                                 }),
-                  row.end());
-        std::sort(row.begin(), row.end());
-      }
+    // Parts of open points cancel.
+    sum_columns(change);
   }
 
 

@@ -401,10 +401,8 @@ namespace Ricochet
     std::vector<double>           skin_order, skin_values, skin_force;
     static constexpr unsigned int no_place =
       dealii::numbers::invalid_unsigned_int;
-    /// Of each unknown from the first of the skin on; and, for sums over a row, of each
-    /// column in it.
-    std::vector<unsigned int>         place_in_skin;
-    mutable std::vector<unsigned int> place_in_row;
+    /// Of each unknown from the first of the skin on.
+    std::vector<unsigned int> place_in_skin;
     // Where look_at_change() looks.
     Vector point_of_change;
     // Work space.

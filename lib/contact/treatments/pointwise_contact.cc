@@ -184,6 +184,12 @@ namespace Ricochet
   PointwiseContact::look_at_change(const std::vector<double> &change,
                                    const std::vector<double> & /*excess*/)
   {
+    if (turning_functionals)
+      {
+        displace_points(change);
+        evaluate_laws();
+        return;
+      }
     if (!looks_at_change)
       {
         state_before    = state;
@@ -212,8 +218,138 @@ namespace Ricochet
 
 
   void
+  PointwiseContact::displace_points(const std::vector<double> &change)
+  {
+    if (!looks_at_change)
+      {
+        state_before         = state;
+        displacements_before = kinematics->displacements();
+        looks_at_change      = true;
+      }
+    displaced.resize(state.size());
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const auto of_point = turning_functionals->in_point(p, change);
+        state[p]            = state_before[p];
+        displaced[p]        = displacements_before[p];
+        for (unsigned int c = 0; c < 3; ++c)
+          displaced[p][c] += of_point[c];
+        state[p].stress_pressure +=
+          of_point[DisplacementFunctionals::stress_pressure];
+        state[p].multiplier += of_point[DisplacementFunctionals::multiplier];
+      }
+    kinematics->displace(displaced, state);
+  }
+
+
+
+  void
+  PointwiseContact::make_turning_functionals()
+  {
+    // The force on the gap, which turns, has to be that of closed points alone.
+    const auto closing = closing_directions(*law, 1.);
+    if (!closing || closing->row != 0 ||
+        open_tangent(*law, 1.)[0].norm_square() > 0.)
+      return;
+    turning_functionals.emplace(evaluator.coefficients());
+    for (const ContactPoint &point : evaluator.contact_points())
+      closings.push_back(*closing_directions(*law, point.cell_diameter));
+  }
+
+
+
+  bool
+  PointwiseContact::acts(const unsigned int p) const
+  {
+    return point_force[p].gap != 0. ||
+      law->branch(linearisation[p],
+                  old_state[p],
+                  evaluator.contact_points()[p].cell_diameter) != 0;
+  }
+
+
+
+  DisplacementFunctionals::OfPoint
+  PointwiseContact::closing_force(const unsigned int p) const
+  {
+    DisplacementFunctionals::OfPoint result;
+    if (point_force[p].gap != 0.)
+      {
+        const PointGeometry &geometry = kinematics->geometry(p);
+        for (unsigned int c = 0; c < 3; ++c)
+          result[c] =
+            point_force[p].gap * geometry.direction_length * geometry.normal[c];
+      }
+    if (friction_acts(p))
+      for (unsigned int c = 0; c < 3; ++c)
+        result[c] += friction.traction(p)[c];
+    result[DisplacementFunctionals::stress_pressure] =
+      point_force[p].gap * closings[p].test[1];
+    result[DisplacementFunctionals::multiplier] =
+      point_force[p].gap * closings[p].test[2];
+    return result;
+  }
+
+
+
+  DisplacementFunctionals::TangentOfPoint
+  PointwiseContact::closing_tangent(const unsigned int p) const
+  {
+    const double        h = evaluator.contact_points()[p].cell_diameter;
+    ContactPointTangent closing =
+      law->tangent(linearisation[p], old_state[p], h) - open_tangent(*law, h);
+    DisplacementFunctionals::TangentOfPoint result;
+    for (unsigned int s = 1; s < 3; ++s)
+      for (unsigned int t = 1; t < 3; ++t)
+        result[s + 2][t + 2] = closing[s][t];
+    const double pressure = -point_force[p].gap;
+    if (pressure == 0. && closing[0].norm_square() == 0.)
+      return result;
+
+    kinematics->update_geometry(p);
+    const PointGeometry &geometry = kinematics->geometry(p);
+    // The force along its direction, which turns, and friction.
+    dealii::Tensor<1, 3> with_pressure =
+      -geometry.direction_length * geometry.normal;
+    dealii::Tensor<2, 3> with_displacement =
+      -pressure * geometry.direction_derivative;
+    if (friction_acts(p))
+      {
+        const auto derivatives = friction_derivatives(p);
+        with_pressure += derivatives.with_pressure;
+        with_displacement += derivatives.with_slip;
+      }
+    with_displacement +=
+      outer_product(-closing[0][0] * with_pressure, geometry.gap_gradient);
+    for (unsigned int c = 0; c < 3; ++c)
+      for (unsigned int d = 0; d < 3; ++d)
+        result[c][d] = with_displacement[c][d];
+    for (unsigned int s = 1; s < 3; ++s)
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          result[c][s + 2] = -closing[0][s] * with_pressure[c];
+          result[s + 2][c] = closing[s][0] * geometry.gap_gradient[c];
+        }
+    return result;
+  }
+
+
+
+  void
   PointwiseContact::force_change(std::vector<double> &coefficients) const
   {
+    if (turning_functionals)
+      {
+        coefficients.assign(turning_functionals->all().functionals.size(), 0.);
+        for (unsigned int p = 0; p < state.size(); ++p)
+          if (acts(p))
+            turning_functionals->add(p,
+                                     weight *
+                                       evaluator.contact_points()[p].weight *
+                                       closing_force(p),
+                                     coefficients);
+        return;
+      }
     coefficients.assign(functionals->all().functionals.size(), 0.);
     for (unsigned int p = 0; p < state.size(); ++p)
       {
@@ -329,6 +465,10 @@ namespace Ricochet
     structure.rows = evaluator.unknowns();
     if (functionals)
       structure.functionals = functionals->all();
+    if (turning_functionals)
+      structure.functionals = turning_functionals->all();
+    structure.has_mixed_functionals =
+      turning_functionals && law->traits().uses_stress;
     structure.has_multipliers     = law->traits().needs_multiplier;
     structure.is_nearly_symmetric = !structure.has_multipliers;
     const auto closing            = closing_directions(*law, 1.);
@@ -343,6 +483,18 @@ namespace Ricochet
   void
   PointwiseContact::tangent_change(std::vector<FunctionalRow> &change) const
   {
+    if (turning_functionals)
+      {
+        for (unsigned int p = 0; p < state.size(); ++p)
+          if (acts(p))
+            turning_functionals->add(p,
+                                     weight *
+                                       evaluator.contact_points()[p].weight *
+                                       closing_tangent(p),
+                                     change);
+        sum_columns(change);
+        return;
+      }
     for (unsigned int p = 0; p < state.size(); ++p)
       {
         const ContactPoint              &point = evaluator.contact_points()[p];

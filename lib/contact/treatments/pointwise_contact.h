@@ -4,6 +4,7 @@
 
 #include <contact/contact_operator.h>
 #include <contact/treatments/closing_functionals.h>
+#include <contact/treatments/displacement_functionals.h>
 #include <contact/treatments/pointwise_friction.h>
 
 #include <memory>
@@ -57,10 +58,11 @@ namespace Ricochet
       compute_row_scaling();
       // Whether the law is of that kind does not depend on h_T.
       const ContactLawTraits traits = this->law->traits();
-      if (kinematics->has_constant_rows() &&
-          closing_directions(*this->law, 1.) &&
-          !(this->friction.exists() &&
-            (traits.uses_stress || traits.needs_multiplier)))
+      if (!kinematics->has_constant_rows())
+        make_turning_functionals();
+      else if (closing_directions(*this->law, 1.) &&
+               !(this->friction.exists() &&
+                 (traits.uses_stress || traits.needs_multiplier)))
         functionals.emplace(*this->law,
                             this->friction.exists(),
                             evaluator.coefficients());
@@ -180,10 +182,32 @@ namespace Ricochet
     void
     compute_row_scaling();
 
+    /// Unless what the law makes in closed points cannot be told from what it makes in
+    /// open ones.
+    void
+    make_turning_functionals();
+
     /// What is kept is a force on displacements; the equations of the
     /// multipliers hold at the end of a stage and are never averaged.
     void
     clear_multipliers(Vector &vector) const;
+
+    /// Let points go on from where the last complete_residual() saw them, by @p change of
+    /// the functionals that stay the same while directions turn.
+    void
+    displace_points(const std::vector<double> &change);
+
+    /// Whether a point is not as an open one.
+    bool
+    acts(const unsigned int p) const;
+
+    /// The force in a point, less what it is at the same state in an open one.
+    DisplacementFunctionals::OfPoint
+    closing_force(const unsigned int p) const;
+
+    /// Its derivatives.
+    DisplacementFunctionals::TangentOfPoint
+    closing_tangent(const unsigned int p) const;
 
     /// Ask law and friction for the forces at #state and #slips.
     void
@@ -229,18 +253,24 @@ namespace Ricochet
     // Slip over the step (m), with friction.
     std::vector<dealii::Tensor<1, 3>> slips;
     // What look_at_change() begins from: state and slips of the last
-    // complete_residual(), as long as they differ from these.
+    // complete_residual(), as long as they differ from these; and displacements, where
+    // directions turn.
     bool                              looks_at_change = false;
     std::vector<ContactPointState<>>  state_before;
-    std::vector<dealii::Tensor<1, 3>> slips_before;
+    std::vector<dealii::Tensor<1, 3>> slips_before, displacements_before,
+      displaced;
     // Where the law is linearised: now, and at the last accepted iterate.
     std::vector<ContactPointState<>> linearisation, accepted_linearisation;
     // Force of the law per area (Pa) at the last complete_residual().
     std::vector<ContactPointForce<>> point_force;
     Vector                           force, friction_part, scaling;
     const unsigned int               n_displacements_owned;
-    // None if they do not stay the same.
-    std::optional<ClosingFunctionals> functionals;
+    // The ones where directions stay the same, the others where they turn. None if the law
+    // does not act through such.
+    std::optional<ClosingFunctionals>      functionals;
+    std::optional<DisplacementFunctionals> turning_functionals;
+    // With the latter, those of the law in each point.
+    std::vector<Closing> closings;
   };
 } // namespace Ricochet
 
