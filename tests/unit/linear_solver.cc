@@ -8,6 +8,7 @@
 #include "meshes.h"
 
 #include <contact/obstacles/half_space.h>
+#include <contact/obstacles/sphere_shape.h>
 #include <base/exceptions.h>
 #include <contact/treatments/contact_treatment.h>
 #include <discretization/hyperelastic_bulk.h>
@@ -37,6 +38,8 @@ namespace
     double       friction  = 0.;
     // Size of the random displacements; two thirds of it are the gap.
     double displacement = .03;
+    // The obstacle is a ball, before which directions turn.
+    bool is_round = false;
   };
 
   std::vector<Treatment>
@@ -70,7 +73,27 @@ namespace
                            friction});
           }
       }
+    for (const double friction : {0., .3})
+      for (const std::string name :
+           {"penalty", "improved normal compliance", "Signorini active set"})
+        all.push_back({name, "midpoint", 1., 1, true, friction, .03, true});
+    all.push_back({"Nitsche", "HHT", -1., 2, false, 0., .03, true});
     return all;
+  }
+
+  /// A ball below the middle of a cube's bottom.
+  template <int dim>
+  Obstacles
+  ball(const double gap)
+  {
+    constexpr double     radius = 2.;
+    dealii::Tensor<1, 3> centre;
+    for (unsigned int c = 0; c + 1 < dim; ++c)
+      centre[c] = .4;
+    centre[dim - 1] = -gap - radius;
+    return {{1,
+             std::make_shared<RigidObstacle>(
+               std::make_shared<SphereShape>(centre, radius, false))}};
   }
 
   /// Solve for a sequence of random states. @return the number of
@@ -92,18 +115,21 @@ namespace
     parameters.friction_coefficient   = treatment.friction;
     parameters.tangential_compliance  = .5;
     parameters.augmentation           = .5;
-    const Body<dim>             body(cube.triangulation,
+    const Body<dim> body(cube.triangulation,
                          treatment.degree,
                          {2},
                          {1},
                          multiplier_space(parameters),
                          MPI_COMM_WORLD);
-    const auto                  contact = make_contact(parameters,
-                                      scheme_traits(treatment.scheme),
-                                      body,
-                                      material,
-                                      cube.plane(treatment.displacement / 1.5));
-    const BodyMatrix            mass    = assemble_mass_matrix(body, 1.);
+    const auto      contact =
+      make_contact(parameters,
+                   scheme_traits(treatment.scheme),
+                   body,
+                   material,
+                   treatment.is_round
+                     ? ball<dim>(treatment.displacement / 3.)
+                     : cube.plane(treatment.displacement / 1.5));
+    const BodyMatrix            mass = assemble_mass_matrix(body, 1.);
     const LinearBulk<dim>       linear_bulk(body, material);
     const Material<dim>         nonlinear(std::make_shared<Hyperelastic<dim>>(
       std::make_shared<HyperelasticLawImplementation<CiarletGeymonat>>(
