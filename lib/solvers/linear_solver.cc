@@ -164,8 +164,7 @@ namespace Ricochet
     parameters.add_parameter(
       "Condense to contact",
       condense,
-      "With Type = corrected before planes at rest (friction with laws of the gap or "
-      "active sets only), "
+      "With Type = corrected before obstacles, "
       "and, on one MPI rank, for bodies before each other (those that are not "
       "linear in the plane, with Type = automatic, above 1000 unknowns), where all "
       "contacts are of these kinds: Newton's method looks at these alone. A linear "

@@ -74,8 +74,10 @@ namespace
           }
       }
     for (const double friction : {0., .3})
-      for (const std::string name :
-           {"penalty", "improved normal compliance", "Signorini active set"})
+      for (const std::string name : {"penalty",
+                                     "improved normal compliance",
+                                     "Signorini active set",
+                                     "Signorini multipliers"})
         all.push_back({name, "midpoint", 1., 1, true, friction, .03, true});
     all.push_back({"Nitsche", "HHT", -1., 2, false, 0., .03, true});
     return all;

@@ -125,15 +125,13 @@ namespace Ricochet
              std::vector<ContactPointState<>> &states) = 0;
 
     /// The same where points are displaced by @p displacements (m): the gaps, and
-    /// geometry(). Only where rows are not constant.
+    /// geometry().
     virtual void
-    displace(const std::vector<dealii::Tensor<1, 3>> & /*displacements*/,
-             std::vector<ContactPointState<>> & /*states*/)
-    {
-      AssertThrow(false, dealii::ExcMessage("Directions do not turn."));
-    }
+    displace(const std::vector<dealii::Tensor<1, 3>> &displacements,
+             std::vector<ContactPointState<>>        &states) = 0;
 
-    /// Where evaluate() or displace() put the points (m), where rows are not constant.
+    /// Where evaluate() or displace() put the points (m), if rows are not constant or
+    /// the way is needed.
     const std::vector<dealii::Tensor<1, 3>> &
     displacements() const
     {

@@ -28,6 +28,28 @@ namespace Ricochet
     if (!needs.way)
       return;
     evaluator.evaluate_displacement(solution, displacement);
+    find_ways();
+  }
+
+
+
+  void
+  PlanesAtRest::displace(
+    const std::vector<dealii::Tensor<1, 3>> &displacements,
+    std::vector<ContactPointState<>>        &states)
+  {
+    displacement = displacements;
+    for (unsigned int p = 0; p < states.size(); ++p)
+      states[p].gap =
+        points()[p].initial_gap + geometries[p].normal * displacement[p];
+    find_ways();
+  }
+
+
+
+  void
+  PlanesAtRest::find_ways()
+  {
     // Outside of steps nobody asks for ways.
     if (old_displacement.size() != displacement.size())
       old_displacement = displacement;

@@ -37,6 +37,10 @@ namespace Ricochet
     evaluate(const Vector                     &solution,
              std::vector<ContactPointState<>> &states) override;
 
+    void
+    displace(const std::vector<dealii::Tensor<1, 3>> &displacements,
+             std::vector<ContactPointState<>>        &states) override;
+
     double
     predicted_gap(const unsigned int p) const override
     {
@@ -62,6 +66,10 @@ namespace Ricochet
     }
 
   private:
+    /// Bring the ways of all points to #displacement.
+    void
+    find_ways();
+
     double                           time_step = 0.;
     std::vector<ContactPointState<>> old_state;
   };

@@ -124,12 +124,7 @@ namespace Ricochet
   {
     looks_at_change = false;
     kinematics->evaluate(solution, state);
-    if (friction.exists() && kinematics->has_constant_rows())
-      {
-        slips.resize(state.size());
-        for (unsigned int p = 0; p < state.size(); ++p)
-          slips[p] = kinematics->geometry(p).slip();
-      }
+    find_slips();
     evaluate_laws();
     force = 0.;
     for (unsigned int p = 0; p < state.size(); ++p)
@@ -147,6 +142,18 @@ namespace Ricochet
     residual.add(weight, force);
 
     clear_multipliers(force);
+  }
+
+
+
+  void
+  PointwiseContact::find_slips()
+  {
+    if (!friction.exists() || !kinematics->has_constant_rows())
+      return;
+    slips.resize(state.size());
+    for (unsigned int p = 0; p < state.size(); ++p)
+      slips[p] = kinematics->geometry(p).slip();
   }
 
 
@@ -184,7 +191,7 @@ namespace Ricochet
   PointwiseContact::look_at_change(const std::vector<double> &change,
                                    const std::vector<double> & /*excess*/)
   {
-    if (turning_functionals)
+    if (displacement_functionals)
       {
         displace_points(change);
         evaluate_laws();
@@ -229,7 +236,7 @@ namespace Ricochet
     displaced.resize(state.size());
     for (unsigned int p = 0; p < state.size(); ++p)
       {
-        const auto of_point = turning_functionals->in_point(p, change);
+        const auto of_point = displacement_functionals->in_point(p, change);
         state[p]            = state_before[p];
         displaced[p]        = displacements_before[p];
         for (unsigned int c = 0; c < 3; ++c)
@@ -239,19 +246,26 @@ namespace Ricochet
         state[p].multiplier += of_point[DisplacementFunctionals::multiplier];
       }
     kinematics->displace(displaced, state);
+    find_slips();
   }
 
 
 
   void
-  PointwiseContact::make_turning_functionals()
+  PointwiseContact::make_displacement_functionals()
   {
-    // The force on the gap, which turns, has to be that of closed points alone.
+    // Either the force on the gap, which turns, is that of closed points alone; or they
+    // have but another equation of their multiplier.
     const auto closing = closing_directions(*law, 1.);
-    if (!closing || closing->row != 0 ||
-        open_tangent(*law, 1.)[0].norm_square() > 0.)
+    if (!closing)
       return;
-    turning_functionals.emplace(evaluator.coefficients());
+    const bool presses_if_closed = closing->row == 0 &&
+      open_tangent(*law, 1.)[0].norm_square() == 0.,
+               keeps_equation =
+                 closing->row == 2 && closing->test.norm_square() == 1.;
+    if (!presses_if_closed && !keeps_equation)
+      return;
+    displacement_functionals.emplace(evaluator.coefficients());
     for (const ContactPoint &point : evaluator.contact_points())
       closings.push_back(*closing_directions(*law, point.cell_diameter));
   }
@@ -265,6 +279,19 @@ namespace Ricochet
       law->branch(linearisation[p],
                   old_state[p],
                   evaluator.contact_points()[p].cell_diameter) != 0;
+  }
+
+
+
+  ContactPointTangent
+  PointwiseContact::tangent_of_open_point(const unsigned int p) const
+  {
+    ContactPointTangent open =
+      open_tangent(*law, evaluator.contact_points()[p].cell_diameter);
+    if (displacement_functionals)
+      for (unsigned int c = 0; c < 3; ++c)
+        open[0][c] = open[c][0] = 0.;
+    return open;
   }
 
 
@@ -285,8 +312,10 @@ namespace Ricochet
         result[c] += friction.traction(p)[c];
     result[DisplacementFunctionals::stress_pressure] =
       point_force[p].gap * closings[p].test[1];
-    result[DisplacementFunctionals::multiplier] =
-      point_force[p].gap * closings[p].test[2];
+    result[DisplacementFunctionals::multiplier] = closings[p].row == 0
+      ? point_force[p].gap * closings[p].test[2]
+      : point_force[p].multiplier -
+        tangent_of_open_point(p)[2][2] * state[p].multiplier;
     return result;
   }
 
@@ -297,7 +326,8 @@ namespace Ricochet
   {
     const double        h = evaluator.contact_points()[p].cell_diameter;
     ContactPointTangent closing =
-      law->tangent(linearisation[p], old_state[p], h) - open_tangent(*law, h);
+      law->tangent(linearisation[p], old_state[p], h) -
+      tangent_of_open_point(p);
     DisplacementFunctionals::TangentOfPoint result;
     for (unsigned int s = 1; s < 3; ++s)
       for (unsigned int t = 1; t < 3; ++t)
@@ -338,12 +368,12 @@ namespace Ricochet
   void
   PointwiseContact::force_change(std::vector<double> &coefficients) const
   {
-    if (turning_functionals)
+    if (displacement_functionals)
       {
-        coefficients.assign(turning_functionals->all().functionals.size(), 0.);
+        coefficients.assign(displacement_functionals->all().functionals.size(), 0.);
         for (unsigned int p = 0; p < state.size(); ++p)
           if (acts(p))
-            turning_functionals->add(p,
+            displacement_functionals->add(p,
                                      weight *
                                        evaluator.contact_points()[p].weight *
                                        closing_force(p),
@@ -448,11 +478,7 @@ namespace Ricochet
   PointwiseContact::complete_open_tangent(Matrix &tangent) const
   {
     for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
-      evaluator.add(p,
-                    weight,
-                    open_tangent(*law,
-                                 evaluator.contact_points()[p].cell_diameter),
-                    tangent);
+      evaluator.add(p, weight, tangent_of_open_point(p), tangent);
     tangent.compress(VectorOperation::add);
   }
 
@@ -465,10 +491,10 @@ namespace Ricochet
     structure.rows = evaluator.unknowns();
     if (functionals)
       structure.functionals = functionals->all();
-    if (turning_functionals)
-      structure.functionals = turning_functionals->all();
+    if (displacement_functionals)
+      structure.functionals = displacement_functionals->all();
     structure.has_mixed_functionals =
-      turning_functionals && law->traits().uses_stress;
+      displacement_functionals && law->traits().uses_stress;
     structure.has_multipliers     = law->traits().needs_multiplier;
     structure.is_nearly_symmetric = !structure.has_multipliers;
     const auto closing            = closing_directions(*law, 1.);
@@ -483,11 +509,11 @@ namespace Ricochet
   void
   PointwiseContact::tangent_change(std::vector<FunctionalRow> &change) const
   {
-    if (turning_functionals)
+    if (displacement_functionals)
       {
         for (unsigned int p = 0; p < state.size(); ++p)
           if (acts(p))
-            turning_functionals->add(p,
+            displacement_functionals->add(p,
                                      weight *
                                        evaluator.contact_points()[p].weight *
                                        closing_tangent(p),

@@ -57,12 +57,10 @@ namespace Ricochet
     {
       compute_row_scaling();
       // Whether the law is of that kind does not depend on h_T.
-      const ContactLawTraits traits = this->law->traits();
-      if (!kinematics->has_constant_rows())
-        make_turning_functionals();
-      else if (closing_directions(*this->law, 1.) &&
-               !(this->friction.exists() &&
-                 (traits.uses_stress || traits.needs_multiplier)))
+      if (!kinematics->has_constant_rows() ||
+          (this->friction.exists() && this->law->traits().needs_multiplier))
+        make_displacement_functionals();
+      else if (closing_directions(*this->law, 1.))
         functionals.emplace(*this->law,
                             this->friction.exists(),
                             evaluator.coefficients());
@@ -185,7 +183,7 @@ namespace Ricochet
     /// Unless what the law makes in closed points cannot be told from what it makes in
     /// open ones.
     void
-    make_turning_functionals();
+    make_displacement_functionals();
 
     /// What is kept is a force on displacements; the equations of the
     /// multipliers hold at the end of a stage and are never averaged.
@@ -193,13 +191,18 @@ namespace Ricochet
     clear_multipliers(Vector &vector) const;
 
     /// Let points go on from where the last complete_residual() saw them, by @p change of
-    /// the functionals that stay the same while directions turn.
+    /// the #displacement_functionals.
     void
     displace_points(const std::vector<double> &change);
 
     /// Whether a point is not as an open one.
     bool
     acts(const unsigned int p) const;
+
+    /// What complete_open_tangent() has in a point: with #displacement_functionals nothing
+    /// that depends on directions, which may turn.
+    ContactPointTangent
+    tangent_of_open_point(const unsigned int p) const;
 
     /// The force in a point, less what it is at the same state in an open one.
     DisplacementFunctionals::OfPoint
@@ -208,6 +211,10 @@ namespace Ricochet
     /// Its derivatives.
     DisplacementFunctionals::TangentOfPoint
     closing_tangent(const unsigned int p) const;
+
+    /// Bring #slips to the state of the kinematics.
+    void
+    find_slips();
 
     /// Ask law and friction for the forces at #state and #slips.
     void
@@ -253,8 +260,7 @@ namespace Ricochet
     // Slip over the step (m), with friction.
     std::vector<dealii::Tensor<1, 3>> slips;
     // What look_at_change() begins from: state and slips of the last
-    // complete_residual(), as long as they differ from these; and displacements, where
-    // directions turn.
+    // complete_residual(), as long as they differ from these; and displacements.
     bool                              looks_at_change = false;
     std::vector<ContactPointState<>>  state_before;
     std::vector<dealii::Tensor<1, 3>> slips_before, displacements_before,
@@ -265,10 +271,10 @@ namespace Ricochet
     std::vector<ContactPointForce<>> point_force;
     Vector                           force, friction_part, scaling;
     const unsigned int               n_displacements_owned;
-    // The ones where directions stay the same, the others where they turn. None if the law
+    // The latter where directions turn, and for multipliers with friction; none if the law
     // does not act through such.
     std::optional<ClosingFunctionals>      functionals;
-    std::optional<DisplacementFunctionals> turning_functionals;
+    std::optional<DisplacementFunctionals> displacement_functionals;
     // With the latter, those of the law in each point.
     std::vector<Closing> closings;
   };
