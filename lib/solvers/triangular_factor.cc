@@ -170,14 +170,15 @@ namespace Ricochet
     for (Block &block : blocks)
       {
         const int width = block.width, end = block.first + width;
-        for (int i = 0; i < width; ++i)
-          row_at[block.first + i] = block.triangle + i * (i - 1) / 2;
         std::size_t at = block.below;
         for (std::size_t k = block.begin; k < block.end; ++k, at += 2 * width)
           {
             row_at[first_rows[k]]     = at;
             row_at[first_rows[k] + 1] = at + 1;
           }
+        // The row before the last one of all may be among them, too.
+        for (int i = 0; i < width; ++i)
+          row_at[block.first + i] = block.triangle + i * (i - 1) / 2;
         for (int c = 0; c < width; ++c)
           {
             const int     column = block.first + c;

@@ -13,6 +13,8 @@
 #include <solvers/positive_system.h>
 #include <solvers/unsymmetric_system.h>
 
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 
@@ -161,6 +163,40 @@ namespace
     return columns;
   }
 } // namespace
+
+// The last columns of a factor are full, and end with a block of any width.
+BOOST_AUTO_TEST_CASE(halves_of_full_matrices_make_solutions)
+{
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    return;
+  for (unsigned int n = 40; n < 52; ++n)
+    {
+      const auto                     columns = positive_columns(n, n);
+      dealii::DynamicSparsityPattern pattern(n, n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          pattern.add(i, j);
+      Matrix matrix;
+      matrix.reinit(dealii::complete_index_set(n), pattern, MPI_COMM_WORLD);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          matrix.set(i, j, columns[i][j] + (i == j ? 1. : 0.));
+      matrix.compress(VectorOperation::insert);
+      const auto factorisation = make_cholesky_factorisation(false);
+      BOOST_REQUIRE(factorisation->factorise(matrix, false));
+      BOOST_REQUIRE(factorisation->has_halves());
+      Vector right_hand_side(dealii::complete_index_set(n), MPI_COMM_WORLD);
+      randomise(right_hand_side, 1., 3);
+      Vector              solution(right_hand_side), rest(right_hand_side);
+      std::vector<double> half;
+      factorisation->go_forwards(right_hand_side, half);
+      factorisation->go_backwards(half, solution);
+      matrix.vmult(rest, solution);
+      rest -= right_hand_side;
+      BOOST_CHECK_MESSAGE(rest.linfty_norm() < 1e-11,
+                          n << " unknowns: " << rest.linfty_norm());
+    }
+}
 
 // Sets near the one that was factored, with other places and another diagonal, and
 // one that is far from it.

@@ -56,10 +56,14 @@ namespace Ricochet
                               body.multiplier_indices().n_elements())
     {
       compute_row_scaling();
-      // Whether the law is of that kind does not depend on h_T.
+      // Of directions that stay the same there are fewer than of unknowns of the
+      // displacement; but not with friction in points of faces, each of which has three.
+      const ContactLawTraits traits = this->law->traits();
       if (!kinematics->has_constant_rows() ||
-          (this->friction.exists() && this->law->traits().needs_multiplier))
+          (this->friction.exists() &&
+           (traits.needs_multiplier || !traits.nodal)))
         make_displacement_functionals();
+      // Whether the law is of that kind does not depend on h_T.
       else if (closing_directions(*this->law, 1.))
         functionals.emplace(*this->law,
                             this->friction.exists(),
@@ -271,8 +275,7 @@ namespace Ricochet
     std::vector<ContactPointForce<>> point_force;
     Vector                           force, friction_part, scaling;
     const unsigned int               n_displacements_owned;
-    // The latter where directions turn, and for multipliers with friction; none if the law
-    // does not act through such.
+    // One of them, see the constructor; none if the law does not act through such.
     std::optional<ClosingFunctionals>      functionals;
     std::optional<DisplacementFunctionals> displacement_functionals;
     // With the latter, those of the law in each point.
