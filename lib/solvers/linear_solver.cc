@@ -54,12 +54,15 @@ namespace Ricochet
       }
     if (type == "automatic")
       {
-        // A nonlinear body gains by the symmetry only, and where a factorisation
-        // costs more than the iterations that it saves. Linear bodies before each other
-        // need a new one whenever contact changes.
-        const bool gains = linear_body
-          ? n_unknowns > 1000 || contact.couplings_change
-          : n_unknowns > 5000 && factorisations.name(true) == "CHOLMOD";
+        // A nonlinear body gains where it is condensed to contact; otherwise by the
+        // symmetry only, and where a factorisation costs more than the iterations that
+        // it saves. Linear bodies before each other need a new one whenever contact
+        // changes.
+        const bool is_condensed = may_condense && contact.functionals;
+        const bool gains        = linear_body
+                 ? n_unknowns > 1000 || contact.couplings_change
+                 : n_unknowns > (is_condensed ? 1000 : 5000) &&
+            factorisations.name(true) == "CHOLMOD";
         type = gains || parameters.factorisation == "CHOLMOD" ? "corrected"
                                                               : "direct";
         if (linear_body &&
@@ -142,7 +145,8 @@ namespace Ricochet
       "degree 2 to degree 1 and on by aggregation, not for treatments with multipliers "
       "of one body; between bodies by aggregation, with or without. automatic: "
       "corrected above 1000 unknowns for linear bodies (before each other always), "
-      "above 5000 for nonlinear ones if CHOLMOD can be used; multigrid for linear bodies in 3D "
+      "as well for nonlinear ones that are condensed to contact, otherwise above 5000, if "
+      "CHOLMOD can be used; multigrid for linear bodies in 3D "
       "above 50000 unknowns, or 10000 on several ranks, and for contact between "
       "bodies in 3D above 5000 unknowns; otherwise direct.",
       Patterns::Selection("automatic|direct|corrected|multigrid"));
