@@ -3,6 +3,7 @@
 """Two linear bodies that meet head on, against one of them that meets the plane between
 them: the same motion, but for the meshes. Disks with persistent contact in their nodes on
 meshes of several sizes, and the soft sphere with a penalty in the points of its faces.
+Besides, one of them that meets a round obstacle instead of the plane.
 """
 
 import argparse
@@ -49,12 +50,20 @@ subsection Obstacle plane
   set Shape = half space
 end
 """
+ROUND = """
+subsection Obstacle plane
+  set Shape  = {shape}
+  set Centre = {centre}
+  set Radius = {radius}
+end
+"""
 PERSISTENT = "persistent contact\n  set Augmentation = 1e6"
 PENALTY = "penalty\n  set Penalty epsilon0 = 1e-3"
 
 
-def scene(dim, body, places, speed, treatment, steps):
-    """One body, or two: where they are along the last axis, and their speeds."""
+def scene(dim, body, places, speed, treatment, steps, radius=None):
+    """One body, or two: where they are along the last axis, and their speeds. With a
+    radius the obstacle of one is round."""
     text = f"set Program = ricochet\nset Dimension = {dim}\n"
     axes = ["0"] * (dim - 1)
     # Nodes of disks are not to meet nodes. (The halves of the sphere's mesh differ.)
@@ -65,7 +74,11 @@ def scene(dim, body, places, speed, treatment, steps):
                             velocity=", ".join(axes + [str(sign * speed)]),
                             rotation=angle)
     is_alone = len(places) == 1
-    text += PLANE if is_alone else ""
+    if radius is not None:
+        text += ROUND.format(shape="circle" if dim == 2 else "sphere", radius=radius,
+                             centre=", ".join(axes + [str(-radius)]))
+    elif is_alone:
+        text += PLANE
     text += CONTACT.format(other="plane" if is_alone else "second",
                            treatment=treatment)
     time_step, n_steps = steps
@@ -84,26 +97,29 @@ def main():
     cases = []
     for rings in (20, 45) if arguments.quick else (20, 45, 90):
         disk = DISK.format(around=6 * rings, nodes=3 * rings * (rings + 1) + 1)
-        cases.append(("disks", 2, disk, (1.01, -1.01), PERSISTENT, (1e-3, 200)))
+        cases.append(("disks", 2, disk, (1.01, -1.01), PERSISTENT, (1e-3, 200), 5))
     if not arguments.quick:
         # Its mesh stands 2 m above the plane, the other one as much below it.
         sphere = SPHERE.format(meshes=MESHES)
-        cases.append(("spheres", 3, sphere, (0., -44.), PENALTY, (.1, 240)))
+        cases.append(("spheres", 3, sphere, (0., -44.), PENALTY, (.1, 240), 60))
     print("| bodies | unknowns of one | of two | s in steps, one | two | ratio "
-          "| Newton iterations, one | two |\n|---|---|---|---|---|---|---|---|")
-    for name, dim, body, places, treatment, steps in cases:
+          "| Newton iterations, one | two | s, one before a round obstacle "
+          "| iterations |\n|---|---|---|---|---|---|---|---|---|---|")
+    for name, dim, body, places, treatment, steps, radius in cases:
         runs = []
-        for n_bodies in (1, 2):
+        for n_bodies, of_obstacle in ((1, None), (2, None), (1, radius)):
             with tempfile.TemporaryDirectory() as folder:
                 file = pathlib.Path(folder) / "scene.prm"
                 file.write_text(scene(dim, body, places[:n_bodies], 1, treatment,
-                                      steps))
+                                      steps, of_obstacle))
                 runs.append(measure(program, [], str(file)))
-        one, two = runs
+        one, two, before_round = runs
         print(f"| {name} | {one['unknowns']} | {two['unknowns']} "
               f"| {one['seconds']:.3g} | {two['seconds']:.3g} "
               f"| {two['seconds'] / one['seconds']:.2f} "
-              f"| {one['iterations']:.0f} | {two['iterations']:.0f} |", flush=True)
+              f"| {one['iterations']:.0f} | {two['iterations']:.0f} "
+              f"| {before_round['seconds']:.3g} | {before_round['iterations']:.0f} |",
+              flush=True)
 
 
 if __name__ == "__main__":
