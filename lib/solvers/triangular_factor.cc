@@ -169,7 +169,7 @@ namespace Ricochet
     std::vector<std::size_t> row_at(columns.n);
     for (Block &block : blocks)
       {
-        const int width = block.width, end = block.first + width;
+        const int   width = block.width, end = block.first + width;
         std::size_t at = block.below;
         for (std::size_t k = block.begin; k < block.end; ++k, at += 2 * width)
           {

@@ -34,9 +34,8 @@ namespace Ricochet
 
 
   void
-  PlanesAtRest::displace(
-    const std::vector<dealii::Tensor<1, 3>> &displacements,
-    std::vector<ContactPointState<>>        &states)
+  PlanesAtRest::displace(const std::vector<dealii::Tensor<1, 3>> &displacements,
+                         std::vector<ContactPointState<>>        &states)
   {
     displacement = displacements;
     for (unsigned int p = 0; p < states.size(); ++p)

@@ -370,14 +370,14 @@ namespace Ricochet
   {
     if (displacement_functionals)
       {
-        coefficients.assign(displacement_functionals->all().functionals.size(), 0.);
+        coefficients.assign(displacement_functionals->all().functionals.size(),
+                            0.);
         for (unsigned int p = 0; p < state.size(); ++p)
           if (acts(p))
-            displacement_functionals->add(p,
-                                     weight *
-                                       evaluator.contact_points()[p].weight *
-                                       closing_force(p),
-                                     coefficients);
+            displacement_functionals->add(
+              p,
+              weight * evaluator.contact_points()[p].weight * closing_force(p),
+              coefficients);
         return;
       }
     coefficients.assign(functionals->all().functionals.size(), 0.);
@@ -513,11 +513,11 @@ namespace Ricochet
       {
         for (unsigned int p = 0; p < state.size(); ++p)
           if (acts(p))
-            displacement_functionals->add(p,
-                                     weight *
-                                       evaluator.contact_points()[p].weight *
-                                       closing_tangent(p),
-                                     change);
+            displacement_functionals->add(
+              p,
+              weight * evaluator.contact_points()[p].weight *
+                closing_tangent(p),
+              change);
         sum_columns(change);
         return;
       }
