@@ -480,13 +480,16 @@ namespace Ricochet
   {
     const ContactSurface<dim>                  &surface;
     const std::vector<std::array<double, dim>> &positions;
-    /// Number of each facet among the places, one more than that; 0: not yet.
+    /// Number of each facet among the places, one more than that; 0: not yet. Empty until
+    /// the first one is asked for: most instants ask for none.
     std::vector<unsigned int> number;
     std::vector<Place<dim>>   places;
 
     const Place<dim> &
     place(const unsigned int f)
     {
+      if (number.empty())
+        number.resize(surface.facets.size(), 0);
       if (number[f] == 0)
         {
           places.emplace_back(surface, positions, f);
@@ -502,11 +505,7 @@ namespace Ricochet
   FacetsAround<dim>::FacetsAround(
     const ContactSurface<dim>                  &surface,
     const std::vector<std::array<double, dim>> &positions)
-    : known(std::make_unique<Known>(
-        Known{surface,
-              positions,
-              std::vector<unsigned int>(surface.facets.size(), 0),
-              {}}))
+    : known(std::make_unique<Known>(Known{surface, positions, {}, {}}))
   {}
 
 

@@ -561,12 +561,12 @@ namespace Ricochet
     const bool turns = !kinematics->has_constant_rows();
     if (friction_coefficient > 0. || turns)
       {
-        const bool slips =
+        const bool has_directions =
           std::any_of(nodes.begin(), nodes.end(), [&](const Node &node) {
-            return node.status == Status::slip ||
-              (turns && node.status == Status::stick);
+            return turns ? node.status != Status::open
+                         : node.status == Status::slip;
           });
-        if (dealii::Utilities::MPI::max(slips ? 1 : 0,
+        if (dealii::Utilities::MPI::max(has_directions ? 1 : 0,
                                         evaluator.communicator) == 1)
           return {};
       }

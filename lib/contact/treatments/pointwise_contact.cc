@@ -324,8 +324,8 @@ namespace Ricochet
   DisplacementFunctionals::TangentOfPoint
   PointwiseContact::closing_tangent(const unsigned int p) const
   {
-    const double        h = evaluator.contact_points()[p].cell_diameter;
-    ContactPointTangent closing =
+    const double              h = evaluator.contact_points()[p].cell_diameter;
+    const ContactPointTangent closing =
       law->tangent(linearisation[p], old_state[p], h) -
       tangent_of_open_point(p);
     DisplacementFunctionals::TangentOfPoint result;
