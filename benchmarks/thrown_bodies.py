@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cost of a step of the elastic ball and the hyperelastic ring (paper A, tables
-2 and 4), on one rank: seconds per step against unknowns, and where they go.
+2 and 4), on one rank or several: seconds per step against unknowns, and where they go.
 
 The shares come from the last lines of the programs' logs; start-up and set-up
 are not part of them. The exponent is that of cost ~ unknowns^exponent between
@@ -47,6 +47,7 @@ def main():
                         help="only so many, counted from the finest")
     parser.add_argument("--whole-run", action="store_true",
                         help="to the papers' final time (the ring: 10 s)")
+    parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of each run")
     arguments = parser.parse_args()
     for body in arguments.body or BODIES:
         parameters, meshes, final_time, whole = BODIES[body]
@@ -60,7 +61,8 @@ def main():
             for mesh in meshes[-arguments.meshes:]:
                 end = whole if arguments.whole_run else final_time
                 run = min((measure(program, parameters + method + mesh +
-                                   [f"Time/Final time={end}"])
+                                   [f"Time/Final time={end}"],
+                                   n_ranks=arguments.ranks)
                            for _ in range(arguments.repeat)),
                           key=lambda run: run["seconds"])
                 step = run["seconds"] / run["steps"]

@@ -92,6 +92,7 @@ def main():
     parser.add_argument("--build-dir", default="build/release")
     parser.add_argument("--quick", action="store_true",
                         help="disks of at most 13 000 unknowns, no spheres")
+    parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of each run")
     arguments = parser.parse_args()
     program = str(pathlib.Path(arguments.build_dir) / "ricochet")
     cases = []
@@ -112,7 +113,7 @@ def main():
                 file = pathlib.Path(folder) / "scene.prm"
                 file.write_text(scene(dim, body, places[:n_bodies], 1, treatment,
                                       steps, of_obstacle))
-                runs.append(measure(program, [], str(file)))
+                runs.append(measure(program, [], str(file), arguments.ranks))
         one, two, before_round = runs
         print(f"| {name} | {one['unknowns']} | {two['unknowns']} "
               f"| {one['seconds']:.3g} | {two['seconds']:.3g} "

@@ -179,7 +179,7 @@ namespace Ricochet
     /// Where the structure has functionals: the difference between
     /// complete_tangent() and complete_open_tangent() in terms of them, see
     /// Tangent::contact_change. @p change has an empty row for each functional
-    /// of this rank.
+    /// that this rank knows.
     virtual void
     tangent_change(std::vector<FunctionalRow> & /*change*/) const
     {

@@ -316,7 +316,7 @@ namespace Ricochet
     }
 
     /// Blocks wherever products cost more than what is made of entries: but the
-    /// multigrid of elements of degree one and bodies against bodies take entries.
+    /// multigrid of elements of degree one, and that of bodies against bodies, take entries.
     template <int dim>
     MatrixStorage
     storage_of(const ImpactParameters &parameters,
@@ -340,16 +340,16 @@ namespace Ricochet
                                         body.owned_indices().size(),
                                         Utilities::MPI::n_mpi_processes(
                                           body.communicator));
-      // Ghosts stand where multipliers would, and multigrid's smoothers and what is
-      // factored for each iteration need entries.
+      // Ghosts stand where multipliers would, multigrid's smoothers need entries, and
+      // before each other bodies are factored for each iteration if they do not condense.
       const bool is_plain = !between_bodies && !body.has_multipliers();
-      const bool on_one_rank =
+      const bool has_room = !body.has_multipliers() ||
         Utilities::MPI::n_mpi_processes(body.communicator) == 1;
-      const bool has_blocks = multigrid
-        ? is_plain && setup.degree > 1
-        : is_plain || (on_one_rank && parameters.linear_solver.condense);
-      return is_linear && has_blocks ? MatrixStorage::blocks
-                                     : MatrixStorage::entries;
+      const bool has_blocks = multigrid ? is_plain && setup.degree > 1
+        : is_linear
+        ? is_plain || (has_room && parameters.linear_solver.condense)
+        : is_plain;
+      return has_blocks ? MatrixStorage::blocks : MatrixStorage::entries;
     }
 
     template <int dim>

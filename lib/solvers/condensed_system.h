@@ -30,7 +30,12 @@ namespace Ricochet
     virtual unsigned int
     n_functionals() const = 0;
 
-    /// Place of this rank's functional @p f.
+    /// Number of functionals that this rank has numbers for: its own, and those of other
+    /// ranks behind them (see ContactStructure::ActsThrough).
+    virtual unsigned int
+    n_known() const = 0;
+
+    /// Place of functional @p f, which may be one of another rank.
     virtual unsigned int
     place(const unsigned int f) const = 0;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <solvers/body_matrix.h>
+#include <base/all_ranks.h>
 #include <solvers/contact_subspace.h>
 
 #include <deal.II/base/mpi.h>
@@ -18,43 +19,6 @@ namespace Ricochet
     /// Contact is stiff where it makes this part of an entry on the diagonal. With less
     /// multigrid alone takes about as many iterations.
     constexpr double stiff_part = .99;
-
-    /// The lists of all ranks one behind the other. (deal.II's all_gather() compresses what
-    /// it sends, which takes longer than all else here.)
-    template <typename T>
-    std::vector<T>
-    of_all_ranks(const std::vector<T> &own, const MPI_Comm communicator)
-    {
-      const unsigned int n_ranks =
-        Utilities::MPI::n_mpi_processes(communicator);
-      if (n_ranks == 1)
-        return own;
-      static_assert(std::is_trivially_copyable<T>::value,
-                    "It is sent byte by byte.");
-      const auto       n_own = static_cast<int>(own.size() * sizeof(T));
-      std::vector<int> n_bytes(n_ranks), begin(n_ranks, 0);
-      int              error = MPI_Allgather(&n_own,
-                                1,
-                                MPI_INT,
-                                n_bytes.data(),
-                                1,
-                                MPI_INT,
-                                communicator);
-      AssertThrowMPI(error);
-      for (unsigned int rank = 1; rank < n_ranks; ++rank)
-        begin[rank] = begin[rank - 1] + n_bytes[rank - 1];
-      std::vector<T> all((begin.back() + n_bytes.back()) / sizeof(T));
-      error = MPI_Allgatherv(own.data(),
-                             n_own,
-                             MPI_BYTE,
-                             all.data(),
-                             n_bytes.data(),
-                             begin.data(),
-                             MPI_BYTE,
-                             communicator);
-      AssertThrowMPI(error);
-      return all;
-    }
 
     template <typename T>
     void

@@ -74,8 +74,7 @@ namespace Ricochet
       correction = std::make_unique<LowRankCorrection>(
         tangent_matrix.locally_owned_range_indices(),
         tangent_matrix.get_mpi_communicator(),
-        contact.functionals->functionals,
-        contact.functionals->order,
+        *contact.functionals,
         std::nullopt,
         options);
   }
@@ -160,8 +159,7 @@ namespace Ricochet
     correction = std::make_unique<LowRankCorrection>(
       tangent_matrix.locally_owned_range_indices(),
       communicator,
-      directions,
-      order,
+      ContactStructure::ActsThrough{directions, order, {}},
       observables,
       row_options);
   }
@@ -186,9 +184,8 @@ namespace Ricochet
       }
     else
       {
-        const unsigned int n = contact.functionals->functionals.size();
-        change.assign(n, {});
-        excess_change.assign(n, {});
+        change.assign(n_known(), {});
+        excess_change.assign(n_known(), {});
         tangent.contact_change(change);
         if (contact.takes_rows)
           tangent.contact_excess_change(excess_change);

@@ -82,6 +82,12 @@ namespace Ricochet
     }
 
     unsigned int
+    n_known() const override
+    {
+      return contact.functionals->n_known();
+    }
+
+    unsigned int
     place(const unsigned int f) const override
     {
       return correction->place(f);
@@ -141,8 +147,8 @@ namespace Ricochet
     void
     make_row_correction();
 
-    /// The rows of #change and #excess_change are those between this rank's
-    /// functionals; give them to the correction.
+    /// The rows of #change and #excess_change are those between the functionals that this
+    /// rank knows; give them to the correction.
     void
     set_change_of_functionals(const bool may_update);
 

@@ -55,8 +55,10 @@ namespace Ricochet
         : package(package)
       {}
 
+      using Factorisation::factorise;
+
       bool
-      factorise(const Matrix &matrix, const bool keep_pivots) override
+      factorise(const Epetra_CrsMatrix &matrix, const bool keep_pivots) override
       {
         int error = 0;
         Assert(!solver || entries == entries_of(matrix),
@@ -65,8 +67,7 @@ namespace Ricochet
           {
             entries = entries_of(matrix);
             problem = std::make_unique<Epetra_LinearProblem>();
-            problem->SetOperator(
-              const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
+            problem->SetOperator(const_cast<Epetra_CrsMatrix *>(&matrix));
             const std::string name = "Amesos_" + package;
             solver.reset(Amesos().Create(name, *problem));
             AssertThrow(solver,
@@ -104,13 +105,11 @@ namespace Ricochet
     private:
       /// Where the entries of a matrix lie, to which the packages keep pointers.
       static const double *
-      entries_of(const Matrix &matrix)
+      entries_of(const Epetra_CrsMatrix &matrix)
       {
         int    *row_start = nullptr, *columns = nullptr;
         double *values = nullptr;
-        matrix.trilinos_matrix().ExtractCrsDataPointers(row_start,
-                                                        columns,
-                                                        values);
+        matrix.ExtractCrsDataPointers(row_start, columns, values);
         return values;
       }
 
@@ -132,15 +131,17 @@ namespace Ricochet
         : approximate(approximate)
       {}
 
+      using Factorisation::factorise;
+
       bool
-      factorise(const Matrix &matrix, const bool /*keep_pivots*/) override
+      factorise(const Epetra_CrsMatrix &matrix,
+                const bool /*keep_pivots*/) override
       {
         int    *row_start = nullptr, *columns = nullptr;
         double *values = nullptr;
-        if (matrix.trilinos_matrix().ExtractCrsDataPointers(row_start,
-                                                            columns,
-                                                            values) != 0)
-          throw ComputationError("The matrix is not stored in one piece.");
+        if (matrix.ExtractCrsDataPointers(row_start, columns, values) != 0)
+          AssertThrow(false,
+                      ExcMessage("The matrix is not stored in one piece."));
         if (symmetric.rows() == 0)
           find_pattern(matrix, row_start, columns);
 
@@ -777,20 +778,19 @@ namespace Ricochet
       }
 
       void
-      find_pattern(const Matrix &matrix,
-                   const int    *row_start,
-                   const int    *columns)
+      find_pattern(const Epetra_CrsMatrix &matrix,
+                   const int              *row_start,
+                   const int              *columns)
       {
-        using EpetraIndex  = TrilinosWrappers::types::int_type;
-        const auto &epetra = matrix.trilinos_matrix();
-        AssertThrow(epetra.Comm().NumProc() == 1,
-                    ExcMessage("CHOLMOD works on one rank."));
-        const int n = epetra.NumMyRows();
+        using EpetraIndex = TrilinosWrappers::types::int_type;
+        AssertThrow(matrix.NumMyRows() == matrix.NumGlobalRows64(),
+                    ExcMessage("CHOLMOD needs all rows on one rank."));
+        const int n = matrix.NumMyRows();
         // Columns have an order of their own, even on one rank.
-        std::vector<int> unknown_of(epetra.NumMyCols());
+        std::vector<int> unknown_of(matrix.NumMyCols());
         for (unsigned int c = 0; c < unknown_of.size(); ++c)
           unknown_of[c] =
-            epetra.LRID(static_cast<EpetraIndex>(epetra.GCID64(c)));
+            matrix.LRID(static_cast<EpetraIndex>(matrix.GCID64(c)));
 
         // What is on and below the diagonal, by columns. Rows rise in each of them, for
         // they are gone through in their order.

@@ -6,6 +6,8 @@
 #include <solvers/functionals.h>
 #include <solvers/triangular_factor.h>
 
+#include <Epetra_CrsMatrix.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,7 +36,13 @@ namespace Ricochet
      * what this kind of factorisation is for.
      */
     virtual bool
-    factorise(const Matrix &matrix, const bool keep_pivots) = 0;
+    factorise(const Epetra_CrsMatrix &matrix, const bool keep_pivots) = 0;
+
+    bool
+    factorise(const Matrix &matrix, const bool keep_pivots)
+    {
+      return factorise(matrix.trilinos_matrix(), keep_pivots);
+    }
 
     /// Solve matrix * @p solution = @p right_hand_side. @throws NewtonFailure
     virtual void
@@ -146,7 +154,8 @@ namespace Ricochet
   make_lu_factorisation(const std::string &package);
 
   /**
-   * Cholesky factorisation by CHOLMOD, on one rank, of a symmetric matrix. It is
+   * Cholesky factorisation by CHOLMOD, on one rank (see GatheredFactorisation for
+   * several ones), of a symmetric matrix. It is
    * LDL^T for plane meshes, which stands an indefinite matrix, and the
    * supernodal LL^T where that is faster.
    *

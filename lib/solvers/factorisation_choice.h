@@ -22,6 +22,13 @@ namespace Ricochet
     std::string
     name(const bool symmetric) const;
 
+    /// Whether one of several ranks does it for all.
+    bool
+    is_gathered(const bool symmetric) const
+    {
+      return n_ranks > 1 && name(symmetric) == "CHOLMOD";
+    }
+
     /// @param approximate the symmetric part of the matrix will do.
     std::unique_ptr<Factorisation>
     make(const bool symmetric, const bool approximate = false) const;

@@ -2,8 +2,10 @@
 #ifndef ricochet_solvers_functionals_h
 #define ricochet_solvers_functionals_h
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/types.h>
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -57,6 +59,18 @@ namespace Ricochet
   /// ascending, and leave out those that are zero.
   void
   sum_columns(std::vector<FunctionalRow> &rows);
+
+  /// A number, and the rows there of several matrices.
+  struct NumberedRows
+  {
+    unsigned int                 number;
+    std::array<FunctionalRow, 3> rows;
+  };
+
+  /// The @p rows of all ranks, by their numbers. What several ranks have of a row is summed.
+  /// Collective.
+  std::vector<NumberedRows>
+  sum_of_all_ranks(std::vector<NumberedRows> rows, const MPI_Comm communicator);
 } // namespace Ricochet
 
 #endif

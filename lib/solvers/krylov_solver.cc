@@ -20,6 +20,20 @@ namespace Ricochet
 
 
 
+  std::unique_ptr<FactoredBody>
+  KrylovSolver::make_nearby()
+  {
+    if (factorisations.is_gathered(true))
+      return std::make_unique<GatheredBody>(make_cholesky_factorisation(true),
+                                            *contact.functionals,
+                                            spent);
+    return std::make_unique<NearbyBody>(factorisations.make(true, true),
+                                        *contact.functionals,
+                                        spent);
+  }
+
+
+
   CondensedSystem &
   KrylovSolver::condensed(const Tangent &tangent)
   {
@@ -28,9 +42,7 @@ namespace Ricochet
     if (!body)
       {
         if (!nearby)
-          nearby = std::make_unique<NearbyBody>(factorisations.make(true, true),
-                                                *contact.functionals,
-                                                spent);
+          nearby = make_nearby();
         if (!is_new || nearby->factorise(tangent))
           {
             has_condensed = true;

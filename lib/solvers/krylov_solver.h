@@ -4,7 +4,7 @@
 
 #include <solvers/corrected_factorisation.h>
 #include <solvers/factorisation_choice.h>
-#include <solvers/nearby_body.h>
+#include <solvers/gathered_body.h>
 #include <solvers/tangent_solver.h>
 
 #include <memory>
@@ -57,11 +57,14 @@ namespace Ricochet
     condensed(const Tangent &tangent) override;
 
   private:
+    std::unique_ptr<FactoredBody>
+    make_nearby();
+
     const FactorisationChoice               factorisations;
     const ContactStructure                  contact;
     std::unique_ptr<CorrectedFactorisation> factorisation;
     // For condensed systems.
-    std::unique_ptr<NearbyBody>             nearby;
+    std::unique_ptr<FactoredBody>           nearby;
     std::unique_ptr<CorrectedFactorisation> body;
     bool                                    has_condensed = false;
   };

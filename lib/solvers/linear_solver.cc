@@ -28,23 +28,24 @@ namespace Ricochet
       throw InputError(
         "CHOLMOD factors symmetric matrices only: with Linear "
         "solver/Type = direct choose KLU, MUMPS or automatic.");
-    if (parameters.factorisation == "CHOLMOD" && n_ranks > 1)
-      throw InputError(
-        "The factorisation CHOLMOD works on one MPI rank only, "
-        "not on " +
-        std::to_string(n_ranks) + "; choose automatic, KLU or MUMPS.");
     if (contact.couplings_change && !(linear_body && contact.functionals))
       {
+        const std::string which = !linear_body ? "bodies that are not linear"
+          : n_ranks > 1
+          ? "bodies on cut faces, or on several MPI ranks where another contact "
+            "prescribes displacements of the same nodes,"
+          : "bodies on cut faces";
         if (type == "corrected")
           throw InputError(
             "Contact between bodies couples unknowns that the bodies do not "
-            "couple: choose Linear solver/Type = direct, multigrid or automatic "
-            "instead of corrected, which is for linear bodies on one MPI rank.");
+            "couple: for " +
+            which +
+            " choose Linear solver/Type = direct, multigrid or automatic "
+            "instead of corrected.");
         if (parameters.factorisation == "CHOLMOD")
           throw InputError(
-            "CHOLMOD factors symmetric matrices only: with contact between "
-            "bodies that are not linear, or on several MPI ranks, choose KLU, "
-            "MUMPS or automatic.");
+            "CHOLMOD factors symmetric matrices only: with contact between " +
+            which + " choose KLU, MUMPS or automatic.");
         // Factorisations of small bodies are faster, but not by much.
         if (type == "automatic")
           type = dim == 3 && parameters.factorisation == "automatic" &&
@@ -126,7 +127,7 @@ namespace Ricochet
     return parameters.type == "multigrid" ||
       (parameters.type == "automatic" &&
        parameters.factorisation == "automatic" && dim == 3 &&
-       n_unknowns > (n_ranks > 1 ? 10000 : 50000));
+       n_unknowns > (n_ranks > 1 ? 30000 : 50000));
   }
 
 
@@ -147,16 +148,16 @@ namespace Ricochet
       "corrected above 1000 unknowns for linear bodies (before each other always), "
       "as well for nonlinear ones that are condensed to contact, otherwise above 5000, if "
       "CHOLMOD can be used; multigrid for linear bodies in 3D "
-      "above 50000 unknowns, or 10000 on several ranks, and for contact between "
-      "bodies in 3D above 5000 unknowns; otherwise direct.",
+      "above 50000 unknowns, or 30000 on several ranks, and for others before each "
+      "other in 3D above 5000 unknowns; otherwise direct.",
       Patterns::Selection("automatic|direct|corrected|multigrid"));
     parameters.add_parameter(
       "Factorisation",
       factorisation,
-      "CHOLMOD: Cholesky, for Type = corrected on one MPI rank. KLU: LU, fast "
-      "for bars and plane meshes. MUMPS: LU, fast in 3D and parallel. automatic: "
-      "CHOLMOD where it can be; otherwise KLU for bars and plane meshes below "
-      "20000 unknowns.",
+      "CHOLMOD: Cholesky, for Type = corrected; of several MPI ranks one does it for "
+      "all. KLU: LU, fast for bars and plane meshes. MUMPS: LU, fast in 3D and parallel. "
+      "automatic: CHOLMOD where it can be, on several ranks below 100000 unknowns, in 3D "
+      "30000; otherwise KLU for bars and plane meshes below 20000 unknowns.",
       Patterns::Selection("automatic|CHOLMOD|KLU|MUMPS"));
     parameters.add_parameter(
       "Kept factorisations",
@@ -169,7 +170,7 @@ namespace Ricochet
       "Condense to contact",
       condense,
       "With Type = corrected before obstacles, "
-      "and, on one MPI rank, for bodies before each other (those that are not "
+      "and for bodies before each other (those that are not "
       "linear in the plane, with Type = automatic, above 1000 unknowns), where all "
       "contacts are of these kinds: Newton's method looks at these alone. A linear "
       "body is solved for twice in each stage of a time step, instead of twice in each "

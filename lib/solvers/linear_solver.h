@@ -28,7 +28,7 @@ namespace Ricochet
    * tangent is factored, which costs less than half of a factorisation with
    * pivots, and GMRES does the rest.
    *
-   * Bodies that are not linear, before each other on one rank, are condensed to
+   * Bodies that are not linear, before each other in the plane, are condensed to
    * contact, with a factorisation of the bodies that serves for as many steps as it is
    * worth it; "direct" takes over where that fails.
    *

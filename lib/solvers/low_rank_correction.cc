@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/all_ranks.h>
 #include <base/exceptions.h>
 #include <solvers/low_rank_correction.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <boost/serialization/array.hpp>
-#include <boost/serialization/utility.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,14 +15,13 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  LowRankCorrection::LowRankCorrection(const IndexSet            &owned,
-                                       const MPI_Comm             communicator,
-                                       Functionals                directions_,
-                                       const std::vector<double> &order,
+  LowRankCorrection::LowRankCorrection(const IndexSet &owned,
+                                       const MPI_Comm  communicator,
+                                       ContactStructure::ActsThrough all,
                                        std::optional<Functionals> observables_,
                                        const Options             &options)
     : communicator(communicator)
-    , directions(std::move(directions_))
+    , directions(std::move(all.functionals))
     , own_observables(std::move(observables_))
     , observables(own_observables ? *own_observables : directions)
     , options(options)
@@ -47,19 +44,23 @@ namespace Ricochet
     // The directions of all ranks are sorted.
     using Entry = std::tuple<double, unsigned int, unsigned int>;
     std::vector<Entry> sorted;
-    const auto         orders = Utilities::MPI::all_gather(communicator, order);
+    const auto orders = Utilities::MPI::all_gather(communicator, all.order);
     for (unsigned int rank = 0; rank < orders.size(); ++rank)
       for (unsigned int d = 0; d < orders[rank].size(); ++d)
         sorted.emplace_back(orders[rank][d], rank, d);
     std::sort(sorted.begin(), sorted.end());
-    place_of_direction.resize(directions.size());
+    std::vector<std::vector<unsigned int>> place_of;
+    for (const auto &order : orders)
+      place_of.emplace_back(order.size());
     direction_at_place.assign(sorted.size(), -1);
     for (unsigned int place = 0; place < sorted.size(); ++place)
-      if (std::get<1>(sorted[place]) == my_rank)
-        {
-          place_of_direction[std::get<2>(sorted[place])] = place;
-          direction_at_place[place] = std::get<2>(sorted[place]);
-        }
+      {
+        const auto &[distance, rank, d] = sorted[place];
+        place_of[rank][d]               = place;
+        if (rank == my_rank)
+          direction_at_place[place] = d;
+      }
+    place_of_direction = place_of[my_rank];
 
     // The observables of all ranks stand one behind the other, unless they are the
     // directions: those that contact needs together lie together.
@@ -78,6 +79,8 @@ namespace Ricochet
         n_observables       = n_places();
         place_of_observable = place_of_direction;
       }
+    for (const auto &elsewhere : all.elsewhere)
+      place_of_direction.push_back(place_of[elsewhere.rank][elsewhere.number]);
     forget_columns();
   }
 
@@ -158,6 +161,7 @@ namespace Ricochet
     std::vector<double> by_place(n_places(), 0.);
     for (unsigned int d = 0; d < coefficients.size(); ++d)
       by_place[place_of_direction[d]] = coefficients[d];
+    Utilities::MPI::sum(by_place, communicator, by_place);
     for (std::size_t begin = 0; begin < by_place.size(); begin += group_size)
       {
         const auto first = by_place.begin() + begin,
@@ -223,23 +227,48 @@ namespace Ricochet
 
 
 
+  Functionals
+  LowRankCorrection::directions_at(
+    const std::vector<unsigned int> &places) const
+  {
+    struct Entry
+    {
+      unsigned int column;
+      Index        index;
+      double       value;
+    };
+    std::vector<Entry> entries;
+    for (unsigned int c = 0; c < places.size(); ++c)
+      if (const int d = direction_at_place[places[c]]; d >= 0)
+        for (std::size_t k = directions.begin[d]; k < directions.begin[d + 1];
+             ++k)
+          entries.push_back({c, directions.index[k], directions.value[k]});
+    entries = of_all_ranks(entries, communicator);
+    std::stable_sort(entries.begin(),
+                     entries.end(),
+                     [](const Entry &a, const Entry &b) {
+                       return a.column < b.column;
+                     });
+    Functionals all;
+    for (unsigned int c = 0, e = 0; c < places.size(); ++c)
+      {
+        for (; e < entries.size() && entries[e].column == c; ++e)
+          all.add(entries[e].index, entries[e].value);
+        all.end_functional();
+      }
+    return all;
+  }
+
+
   void
   LowRankCorrection::solve_half_columns(const unsigned int               group,
                                         const std::vector<unsigned int> &places,
                                         Factorisation &factorisation)
   {
-    // On one rank.
-    Functionals own;
+    half_columns.emplace(group,
+                         factorisation.go_forwards(directions_at(places)));
     for (const unsigned int place : places)
-      {
-        const int d = direction_at_place[place];
-        for (std::size_t k = directions.begin[d]; k < directions.begin[d + 1];
-             ++k)
-          own.add(directions.index[k], directions.value[k]);
-        own.end_functional();
-        columns[place].resize(n_observables);
-      }
-    half_columns.emplace(group, factorisation.go_forwards(own));
+      columns[place].resize(n_observables);
 
     // The order of two groups does not depend on which of them came first.
     std::vector<double> products;
@@ -346,7 +375,7 @@ namespace Ricochet
     my_last_excess_rows = my_excess_rows;
 
     // All ranks get all rows, by place.
-    std::vector<std::pair<unsigned int, std::array<Row, 3>>> all;
+    std::vector<NumberedRows> all;
     for (unsigned int d = 0; d < my_rows.size(); ++d)
       {
         const Row excess_row =
@@ -355,16 +384,7 @@ namespace Ricochet
           all.push_back({place_of_direction[d],
                          {{my_rows[d], excess_row, taken_by(excess_row)}}});
       }
-    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
-      {
-        const auto lists = Utilities::MPI::all_gather(communicator, all);
-        all.clear();
-        for (const auto &list : lists)
-          all.insert(all.end(), list.begin(), list.end());
-      }
-    std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
-      return a.first < b.first;
-    });
+    all = sum_of_all_ranks(std::move(all), communicator);
     changed.clear();
     rows.clear();
     excess_rows.clear();

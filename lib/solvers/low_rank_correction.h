@@ -7,6 +7,7 @@
 #include <solvers/factorisation.h>
 #include <solvers/functional_products.h>
 #include <solvers/positive_system.h>
+#include <solvers/tangent.h>
 #include <solvers/unsymmetric_system.h>
 
 #include <deal.II/base/index_set.h>
@@ -65,20 +66,20 @@ namespace Ricochet
     };
 
     /**
-     * @param directions of this rank; they may have entries of other ranks.
-     * @param order of the directions, by which they are expected to be needed.
+     * @param directions of this rank, and those of other ranks in which it may
+     * change the matrix; they may have entries of other ranks. With their order, by which
+     * they are expected to be needed.
      * @param observables of this rank; they may look at other ranks. None: the
      * directions.
      */
-    LowRankCorrection(const dealii::IndexSet    &owned,
-                      const MPI_Comm             communicator,
-                      Functionals                directions,
-                      const std::vector<double> &order,
-                      std::optional<Functionals> observables,
-                      const Options             &options);
+    LowRankCorrection(const dealii::IndexSet       &owned,
+                      const MPI_Comm                communicator,
+                      ContactStructure::ActsThrough directions,
+                      std::optional<Functionals>    observables,
+                      const Options                &options);
 
-    /// The place of this rank's direction @p d among those of all ranks, in their
-    /// order.
+    /// The place of direction @p d of this rank, or of another one (see
+    /// ContactStructure::ActsThrough), among those of all ranks, in their order.
     unsigned int
     place(const unsigned int d) const
     {
@@ -96,7 +97,8 @@ namespace Ricochet
     void
     forget_columns();
 
-    /// The change C, one row for each direction of this rank.
+    /// The change C, one row for each direction that this rank knows, which is what it
+    /// has of the row.
     /// @param my_excess_rows those of E; empty for none on any rank. Directions with
     /// such a row have no products with those of other ranks.
     /// @param may_update use the dense factorisation of the last one, see
@@ -195,6 +197,10 @@ namespace Ricochet
     solve_missing_columns(const std::vector<unsigned int> &places,
                           Factorisation                   &factorisation);
 
+    /// Those of all ranks at these places, with all of their entries.
+    Functionals
+    directions_at(const std::vector<unsigned int> &places) const;
+
     /// Solve for a group of columns by half solutions.
     void
     solve_half_columns(const unsigned int               group,
@@ -233,8 +239,8 @@ namespace Ricochet
     unsigned int                     n_observables = 0;
     // Place of each observable of this rank among those of all ranks.
     std::vector<unsigned int> place_of_observable;
-    // Place of each direction of this rank in their common order, and the
-    // other way round (-1: another rank's).
+    // Place of each direction that this rank knows in their common order; and its own
+    // the other way round (-1: another rank's).
     std::vector<unsigned int> place_of_direction;
     std::vector<int>          direction_at_place;
     std::vector<int>          local_index;

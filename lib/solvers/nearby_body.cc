@@ -12,6 +12,23 @@ namespace Ricochet
 {
   using namespace dealii;
 
+  std::vector<unsigned int>
+  places_in_order(const std::vector<double> &order)
+  {
+    std::vector<unsigned int> functional_at(order.size()), places(order.size());
+    std::iota(functional_at.begin(), functional_at.end(), 0);
+    std::stable_sort(functional_at.begin(),
+                     functional_at.end(),
+                     [&](const unsigned int a, const unsigned int b) {
+                       return order[a] < order[b];
+                     });
+    for (unsigned int place = 0; place < places.size(); ++place)
+      places[functional_at[place]] = place;
+    return places;
+  }
+
+
+
   NearbyBody::NearbyBody(std::unique_ptr<Factorisation>       factorisation,
                          const ContactStructure::ActsThrough &contact,
                          TangentSolver::Costs                &spent)
@@ -19,17 +36,11 @@ namespace Ricochet
     , functionals(contact.functionals)
     , products(functionals)
     , spent(spent)
-    , places(functionals.size())
+    , places(places_in_order(contact.order))
     , functional_at(functionals.size())
   {
-    std::iota(functional_at.begin(), functional_at.end(), 0);
-    std::stable_sort(functional_at.begin(),
-                     functional_at.end(),
-                     [&](const unsigned int a, const unsigned int b) {
-                       return contact.order[a] < contact.order[b];
-                     });
-    for (unsigned int place = 0; place < places.size(); ++place)
-      places[functional_at[place]] = place;
+    for (unsigned int f = 0; f < places.size(); ++f)
+      functional_at[places[f]] = f;
   }
 
 
@@ -39,13 +50,21 @@ namespace Ricochet
   {
     tangent.assemble_body(matrix);
     tangent.complete_open_contact(matrix);
+    return factorise(matrix.trilinos_matrix());
+  }
+
+
+
+  bool
+  NearbyBody::factorise(const Epetra_CrsMatrix &tangent_matrix)
+  {
     const Stopwatch stopwatch(spent.factorising);
     ++spent.n_factorisations;
     halves.assign(functionals.size(), {});
     columns.assign(functionals.size(), {});
     region_places = 0;
     factor        = nullptr;
-    if (!factorisation->factorise(matrix, false))
+    if (!factorisation->factorise(tangent_matrix, false))
       throw NewtonFailure("The tangent of the body cannot be factored.");
     factor = factorisation->triangular_factor();
     if (factor)

@@ -13,14 +13,29 @@
 
 namespace Ricochet
 {
+  /// A condensed system of a tangent that is factored when asked for.
+  class FactoredBody : public CondensedSystem
+  {
+  public:
+    /// Factor the tangent with open contact. @return whether the factors are at hand,
+    /// which is the same each time; if not, this cannot be used. Collective.
+    /// @throws NewtonFailure when it is singular.
+    virtual bool
+    factorise(const Tangent &tangent) = 0;
+  };
+
+  /// @return the place of each functional among all of them by their @p order.
+  std::vector<unsigned int>
+  places_in_order(const std::vector<double> &order);
+
   /**
    * The symmetric part of the tangent of a body, factored, which is near that of the
    * same body in other states; condensed to the functionals f_i of contact. With the
    * halves y_i = L^{-1} P f_i the compliance is y_i D^{-1} y_j. A half is made of the few
    * columns of L on the way from its unknowns to the last one, and costs next to
-   * nothing; so factors can be made anew in each step. On one rank.
+   * nothing; so factors can be made anew in each step. On one rank; see GatheredBody.
    */
-  class NearbyBody : public CondensedSystem
+  class NearbyBody : public FactoredBody
   {
   public:
     /**
@@ -32,13 +47,21 @@ namespace Ricochet
                const ContactStructure::ActsThrough &contact,
                TangentSolver::Costs                &spent);
 
-    /// Factor the tangent with open contact. @return whether the factors are at hand,
-    /// which is the same each time. @throws NewtonFailure when it is singular.
     bool
-    factorise(const Tangent &tangent);
+    factorise(const Tangent &tangent) override;
+
+    /// The same for a matrix that is at hand.
+    bool
+    factorise(const Epetra_CrsMatrix &tangent_matrix);
 
     unsigned int
     n_functionals() const override
+    {
+      return functionals.size();
+    }
+
+    unsigned int
+    n_known() const override
     {
       return functionals.size();
     }

@@ -26,6 +26,22 @@ namespace Ricochet
     {
       Functionals         functionals;
       std::vector<double> order;
+
+      /// A functional of another rank: which, and its number there.
+      struct Elsewhere
+      {
+        unsigned int rank, number;
+      };
+      /// Those between which contact of this rank may act, too. In changes of tangents
+      /// they have the numbers behind those of this rank.
+      std::vector<Elsewhere> elsewhere;
+
+      /// Functionals that this rank has numbers for.
+      unsigned int
+      n_known() const
+      {
+        return functionals.size() + elsewhere.size();
+      }
     };
     std::optional<ActsThrough> functionals;
 
@@ -84,8 +100,8 @@ namespace Ricochet
     std::function<void(Matrix &)> complete_contact;
     /// Add what contact adds when all points are open.
     std::function<void(Matrix &)> complete_open_contact;
-    /// The difference of the two as the rows of a matrix C between this rank's
-    /// functionals f_i: the sum of C_ij f_i f_j^T.
+    /// The difference of the two as the rows of a matrix C between the functionals f_i
+    /// that this rank knows: the sum of C_ij f_i f_j^T, and of what other ranks add.
     std::function<void(std::vector<FunctionalRow> &)> contact_change;
     /// Where contact takes rows, besides the sum of E_ij f_i f_j^T K, with the body's
     /// matrix K.

@@ -161,9 +161,9 @@ namespace Ricochet
     const std::uint64_t active_set = contact.active_set_signature();
     if (!may_reuse || tangent_active_set != active_set)
       {
-        change.assign(rest.coefficients.size(), {});
+        change.assign(system.n_known(), {});
         contact.tangent_change(change);
-        excess_change.assign(change.size(), {});
+        excess_change.assign(system.n_known(), {});
         contact.excess_change(excess_change);
         tangent_active_set = active_set;
       }

@@ -88,9 +88,9 @@
 // $q > 0$, so that the matrix of an iteration is the factored one and a
 // correction of low rank $U C V^T$, with one column for each such point, and
 // the formula of Sherman, Morrison and Woodbury solves with it at the price of
-// a small dense system (`lib/solvers/low_rank_correction.h`). Large bodies, and
-// those on several ranks, are solved by multigrid; the end of the log says
-// which.
+// a small dense system (`lib/solvers/low_rank_correction.h`). Large bodies are
+// solved by multigrid, on several ranks sooner than on one; the end of the log
+// says which.
 //
 // ## Run it
 //

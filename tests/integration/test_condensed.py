@@ -297,14 +297,19 @@ class Condensed(ProgramTest):
                         *((self.folder / f"{number}-{name}" / "energy.csv").read_text()
                           for name in ("condensed", "parts")))
 
-    def test_one_and_two_ranks(self):
-        for program, parameters in (CASES[0], CASES[6], CASES[10]):
+    def test_several_ranks(self):
+        """The first rank solves for the body, as often as when it is alone. Points of one
+        rank act on surfaces of others, and on three ranks one has a part of each."""
+        cases = [(PAIRS[1], 3), (PAIRS[4], 2), (CASES[0], 2), (CASES[6], 2),
+                 (CASES[10], 2), (CASES[12], 2), (CASES[20], 2)]
+        for (program, parameters), n_ranks in cases[:2 if is_debug_build() else None]:
             with self.subTest(" ".join(parameters)):
                 self.compare(*(self.run_program(program, parameters,
                                                 self.folder / f"{n}", n_ranks=n)
-                               for n in (1, 2)), 1e-9)
-            if is_debug_build():
-                break
+                               for n in (1, n_ranks)), 1e-9)
+                alone, together = (self.substitutions(self.folder / f"{n}")
+                                   for n in (1, n_ranks))
+                self.assertAlmostEqual(alone, together, delta=2)
 
     def test_resumed_digit_for_digit(self):
         for number, (program, parameters), middle in ((2, CASES[2], "8"),
@@ -355,16 +360,20 @@ class Condensed(ProgramTest):
                 for contact in ("left_on_floor", "right_on_floor", "right_at_wall",
                                 "balls"):
                     self.assertGreater(max(one[f"contact_force_{contact}"]), 0.)
+                folders = [self.folder / f"{number}-condensed"]
+                if number in (0, 4):
+                    # Two of these contacts know functionals of the other rank.
+                    folders.append(self.folder / f"{number}-ranks")
+                    self.compare(one, self.run_program("ricochet", parameters, folders[1],
+                                                       prm=scene, n_ranks=2), 1e-9)
                 steps = len(one["time"]) - 1
-                if law == "linear elastic":
-                    passes = 2 if right == two_step else 1
-                    self.assertLessEqual(
-                        self.substitutions(self.folder / f"{number}-condensed"),
-                        2 * passes * steps + 1 + steps // 20)
-                else:
-                    self.assertLessEqual(
-                        self.factorisations(self.folder / f"{number}-condensed"),
-                        steps + 1)
+                for folder in folders:
+                    if law == "linear elastic":
+                        passes = 2 if right == two_step else 1
+                        self.assertLessEqual(self.substitutions(folder),
+                                             2 * passes * steps + 1 + steps // 20)
+                    else:
+                        self.assertLessEqual(self.factorisations(folder), steps + 1)
 
     def test_bodies_with_large_strains(self):
         """One tangent for a step or a few: the same results, and the same digits when
@@ -389,6 +398,29 @@ class Condensed(ProgramTest):
         self.assertEqual((self.folder / "one" / "energy.csv").read_text(),
                          (parts / "energy.csv").read_text())
 
+    def test_bodies_with_large_strains_on_two_ranks(self):
+        """As many factorisations as on one rank, and the same digits when resumed."""
+        ring = NO_FIELDS + ["Linear solver/Type=corrected", "Output/Timing=true",
+                            "Mesh/Nodes around=64", "Mesh/Nodes across=4",
+                            "Start/Initial gap=0.15", "Output/Checkpoint every=1000"]
+        cases = [["Contact/Compliance exponent=3", "Contact/Friction coefficient=0.2"],
+                 ["Contact/Treatment=persistent contact"]]
+        for number, case in enumerate(cases[:1] if is_debug_build() else cases):
+            with self.subTest(" ".join(case)):
+                run = lambda name, end, **how: self.run_program(
+                    "hyperelastic_ring", ring + case + [f"Time/Final time={end}"],
+                    self.folder / f"{number}-{name}", **how)
+                one, two = run("one", .2), run("two", .2, n_ranks=2)
+                self.compare(one, two, 1e-9)
+                self.assertGreater(max(one["active_points_foundation"]), 0)
+                self.assertAlmostEqual(
+                    *(self.factorisations(self.folder / f"{number}-{name}")
+                      for name in ("one", "two")), delta=2)
+                run("parts", .12, n_ranks=2)
+                run("parts", .2, n_ranks=2, options=["--resume"])
+                self.assertEqual(*((self.folder / f"{number}-{name}" / "energy.csv")
+                                   .read_text() for name in ("two", "parts")))
+
     def test_two_bodies_with_large_strains(self):
         """Each before the other: one factorisation a step, the same results as with
         the whole tangents, on two ranks too, and the same digits when resumed."""
@@ -409,8 +441,10 @@ class Condensed(ProgramTest):
                 self.assertLess(max(abs(b) for b in one["balance_residual"]), 1e-11)
                 log = (self.folder / f"{name}-one" / "log.txt").read_text()
                 self.assertIn("condensed to contact", log)
-                self.assertLessEqual(
-                    self.factorisations(pathlib.Path(f"{name}-one")), len(one["time"]))
+                for way in ("one", "whole-2"):
+                    self.assertLessEqual(
+                        self.factorisations(pathlib.Path(f"{name}-{way}")),
+                        len(one["time"]))
                 parts = self.folder / f"{name}-parts"
                 self.run_program("colliding_disks",
                                  disks + case + ["Time/Final time=0.04"], parts)

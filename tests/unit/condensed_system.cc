@@ -389,8 +389,7 @@ BOOST_DATA_TEST_CASE(a_new_matrix_has_its_own_corrections,
   options.is_symmetric = true;
   LowRankCorrection                   correction(body.owned_indices(),
                                MPI_COMM_WORLD,
-                               functionals,
-                               order,
+                               {functionals, order, {}},
                                {},
                                options);
   std::vector<LowRankCorrection::Row> change(n);

@@ -50,6 +50,15 @@ namespace Ricochet
         functionals.add(structure.functionals->functionals);
         first_functional.push_back(functionals.size());
       }
+    const auto first_of_ranks =
+      Utilities::MPI::all_gather(communicator, first_functional);
+    for (unsigned int k = 0; k < structures.size(); ++k)
+      {
+        first_elsewhere.push_back(functionals.size() + elsewhere.size());
+        for (const auto &[rank, number] : structures[k].functionals->elsewhere)
+          elsewhere.push_back({rank, first_of_ranks[rank][k] + number});
+      }
+    first_elsewhere.push_back(functionals.size() + elsewhere.size());
   }
 
 
@@ -257,6 +266,8 @@ namespace Ricochet
         taken[place] = true;
       }
     sum.rows = rows;
+    if (sum.functionals)
+      sum.functionals->elsewhere = elsewhere;
     return sum;
   }
 
@@ -269,14 +280,19 @@ namespace Ricochet
   {
     for (unsigned int k = 0; k < in_order.size(); ++k)
       {
-        const unsigned int         first = first_functional[k];
-        std::vector<FunctionalRow> own(first_functional[k + 1] - first);
+        const unsigned int first  = first_functional[k];
+        const unsigned int n_own  = first_functional[k + 1] - first;
+        const auto         number = [&](const unsigned int f) {
+          return f < n_own ? first + f : first_elsewhere[k] + f - n_own;
+        };
+        std::vector<FunctionalRow> own(n_own + first_elsewhere[k + 1] -
+                                       first_elsewhere[k]);
         (in_order[k]->*ask)(own);
         for (unsigned int f = 0; f < own.size(); ++f)
           {
             for (auto &entry : own[f])
-              entry.first += first;
-            change[first + f] = std::move(own[f]);
+              entry.first = number(entry.first);
+            change[number(f)] = std::move(own[f]);
           }
         if (!products || !in_order[k]->takes_rows())
           continue;

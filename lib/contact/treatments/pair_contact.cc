@@ -150,9 +150,6 @@ namespace Ricochet
           }
     scaling.compress(VectorOperation::insert);
 
-    // On several ranks a point acts on unknowns of another one.
-    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
-      return;
     std::map<types::global_dof_index, double> distances;
     for (const auto &pair : pairs)
       for (const auto &[index, distance] : pair->unknowns())
@@ -161,16 +158,27 @@ namespace Ricochet
           known->second    = std::min(known->second, distance);
         }
     for (const auto &[index, distance] : distances)
-      {
-        skin.push_back(index);
-        skin_order.push_back(distance);
-      }
+      if (owned.is_element(index))
+        {
+          skin.push_back(index);
+          skin_order.push_back(distance);
+        }
     if (!skin.empty())
       place_in_skin.resize(skin.back() - skin.front() + 1, no_place);
     for (unsigned int f = 0; f < skin.size(); ++f)
       place_in_skin[skin[f] - skin.front()] = f;
     skin_values.resize(skin.size());
     skin_force.resize(skin.size());
+
+    // A point acts on unknowns of other ranks, too, which come in their order.
+    const auto skins = Utilities::MPI::all_gather(communicator, skin);
+    for (unsigned int rank = 0; rank < skins.size(); ++rank)
+      if (rank != Utilities::MPI::this_mpi_process(communicator))
+        for (unsigned int f = 0; f < skins[rank].size(); ++f)
+          {
+            other_skin.push_back(skins[rank][f]);
+            elsewhere.push_back({rank, f});
+          }
   }
 
 
@@ -454,8 +462,6 @@ namespace Ricochet
     evaluate(solution);
     residual.add(weight, force);
     clear_multipliers(force);
-    if (skin.empty())
-      return;
     point_of_change = solution;
     for (unsigned int f = 0; f < skin.size(); ++f)
       skin_values[f] = solution(skin[f]);
@@ -540,12 +546,10 @@ namespace Ricochet
     // Less what open points make of their multipliers.
     for (unsigned int f = 0; f < skin.size(); ++f)
       skin_force[f] = weight * force(skin[f]);
-    if (!skin.empty())
-      for (const PointState &state : states)
-        for_each_multiplier(state, [&](const types::global_dof_index index) {
-          skin_force[skin_place(index)] -=
-            open_diagonal(state) * solution(index);
-        });
+    for (const PointState &state : states)
+      for_each_multiplier(state, [&](const types::global_dof_index index) {
+        skin_force[skin_place(index)] -= open_diagonal(state) * solution(index);
+      });
   }
 
 
@@ -728,7 +732,16 @@ namespace Ricochet
   unsigned int
   PairContact<dim>::skin_place(const types::global_dof_index index) const
   {
-    return place_in_skin[index - skin.front()];
+    if (owned.is_element(index))
+      {
+        const unsigned int place = place_in_skin[index - skin.front()];
+        Assert(place != no_place, ExcInternalError());
+        return place;
+      }
+    const auto other =
+      std::lower_bound(other_skin.begin(), other_skin.end(), index);
+    Assert(other != other_skin.end() && *other == index, ExcInternalError());
+    return skin.size() + (other - other_skin.begin());
   }
 
 
@@ -952,15 +965,13 @@ namespace Ricochet
     ContactStructure structure;
     structure.has_multipliers  = !method.law;
     structure.couplings_change = true;
-    if (!skin.empty())
+    structure.functionals.emplace();
+    structure.functionals->order     = skin_order;
+    structure.functionals->elsewhere = elsewhere;
+    for (const auto index : skin)
       {
-        structure.functionals.emplace();
-        structure.functionals->order = skin_order;
-        for (const auto index : skin)
-          {
-            structure.functionals->functionals.add(index, 1.);
-            structure.functionals->functionals.end_functional();
-          }
+        structure.functionals->functionals.add(index, 1.);
+        structure.functionals->functionals.end_functional();
       }
     return structure;
   }

@@ -130,8 +130,7 @@ namespace Ricochet
     void
     complete_open_tangent(Matrix &tangent) const override;
 
-    /// On one rank with functionals: the unknowns of the surfaces, of which contact is
-    /// any function.
+    /// With functionals: the unknowns of the surfaces, of which contact is any function.
     void
     tangent_change(std::vector<FunctionalRow> &change) const override;
 
@@ -320,7 +319,8 @@ namespace Ricochet
             action(index);
     }
 
-    /// Place of an unknown of the surfaces in #skin.
+    /// Number of an unknown of the surfaces: its place in #skin, or behind all of that its
+    /// place in #other_skin.
     unsigned int
     skin_place(const dealii::types::global_dof_index index) const;
 
@@ -394,12 +394,15 @@ namespace Ricochet
     Patterns     facets;
     unsigned int n_frozen = 0, n_returns = 0;
     Couplings    all_couplings;
-    // The unknowns of the surfaces in ascending order, on one rank, the order in which
+    // This rank's unknowns of the surfaces in ascending order, the order in which
     // contact is expected to spread over them, their values at the last
     // complete_residual(), and what contact does to each.
     std::vector<dealii::types::global_dof_index> skin;
-    std::vector<double>           skin_order, skin_values, skin_force;
-    static constexpr unsigned int no_place =
+    std::vector<double> skin_order, skin_values, skin_force;
+    // Those of other ranks, ascending, and whose they are.
+    std::vector<dealii::types::global_dof_index>          other_skin;
+    std::vector<ContactStructure::ActsThrough::Elsewhere> elsewhere;
+    static constexpr unsigned int                         no_place =
       dealii::numbers::invalid_unsigned_int;
     /// Of each unknown from the first of the skin on.
     std::vector<unsigned int> place_in_skin;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_gathered_body_h
+#define ricochet_solvers_gathered_body_h
+
+#include <solvers/first_rank.h>
+#include <solvers/nearby_body.h>
+
+namespace Ricochet
+{
+  /// A NearbyBody on the first rank, of a body that is on several ranks.
+  class GatheredBody : public FactoredBody
+  {
+  public:
+    /// @param factorisation on one rank; else as for NearbyBody.
+    GatheredBody(std::unique_ptr<Factorisation>       factorisation,
+                 const ContactStructure::ActsThrough &contact,
+                 TangentSolver::Costs                &spent);
+
+    bool
+    factorise(const Tangent &tangent) override;
+
+    unsigned int
+    n_functionals() const override
+    {
+      return place_of_number.size();
+    }
+
+    unsigned int
+    n_known() const override
+    {
+      return contact.n_known();
+    }
+
+    unsigned int
+    place(const unsigned int f) const override
+    {
+      return place_of_number[numbers[f]];
+    }
+
+    void
+    begin(const Vector &right_hand_side) override;
+
+    void
+    observe(std::vector<double> &values) override;
+
+    void
+    finish(const std::vector<double> &coefficients, Vector &solution) override;
+
+    void
+    add_functionals(const std::vector<double> &coefficients,
+                    Vector                    &vector) const override;
+
+    std::vector<double>
+    along_functionals(const Vector &vector) override;
+
+    void
+    add_compliance(const double               factor,
+                   const std::vector<double> &coefficients,
+                   std::vector<double>       &values) override;
+
+    void
+    solve_contact(const std::vector<FunctionalRow> &change,
+                  const std::vector<FunctionalRow> &excess_change,
+                  std::vector<double>              &coefficients,
+                  const std::vector<double>        &values) override;
+
+  private:
+    /// Gather the functionals of all ranks.
+    void
+    make_nearby();
+
+    // Until there is a NearbyBody.
+    std::unique_ptr<Factorisation>      factorisation;
+    const ContactStructure::ActsThrough contact;
+    TangentSolver::Costs               &spent;
+    Matrix                              matrix;
+    FirstRank                           first_rank;
+    // Functionals of all ranks have numbers, one rank's behind the other's: those of the
+    // functionals that this rank knows; and by number, their places.
+    std::vector<unsigned int>     numbers, place_of_number;
+    ContactStructure::ActsThrough all_contact;
+    // On the first rank.
+    std::unique_ptr<NearbyBody> nearby;
+  };
+} // namespace Ricochet
+
+#endif
