@@ -162,6 +162,15 @@ namespace Ricochet
     virtual void
     complete_open_tangent(Matrix &tangent) const = 0;
 
+    /// Where the structure has functionals: complete @p tangent with what
+    /// complete_tangent() adds besides tangent_change(), at any state. For most contact
+    /// that is what open points add.
+    virtual void
+    complete_constant_tangent(Matrix &tangent) const
+    {
+      complete_open_tangent(tangent);
+    }
+
     /// What complete_tangent() couples at the last complete_residual() beyond the
     /// couplings of the body; null if it never does. Collective.
     virtual const Couplings *
@@ -177,7 +186,7 @@ namespace Ricochet
     tangent_structure() const = 0;
 
     /// Where the structure has functionals: the difference between
-    /// complete_tangent() and complete_open_tangent() in terms of them, see
+    /// complete_tangent() and complete_constant_tangent() in terms of them, see
     /// Tangent::contact_change. @p change has an empty row for each functional
     /// that this rank knows.
     virtual void

@@ -68,7 +68,10 @@ namespace Ricochet
                                                         row.n_entries,
                                                         row.values);
     save_rows(&OwnedRow::body);
-    tangent.complete_open_contact(tangent_matrix);
+    if (kind == Correction::rows)
+      tangent.complete_open_contact(tangent_matrix);
+    else
+      tangent.complete_constant_contact(tangent_matrix);
     save_rows(&OwnedRow::open);
     if (!correction)
       correction = std::make_unique<LowRankCorrection>(

@@ -61,7 +61,7 @@ namespace Ricochet
   GatheredBody::factorise(const Tangent &tangent)
   {
     tangent.assemble_body(matrix);
-    tangent.complete_open_contact(matrix);
+    tangent.complete_constant_contact(matrix);
     const Epetra_CrsMatrix *all_rows = nullptr;
     {
       const Stopwatch stopwatch(spent.factorising);

@@ -175,7 +175,7 @@ namespace Ricochet
       "contacts are of these kinds: Newton's method looks at these alone. A linear "
       "body is solved for twice in each stage of a time step, instead of twice in each "
       "iteration; for one that is not linear, the tangent at the last state, or with the "
-      "midpoint scheme and no multipliers that of a few steps before, serves in all "
+      "midpoint scheme that of a few steps before, serves in all "
       "iterations of a step, which are more and much cheaper, and Newton's method takes "
       "over where they are too slow. "
       "Results are the same to the tolerance of Newton's method.");

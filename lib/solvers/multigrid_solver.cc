@@ -93,7 +93,7 @@ namespace Ricochet
                                     contact.rows,
                                     *matrix.entries());
             *matrix.entries() = 0.;
-            tangent.complete_open_contact(*matrix.entries());
+            tangent.complete_constant_contact(*matrix.entries());
             terms.push_back({1., &matrix});
           }
         current->set_terms(terms);

@@ -49,7 +49,7 @@ namespace Ricochet
   NearbyBody::factorise(const Tangent &tangent)
   {
     tangent.assemble_body(matrix);
-    tangent.complete_open_contact(matrix);
+    tangent.complete_constant_contact(matrix);
     return factorise(matrix.trilinos_matrix());
   }
 

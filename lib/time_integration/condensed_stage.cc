@@ -185,7 +185,9 @@ namespace Ricochet
 
 
   std::vector<NewtonSolver::Iteration>
-  CondensedStage::solve(NewtonSolver &newton, Vector &solution)
+  CondensedStage::solve(NewtonSolver &newton,
+                        Vector       &solution,
+                        const double  sufficient)
   {
     const unsigned int n_own = forces.size() + 1;
     const auto         sizes = Utilities::MPI::all_gather(communicator, n_own);
@@ -212,7 +214,7 @@ namespace Ricochet
       problem.accept,
       problem.active_set,
       [this]() { return body_force_scale + contact_force_scale; },
-      problem.round_off,
+      [this, sufficient]() { return problem.round_off() + sufficient; },
       nullptr};
     // A line search may get stuck where points pass from facet to facet. Iterations
     // cost little here, and full steps lead on.

@@ -56,11 +56,13 @@ namespace Ricochet
      * Solve with @p newton, from the guess @p solution to @p solution; where it gets
      * stuck, it begins anew from there a few times.
      *
+     * @param sufficient a residual (N) that will do, besides what Newton's method
+     * tolerates.
      * @return what NewtonSolver::solve() returns, all attempts one behind the other.
      * @throws NewtonFailure; the guess remains.
      */
     std::vector<NewtonSolver::Iteration>
-    solve(NewtonSolver &newton, Vector &solution);
+    solve(NewtonSolver &newton, Vector &solution, const double sufficient = 0.);
 
   private:
     /// z and s of this rank, from and to the small vectors of Newton's method.

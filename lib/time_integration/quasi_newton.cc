@@ -14,6 +14,11 @@ namespace Ricochet
     constexpr unsigned int patience        = 12;
     constexpr double       required_factor = .1;
     constexpr unsigned int max_iterations  = 100;
+
+    /// Of the residual of an iterate, what contact in the near system may leave over. Ten
+    /// times and a hundred times as much take as many iterations; without it, what stiff
+    /// laws make of round-off may be more than the tolerance, while the residual is large.
+    constexpr double rest_of_contact = 1e-3;
   } // namespace
 
 
@@ -57,7 +62,9 @@ namespace Ricochet
         problem.forces_to_rows(step);
         problem.add_iterations(1);
         CondensedStage condensed = problem.condensed(newton_problem, step);
-        condensed.solve(condensed_newton, solution);
+        condensed.solve(condensed_newton,
+                        solution,
+                        rest_of_contact * norm * newton_problem.scale());
       }
   }
 } // namespace Ricochet

@@ -436,10 +436,8 @@ namespace Ricochet
             throw NewtonFailure(newton_failure.what() + reason + "\n");
           }
       }
-    // Where Newton's method had to take over, the next step needs another tangent; with
-    // multipliers it depends on where contact is.
-    if (condenses && !bulk.is_linear() && stage.bulk_step_force &&
-        !has_multipliers)
+    // Where Newton's method had to take over, the next step needs another tangent.
+    if (condenses && !bulk.is_linear() && stage.bulk_step_force)
       new_state.tangent.count(n_iterations_with_tangent);
     else
       new_state.tangent.forget();

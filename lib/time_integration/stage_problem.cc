@@ -219,6 +219,8 @@ namespace Ricochet
     tangent.complete_contact = complete(&TangentContact::complete_tangent);
     tangent.complete_open_contact =
       complete(&TangentContact::complete_open_tangent);
+    tangent.complete_constant_contact =
+      complete(&TangentContact::complete_constant_tangent);
     tangent.contact_change = [this](std::vector<FunctionalRow> &change) {
       const Stopwatch stopwatch(parts.tangent_seconds);
       parts.contact.tangent_change(change);

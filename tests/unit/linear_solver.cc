@@ -199,6 +199,10 @@ namespace
           contact->complete_open_tangent(matrix);
           matrix.clear_rows(clamped, 1.);
         };
+        tangent.complete_constant_contact = [&](Matrix &matrix) {
+          contact->complete_constant_tangent(matrix);
+          matrix.clear_rows(clamped, 1.);
+        };
         tangent.contact_change = [&](std::vector<FunctionalRow> &change) {
           contact->tangent_change(change);
         };

@@ -224,6 +224,15 @@ namespace Ricochet
 
 
 
+  void
+  ContactSum::complete_constant_tangent(Matrix &tangent) const
+  {
+    for (const ContactOperator *contact : in_order)
+      contact->complete_constant_tangent(tangent);
+  }
+
+
+
   ContactStructure
   ContactSum::tangent_structure() const
   {

@@ -92,6 +92,9 @@ namespace Ricochet
     void
     complete_open_tangent(Matrix &tangent) const override;
 
+    void
+    complete_constant_tangent(Matrix &tangent) const override;
+
     bool
     takes_rows() const override
     {

@@ -251,6 +251,24 @@ namespace Ricochet
 
 
 
+  bool
+  PointwiseContact::prefers_displacements() const
+  {
+    // Of directions there are fewer; but not with friction in points of faces, each of
+    // which has three.
+    const ContactLawTraits traits = law->traits();
+    if (friction.exists())
+      return traits.needs_multiplier || !traits.nodal;
+    // Directions of closing leave the forces of a multiplier to the matrix of the body,
+    // in which they stand on one side only, so that there are no half solutions, and
+    // the symmetric part is far from it.
+    const auto closing = closing_directions(*law, 1.);
+    return traits.needs_multiplier && closing &&
+      closing->test != closing->trial;
+  }
+
+
+
   void
   PointwiseContact::make_displacement_functionals()
   {
@@ -284,13 +302,12 @@ namespace Ricochet
 
 
   ContactPointTangent
-  PointwiseContact::tangent_of_open_point(const unsigned int p) const
+  PointwiseContact::constant_tangent(const unsigned int p) const
   {
     ContactPointTangent open =
       open_tangent(*law, evaluator.contact_points()[p].cell_diameter);
-    if (displacement_functionals)
-      for (unsigned int c = 0; c < 3; ++c)
-        open[0][c] = open[c][0] = 0.;
+    for (unsigned int c = 0; c < 3; ++c)
+      open[0][c] = open[c][0] = 0.;
     return open;
   }
 
@@ -315,7 +332,7 @@ namespace Ricochet
     result[DisplacementFunctionals::multiplier] = closings[p].row == 0
       ? point_force[p].gap * closings[p].test[2]
       : point_force[p].multiplier -
-        tangent_of_open_point(p)[2][2] * state[p].multiplier;
+        constant_tangent(p)[2][2] * state[p].multiplier;
     return result;
   }
 
@@ -326,8 +343,7 @@ namespace Ricochet
   {
     const double              h = evaluator.contact_points()[p].cell_diameter;
     const ContactPointTangent closing =
-      law->tangent(linearisation[p], old_state[p], h) -
-      tangent_of_open_point(p);
+      law->tangent(linearisation[p], old_state[p], h) - constant_tangent(p);
     DisplacementFunctionals::TangentOfPoint result;
     for (unsigned int s = 1; s < 3; ++s)
       for (unsigned int t = 1; t < 3; ++t)
@@ -478,7 +494,28 @@ namespace Ricochet
   PointwiseContact::complete_open_tangent(Matrix &tangent) const
   {
     for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
-      evaluator.add(p, weight, tangent_of_open_point(p), tangent);
+      {
+        const ContactPointTangent open =
+          open_tangent(*law, evaluator.contact_points()[p].cell_diameter);
+        if (open[0].norm_square() > 0.)
+          kinematics->update_geometry(p);
+        evaluator.add(p, weight, open, tangent);
+      }
+    tangent.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  PointwiseContact::complete_constant_tangent(Matrix &tangent) const
+  {
+    if (!displacement_functionals)
+      {
+        complete_open_tangent(tangent);
+        return;
+      }
+    for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
+      evaluator.add(p, weight, constant_tangent(p), tangent);
     tangent.compress(VectorOperation::add);
   }
 

@@ -45,7 +45,8 @@ namespace Ricochet
       , modified_energy(modified_energy)
       , kinematics(make_kinematics(body,
                                    std::move(points),
-                                   {/* way */ friction.coefficient > 0.,
+                                   {/* way */ friction.coefficient > 0. ||
+                                      prefers_displacements(),
                                     /* prediction */ false}))
       , evaluator(kinematics->evaluator)
       , stress_evaluator(body, std::move(stress_points))
@@ -56,12 +57,7 @@ namespace Ricochet
                               body.multiplier_indices().n_elements())
     {
       compute_row_scaling();
-      // Of directions that stay the same there are fewer than of unknowns of the
-      // displacement; but not with friction in points of faces, each of which has three.
-      const ContactLawTraits traits = this->law->traits();
-      if (!kinematics->has_constant_rows() ||
-          (this->friction.exists() &&
-           (traits.needs_multiplier || !traits.nodal)))
+      if (!kinematics->has_constant_rows() || prefers_displacements())
         make_displacement_functionals();
       // Whether the law is of that kind does not depend on h_T.
       else if (closing_directions(*this->law, 1.))
@@ -84,6 +80,10 @@ namespace Ricochet
 
     void
     complete_open_tangent(Matrix &tangent) const override;
+
+    /// With #displacement_functionals nothing that depends on directions, which may turn.
+    void
+    complete_constant_tangent(Matrix &tangent) const override;
 
     ContactStructure
     tangent_structure() const override;
@@ -203,12 +203,16 @@ namespace Ricochet
     bool
     acts(const unsigned int p) const;
 
-    /// What complete_open_tangent() has in a point: with #displacement_functionals nothing
-    /// that depends on directions, which may turn.
-    ContactPointTangent
-    tangent_of_open_point(const unsigned int p) const;
+    /// Whether contact acts through the unknowns of the displacement where its directions
+    /// stay the same, too.
+    bool
+    prefers_displacements() const;
 
-    /// The force in a point, less what it is at the same state in an open one.
+    /// What complete_constant_tangent() has in a point with #displacement_functionals.
+    ContactPointTangent
+    constant_tangent(const unsigned int p) const;
+
+    /// The force in a point, less what the constant tangent makes of the state.
     DisplacementFunctionals::OfPoint
     closing_force(const unsigned int p) const;
 
