@@ -475,4 +475,31 @@ BOOST_AUTO_TEST_CASE(accelerations_have_their_forces)
                     NewtonFailure);
 }
 
+BOOST_AUTO_TEST_CASE(rows_of_all_ranks_are_summed)
+{
+  // Each rank has a part of row 7, with a column that all share, and a row of its own.
+  const unsigned int rank =
+                       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
+                     n_ranks =
+                       dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const auto sums =
+    sum_of_all_ranks({{20 + rank, {{{{rank, 1.}}, {}, {{3, 4.}}}}},
+                      {7, {{{{5, 1. + rank}, {9 + rank, 2.}}, {{1, .5}}, {}}}}},
+                     MPI_COMM_WORLD);
+  BOOST_REQUIRE_EQUAL(sums.size(), n_ranks + 1);
+  BOOST_CHECK_EQUAL(sums[0].number, 7u);
+  FunctionalRow row = {{5, n_ranks * (n_ranks + 1.) / 2.}};
+  for (unsigned int r = 0; r < n_ranks; ++r)
+    row.emplace_back(9 + r, 2.);
+  BOOST_CHECK(sums[0].rows[0] == row);
+  BOOST_CHECK(sums[0].rows[1] == FunctionalRow({{1, .5 * n_ranks}}));
+  BOOST_CHECK(sums[0].rows[2].empty());
+  for (unsigned int r = 0; r < n_ranks; ++r)
+    {
+      BOOST_CHECK_EQUAL(sums[r + 1].number, 20 + r);
+      BOOST_CHECK(sums[r + 1].rows[0] == FunctionalRow({{r, 1.}}));
+      BOOST_CHECK(sums[r + 1].rows[2] == FunctionalRow({{3, 4.}}));
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
