@@ -345,10 +345,9 @@ namespace Ricochet
       const bool is_plain = !between_bodies && !body.has_multipliers();
       const bool has_room = !body.has_multipliers() ||
         Utilities::MPI::n_mpi_processes(body.communicator) == 1;
-      const bool has_blocks = multigrid ? is_plain && setup.degree > 1
-        : is_linear
-        ? is_plain || (has_room && parameters.linear_solver.condense)
-        : is_plain;
+      const bool has_blocks = is_plain ? !multigrid || setup.degree > 1
+                                       : !multigrid && is_linear && has_room &&
+          parameters.linear_solver.condense;
       return has_blocks ? MatrixStorage::blocks : MatrixStorage::entries;
     }
 

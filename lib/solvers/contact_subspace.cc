@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <solvers/body_matrix.h>
 #include <base/all_ranks.h>
+#include <solvers/body_matrix.h>
 #include <solvers/contact_subspace.h>
 
 #include <deal.II/base/mpi.h>
@@ -8,7 +8,6 @@
 #include <Eigen/CholmodSupport>
 
 #include <algorithm>
-#include <type_traits>
 
 namespace Ricochet
 {

@@ -137,11 +137,12 @@ namespace Ricochet
       factorise(const Epetra_CrsMatrix &matrix,
                 const bool /*keep_pivots*/) override
       {
-        int    *row_start = nullptr, *columns = nullptr;
-        double *values = nullptr;
-        if (matrix.ExtractCrsDataPointers(row_start, columns, values) != 0)
-          AssertThrow(false,
-                      ExcMessage("The matrix is not stored in one piece."));
+        int      *row_start = nullptr, *columns = nullptr;
+        double   *values = nullptr;
+        const int error =
+          matrix.ExtractCrsDataPointers(row_start, columns, values);
+        AssertThrow(error == 0,
+                    ExcMessage("The matrix is not stored in one piece."));
         if (symmetric.rows() == 0)
           find_pattern(matrix, row_start, columns);
 

@@ -3,10 +3,6 @@
 #include <base/stopwatch.h>
 #include <solvers/gathered_body.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <numeric>
-
 namespace Ricochet
 {
   using namespace dealii;
@@ -27,17 +23,7 @@ namespace Ricochet
     const MPI_Comm     communicator = matrix.get_mpi_communicator();
     const Functionals &own          = contact.functionals;
 
-    std::vector<unsigned int> first(1, 0);
-    for (const unsigned int n :
-         of_all_ranks(std::vector<unsigned int>{own.size()}, communicator))
-      first.push_back(first.back() + n);
-    numbers.resize(own.size());
-    std::iota(numbers.begin(),
-              numbers.end(),
-              first[Utilities::MPI::this_mpi_process(communicator)]);
-    for (const auto &[rank, number] : contact.elsewhere)
-      numbers.push_back(first[rank] + number);
-
+    places = FunctionalPlaces(contact, communicator);
     std::vector<std::size_t> n_entries;
     for (unsigned int f = 0; f < own.size(); ++f)
       n_entries.push_back(own.begin[f + 1] - own.begin[f]);
@@ -47,7 +33,6 @@ namespace Ricochet
     all.index         = of_all_ranks(own.index, communicator);
     all.value         = of_all_ranks(own.value, communicator);
     all_contact.order = of_all_ranks(contact.order, communicator);
-    place_of_number   = places_in_order(all_contact.order);
     if (first_rank.is_here())
       nearby = std::make_unique<NearbyBody>(std::move(factorisation),
                                             all_contact,
@@ -62,15 +47,13 @@ namespace Ricochet
   {
     tangent.assemble_body(matrix);
     tangent.complete_constant_contact(matrix);
-    const Epetra_CrsMatrix *all_rows = nullptr;
-    {
-      const Stopwatch stopwatch(spent.factorising);
-      all_rows = &first_rank.gather(matrix.trilinos_matrix());
-    }
+    const Stopwatch         stopwatch(spent.factorising);
+    const Epetra_CrsMatrix &all_rows =
+      first_rank.gather(matrix.trilinos_matrix());
     if (factorisation)
       make_nearby();
     bool is_at_hand = false;
-    first_rank.run([&]() { is_at_hand = nearby->factorise(*all_rows); });
+    first_rank.run([&]() { is_at_hand = nearby->factorise(all_rows); });
     return first_rank.knows(is_at_hand);
   }
 
@@ -127,13 +110,13 @@ namespace Ricochet
   GatheredBody::along_functionals(const Vector &vector)
   {
     const Vector       &all = first_rank.gather(vector);
-    std::vector<double> products(place_of_number.size());
+    std::vector<double> products(n_functionals());
     if (first_rank.is_here())
       products = nearby->along_functionals(all);
     first_rank.broadcast(products.data(), products.size());
     std::vector<double> own;
     for (unsigned int f = 0; f < contact.functionals.size(); ++f)
-      own.push_back(products[numbers[f]]);
+      own.push_back(products[places.numbers[f]]);
     return own;
   }
 
@@ -161,10 +144,11 @@ namespace Ricochet
     for (unsigned int f = 0; f < change.size(); ++f)
       if (!change[f].empty() || !excess_change[f].empty())
         {
-          rows.push_back({numbers[f], {{change[f], excess_change[f], {}}}});
+          rows.push_back(
+            {places.numbers[f], {{change[f], excess_change[f], {}}}});
           for (FunctionalRow &row : rows.back().rows)
             for (auto &entry : row)
-              entry.first = numbers[entry.first];
+              entry.first = places.numbers[entry.first];
         }
     rows = sum_of_all_ranks(std::move(rows), matrix.get_mpi_communicator());
     first_rank.run([&]() {

@@ -22,7 +22,7 @@ namespace Ricochet
     unsigned int
     n_functionals() const override
     {
-      return place_of_number.size();
+      return places.place_of_number.size();
     }
 
     unsigned int
@@ -34,7 +34,7 @@ namespace Ricochet
     unsigned int
     place(const unsigned int f) const override
     {
-      return place_of_number[numbers[f]];
+      return places.place(f);
     }
 
     void
@@ -75,12 +75,10 @@ namespace Ricochet
     TangentSolver::Costs               &spent;
     Matrix                              matrix;
     FirstRank                           first_rank;
-    // Functionals of all ranks have numbers, one rank's behind the other's: those of the
-    // functionals that this rank knows; and by number, their places.
-    std::vector<unsigned int>     numbers, place_of_number;
+    FunctionalPlaces                    places;
+    // The functionals of all ranks by number; and on the first rank, the body.
     ContactStructure::ActsThrough all_contact;
-    // On the first rank.
-    std::unique_ptr<NearbyBody> nearby;
+    std::unique_ptr<NearbyBody>   nearby;
   };
 } // namespace Ricochet
 

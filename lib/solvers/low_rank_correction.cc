@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/all_ranks.h>
 #include <base/exceptions.h>
+#include <solvers/functional_places.h>
 #include <solvers/low_rank_correction.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <set>
-#include <tuple>
 
 namespace Ricochet
 {
@@ -17,19 +16,17 @@ namespace Ricochet
 
   LowRankCorrection::LowRankCorrection(const IndexSet &owned,
                                        const MPI_Comm  communicator,
-                                       ContactStructure::ActsThrough all,
+                                       const ContactStructure::ActsThrough &all,
                                        std::optional<Functionals> observables_,
                                        const Options             &options)
     : communicator(communicator)
-    , directions(std::move(all.functionals))
+    , directions(all.functionals)
     , own_observables(std::move(observables_))
     , observables(own_observables ? *own_observables : directions)
     , options(options)
     , products(directions)
     , work(owned, communicator)
   {
-    const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
-
     IndexSet relevant = owned;
     relevant.add_indices(observables.index.begin(), observables.index.end());
     ghosted = GhostedVector(Vector(owned, relevant, communicator));
@@ -41,33 +38,22 @@ namespace Ricochet
                               ? static_cast<int>(owned.index_within_set(index))
                               : -1);
 
-    // The directions of all ranks are sorted.
-    using Entry = std::tuple<double, unsigned int, unsigned int>;
-    std::vector<Entry> sorted;
-    const auto orders = Utilities::MPI::all_gather(communicator, all.order);
-    for (unsigned int rank = 0; rank < orders.size(); ++rank)
-      for (unsigned int d = 0; d < orders[rank].size(); ++d)
-        sorted.emplace_back(orders[rank][d], rank, d);
-    std::sort(sorted.begin(), sorted.end());
-    std::vector<std::vector<unsigned int>> place_of;
-    for (const auto &order : orders)
-      place_of.emplace_back(order.size());
-    direction_at_place.assign(sorted.size(), -1);
-    for (unsigned int place = 0; place < sorted.size(); ++place)
-      {
-        const auto &[distance, rank, d] = sorted[place];
-        place_of[rank][d]               = place;
-        if (rank == my_rank)
-          direction_at_place[place] = d;
-      }
-    place_of_direction = place_of[my_rank];
+    const FunctionalPlaces places(all, communicator);
+    for (const unsigned int number : places.numbers)
+      place_of_direction.push_back(places.place_of_number[number]);
+    direction_at_place.assign(places.place_of_number.size(), -1);
+    for (unsigned int d = 0; d < directions.size(); ++d)
+      direction_at_place[place_of_direction[d]] = d;
 
     // The observables of all ranks stand one behind the other, unless they are the
     // directions: those that contact needs together lie together.
     if (own_observables)
       {
         const auto sizes =
-          Utilities::MPI::all_gather(communicator, observables.size());
+          of_all_ranks(std::vector<unsigned int>{observables.size()},
+                       communicator);
+        const unsigned int my_rank =
+          Utilities::MPI::this_mpi_process(communicator);
         n_observables = std::accumulate(sizes.begin(), sizes.end(), 0u);
         place_of_observable.resize(observables.size());
         std::iota(place_of_observable.begin(),
@@ -76,11 +62,11 @@ namespace Ricochet
       }
     else
       {
-        n_observables       = n_places();
-        place_of_observable = place_of_direction;
+        n_observables = n_places();
+        place_of_observable.assign(place_of_direction.begin(),
+                                   place_of_direction.begin() +
+                                     directions.size());
       }
-    for (const auto &elsewhere : all.elsewhere)
-      place_of_direction.push_back(place_of[elsewhere.rank][elsewhere.number]);
     forget_columns();
   }
 
@@ -258,6 +244,7 @@ namespace Ricochet
       }
     return all;
   }
+
 
 
   void

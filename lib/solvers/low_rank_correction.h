@@ -72,11 +72,11 @@ namespace Ricochet
      * @param observables of this rank; they may look at other ranks. None: the
      * directions.
      */
-    LowRankCorrection(const dealii::IndexSet       &owned,
-                      const MPI_Comm                communicator,
-                      ContactStructure::ActsThrough directions,
-                      std::optional<Functionals>    observables,
-                      const Options                &options);
+    LowRankCorrection(const dealii::IndexSet              &owned,
+                      const MPI_Comm                       communicator,
+                      const ContactStructure::ActsThrough &directions,
+                      std::optional<Functionals>           observables,
+                      const Options                       &options);
 
     /// The place of direction @p d of this rank, or of another one (see
     /// ContactStructure::ActsThrough), among those of all ranks, in their order.

@@ -12,23 +12,6 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  std::vector<unsigned int>
-  places_in_order(const std::vector<double> &order)
-  {
-    std::vector<unsigned int> functional_at(order.size()), places(order.size());
-    std::iota(functional_at.begin(), functional_at.end(), 0);
-    std::stable_sort(functional_at.begin(),
-                     functional_at.end(),
-                     [&](const unsigned int a, const unsigned int b) {
-                       return order[a] < order[b];
-                     });
-    for (unsigned int place = 0; place < places.size(); ++place)
-      places[functional_at[place]] = place;
-    return places;
-  }
-
-
-
   NearbyBody::NearbyBody(std::unique_ptr<Factorisation>       factorisation,
                          const ContactStructure::ActsThrough &contact,
                          TangentSolver::Costs                &spent)
@@ -50,6 +33,7 @@ namespace Ricochet
   {
     tangent.assemble_body(matrix);
     tangent.complete_constant_contact(matrix);
+    const Stopwatch stopwatch(spent.factorising);
     return factorise(matrix.trilinos_matrix());
   }
 
@@ -58,7 +42,6 @@ namespace Ricochet
   bool
   NearbyBody::factorise(const Epetra_CrsMatrix &tangent_matrix)
   {
-    const Stopwatch stopwatch(spent.factorising);
     ++spent.n_factorisations;
     halves.assign(functionals.size(), {});
     columns.assign(functionals.size(), {});

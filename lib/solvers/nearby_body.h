@@ -3,6 +3,7 @@
 #define ricochet_solvers_nearby_body_h
 
 #include <solvers/condensed_system.h>
+#include <solvers/functional_places.h>
 #include <solvers/functional_products.h>
 #include <solvers/factorisation.h>
 #include <solvers/tangent_solver.h>
@@ -17,16 +18,12 @@ namespace Ricochet
   class FactoredBody : public CondensedSystem
   {
   public:
-    /// Factor the tangent with open contact. @return whether the factors are at hand,
+    /// Factor the tangent but for Tangent::contact_change. @return whether the factors are at hand,
     /// which is the same each time; if not, this cannot be used. Collective.
     /// @throws NewtonFailure when it is singular.
     virtual bool
     factorise(const Tangent &tangent) = 0;
   };
-
-  /// @return the place of each functional among all of them by their @p order.
-  std::vector<unsigned int>
-  places_in_order(const std::vector<double> &order);
 
   /**
    * The symmetric part of the tangent of a body, factored, which is near that of the
@@ -50,7 +47,7 @@ namespace Ricochet
     bool
     factorise(const Tangent &tangent) override;
 
-    /// The same for a matrix that is at hand.
+    /// The same for a matrix that is at hand, whose time the caller takes.
     bool
     factorise(const Epetra_CrsMatrix &tangent_matrix);
 

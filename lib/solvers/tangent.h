@@ -102,8 +102,9 @@ namespace Ricochet
     std::function<void(Matrix &)> complete_open_contact;
     /// Add what contact adds besides contact_change.
     std::function<void(Matrix &)> complete_constant_contact;
-    /// The difference of that and complete_contact as the rows of a matrix C between the functionals f_i
-    /// that this rank knows: the sum of C_ij f_i f_j^T, and of what other ranks add.
+    /// The difference of that and complete_contact as the rows of a matrix C between the
+    /// functionals f_i that this rank knows: the sum of C_ij f_i f_j^T, and of what other
+    /// ranks add.
     std::function<void(std::vector<FunctionalRow> &)> contact_change;
     /// Where contact takes rows, besides the sum of E_ij f_i f_j^T K, with the body's
     /// matrix K.

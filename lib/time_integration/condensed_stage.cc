@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/all_ranks.h>
 #include <base/exceptions.h>
 #include <base/vector_operations.h>
 #include <time_integration/condensed_stage.h>
@@ -31,7 +32,7 @@ namespace Ricochet
     if (work.size() != residual.size())
       work.reinit(residual);
     contact.force_change(forces);
-    const std::vector<double> all = of_all_ranks(forces);
+    const std::vector<double> all = by_place(forces);
     for (double &force : forces)
       force = -force;
     system.add_functionals(forces, open_residual);
@@ -87,7 +88,7 @@ namespace Ricochet
 
 
   std::vector<double>
-  CondensedStage::of_all_ranks(const std::vector<double> &coefficients) const
+  CondensedStage::by_place(const std::vector<double> &coefficients) const
   {
     std::vector<double> all(system.n_functionals(), 0.);
     for (unsigned int f = 0; f < coefficients.size(); ++f)
@@ -101,9 +102,8 @@ namespace Ricochet
   void
   CondensedStage::residual(const Vector &point, Vector &result)
   {
-    Unknowns                  unknowns = read(point);
-    const std::vector<double> coefficients =
-      of_all_ranks(unknowns.coefficients);
+    Unknowns                  unknowns     = read(point);
+    const std::vector<double> coefficients = by_place(unknowns.coefficients);
     look_around(coefficients);
     std::vector<double> values(flight_values);
     for (double &value : values)
@@ -170,7 +170,7 @@ namespace Ricochet
     for (unsigned int f = 0; f < open_excess.size(); ++f)
       for (const auto &[g, value] : excess_change[f])
         rest.coefficients[f] -= value * rest.share * open_excess[g];
-    std::vector<double> coefficients = of_all_ranks(rest.coefficients);
+    std::vector<double> coefficients = by_place(rest.coefficients);
     std::vector<double> values(flight_values);
     for (double &value : values)
       value *= -rest.share;
@@ -190,9 +190,10 @@ namespace Ricochet
                         const double  sufficient)
   {
     const unsigned int n_own = forces.size() + 1;
-    const auto         sizes = Utilities::MPI::all_gather(communicator, n_own);
-    const auto         rank  = Utilities::MPI::this_mpi_process(communicator);
-    unsigned int       first = 0, n_all = 0;
+    const auto         sizes =
+      of_all_ranks(std::vector<unsigned int>{n_own}, communicator);
+    const auto   rank  = Utilities::MPI::this_mpi_process(communicator);
+    unsigned int first = 0, n_all = 0;
     for (unsigned int r = 0; r < sizes.size(); ++r)
       {
         first += r < rank ? sizes[r] : 0;

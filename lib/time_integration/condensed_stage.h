@@ -80,7 +80,7 @@ namespace Ricochet
 
     /// Coefficients of all ranks, by place.
     std::vector<double>
-    of_all_ranks(const std::vector<double> &coefficients) const;
+    by_place(const std::vector<double> &coefficients) const;
 
     void
     residual(const Vector &point, Vector &result);
