@@ -34,6 +34,13 @@ namespace Ricochet
     void
     import(const Vector &vector);
 
+    /// Number of the values().
+    unsigned int
+    size() const
+    {
+      return ghosted->MyLength();
+    }
+
     /// Place of the unknown @p index among the values(); -1 if it is not known here.
     int
     local_index(const dealii::types::global_dof_index index) const;

@@ -102,11 +102,12 @@ namespace Ricochet
 
   template <int dim>
   void
-  BulkOnSprings<dim>::add_tangent(const double  factor,
-                                  const Vector &solution,
-                                  Matrix       &tangent) const
+  BulkOnSprings<dim>::add_tangent(const double    factor,
+                                  const Vector   &solution,
+                                  Matrix         &tangent,
+                                  const Unknowns *near) const
   {
-    bulk->add_tangent(factor, solution, tangent);
+    bulk->add_tangent(factor, solution, tangent, near);
     stiffness.add_to(factor, tangent);
   }
 
@@ -136,12 +137,17 @@ namespace Ricochet
 
   template <int dim>
   void
-  BulkOnSprings<dim>::add_step_tangent(const Vector &old_solution,
-                                       const Vector &new_solution,
-                                       const double  time_step,
-                                       Matrix       &tangent) const
+  BulkOnSprings<dim>::add_step_tangent(const Vector   &old_solution,
+                                       const Vector   &new_solution,
+                                       const double    time_step,
+                                       Matrix         &tangent,
+                                       const Unknowns *near) const
   {
-    bulk->add_step_tangent(old_solution, new_solution, time_step, tangent);
+    bulk->add_step_tangent(old_solution,
+                           new_solution,
+                           time_step,
+                           tangent,
+                           near);
     stiffness.add_to(.5, tangent);
     if (has_damping)
       damping.add_to(1. / time_step, tangent);

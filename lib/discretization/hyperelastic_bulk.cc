@@ -238,6 +238,8 @@ namespace Ricochet
 
     constexpr unsigned int n_lanes = Lanes::size();
     const unsigned int     n       = dim * n_nodes;
+    all_batches.resize(n_batches);
+    std::iota(all_batches.begin(), all_batches.end(), 0);
     matrix_entry.reserve(n_batches * n * n * n_lanes);
     std::vector<int> column(n * n_lanes);
     for (unsigned int batch = 0; batch < n_batches; ++batch)
@@ -481,10 +483,11 @@ namespace Ricochet
   void
   HyperelasticBulk<dim>::add_matrices(
     const CellSize<n_points_of_cell, n_nodes_of_cell> /*size*/,
-    const double          factor,
-    const double          new_weight,
-    const StressFunction &stress_function,
-    double               *values) const
+    const double                     factor,
+    const double                     new_weight,
+    const StressFunction            &stress_function,
+    double                          *values,
+    const std::vector<unsigned int> &batches) const
   {
     const unsigned int n_points =
       n_points_of_cell > 0 ? n_points_of_cell : this->n_points;
@@ -498,7 +501,7 @@ namespace Ricochet
     Symmetric2             stress;
     Symmetric4             stress_derivative;
     Lanes                  moduli[n_c][n_c];
-    for (unsigned int batch = 0; batch < n_batches; ++batch)
+    for (const unsigned int batch : batches)
       {
         const Material<dim> &material = materials[batch_part[batch]];
         gather(batch, n_nodes);
@@ -584,7 +587,8 @@ namespace Ricochet
                                     const StressFunction &stress_function,
                                     const Vector         &old_solution,
                                     const Vector         &new_solution,
-                                    Matrix               &tangent) const
+                                    Matrix               &tangent,
+                                    const Unknowns       *near) const
   {
     import_ghosts(old_solution, new_solution);
     int      *row_begin = nullptr, *columns = nullptr;
@@ -596,8 +600,34 @@ namespace Ricochet
     AssertThrow(error == 0, ExcTrilinosError(error));
 
     with_cell_size([&](const auto size) {
-      add_matrices(size, factor, new_weight, stress_function, values);
+      add_matrices(size,
+                   factor,
+                   new_weight,
+                   stress_function,
+                   values,
+                   near ? batches_near(*near) : all_batches);
     });
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  HyperelasticBulk<dim>::batches_near(const Unknowns &unknowns) const
+  {
+    std::vector<bool> is_near(ghosted_new.size(), false);
+    for (const types::global_dof_index unknown : unknowns)
+      if (const int index = ghosted_new.local_index(unknown); index >= 0)
+        is_near[index] = true;
+    const std::size_t         size = n_nodes * dim * Lanes::size();
+    std::vector<unsigned int> batches;
+    for (const unsigned int batch : all_batches)
+      if (const auto index = ghosted_index.begin() + batch * size;
+          std::any_of(index, index + size, [&](const int i) {
+            return is_near[i];
+          }))
+        batches.push_back(batch);
+    return batches;
   }
 
 
@@ -702,11 +732,18 @@ namespace Ricochet
 
   template <int dim>
   void
-  HyperelasticBulk<dim>::add_tangent(const double  factor,
-                                     const Vector &solution,
-                                     Matrix       &tangent) const
+  HyperelasticBulk<dim>::add_tangent(const double    factor,
+                                     const Vector   &solution,
+                                     Matrix         &tangent,
+                                     const Unknowns *near) const
   {
-    add_matrix(factor, 1., collocation_stress(), solution, solution, tangent);
+    add_matrix(factor,
+               1.,
+               collocation_stress(),
+               solution,
+               solution,
+               tangent,
+               near);
   }
 
 
@@ -729,17 +766,19 @@ namespace Ricochet
 
   template <int dim>
   void
-  HyperelasticBulk<dim>::add_step_tangent(const Vector &old_solution,
-                                          const Vector &new_solution,
-                                          const double  time_step,
-                                          Matrix       &tangent) const
+  HyperelasticBulk<dim>::add_step_tangent(const Vector   &old_solution,
+                                          const Vector   &new_solution,
+                                          const double    time_step,
+                                          Matrix         &tangent,
+                                          const Unknowns *near) const
   {
     add_matrix(1.,
                .5,
                step_stress(time_step),
                old_solution,
                new_solution,
-               tangent);
+               tangent,
+               near);
   }
 
 

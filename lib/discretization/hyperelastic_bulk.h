@@ -42,9 +42,10 @@ namespace Ricochet
     force(const Vector &solution, Vector &force) const override;
 
     void
-    add_tangent(const double  factor,
-                const Vector &solution,
-                Matrix       &tangent) const override;
+    add_tangent(const double    factor,
+                const Vector   &solution,
+                Matrix         &tangent,
+                const Unknowns *near = nullptr) const override;
 
     void
     step_force(const Vector &old_solution,
@@ -53,10 +54,11 @@ namespace Ricochet
                Vector       &force) const override;
 
     void
-    add_step_tangent(const Vector &old_solution,
-                     const Vector &new_solution,
-                     const double  time_step,
-                     Matrix       &tangent) const override;
+    add_step_tangent(const Vector   &old_solution,
+                     const Vector   &new_solution,
+                     const double    time_step,
+                     Matrix         &tangent,
+                     const Unknowns *near = nullptr) const override;
 
     double
     energy(const Vector &solution) const override;
@@ -143,7 +145,8 @@ namespace Ricochet
                const StressFunction &stress,
                const Vector         &old_solution,
                const Vector         &new_solution,
-               Matrix               &tangent) const;
+               Matrix               &tangent,
+               const Unknowns       *near) const;
 
     /// The loop of add_matrix().
     template <unsigned int n_points_of_cell,
@@ -154,7 +157,12 @@ namespace Ricochet
                  const double                                      factor,
                  const double                                      new_weight,
                  const StressFunction                             &stress,
-                 double *values) const;
+                 double                                           *values,
+                 const std::vector<unsigned int> &batches) const;
+
+    /// The batches with a cell that has one of these unknowns.
+    std::vector<unsigned int>
+    batches_near(const Unknowns &unknowns) const;
 
     /// Sum over the owned cells of @p density, a function of the material, C_old
     /// and the difference of C, on all ranks and for each part.
@@ -215,7 +223,8 @@ namespace Ricochet
     std::vector<int> ghosted_index, owned_index;
     // Where the entry of two displacements of a cell lies in the values of the
     // matrix; -1 in rows of other ranks.
-    std::vector<int> matrix_entry;
+    std::vector<int>          matrix_entry;
+    std::vector<unsigned int> all_batches;
 
     // Work space, so that nothing is allocated in a time step: displacements of a batch
     // relative to the first node, and their changes.

@@ -4,6 +4,7 @@
 
 #include <base/types.h>
 #include <solvers/functionals.h>
+#include <solvers/tangent.h>
 
 #include <vector>
 
@@ -25,6 +26,14 @@ namespace Ricochet
   {
   public:
     virtual ~CondensedSystem() = default;
+
+    /// K, with what is not Tangent::contact_change.
+    virtual const Matrix &
+    body_matrix() const = 0;
+
+    /// The functionals that this rank knows.
+    virtual const ContactStructure::ActsThrough &
+    acts_through() const = 0;
 
     /// Number of functionals on all ranks.
     virtual unsigned int

@@ -75,6 +75,18 @@ namespace Ricochet
 
     // As a system condensed to functionals, if contact enters by them; the body
     // has to be factored.
+    const Matrix &
+    body_matrix() const override
+    {
+      return tangent_matrix;
+    }
+
+    const ContactStructure::ActsThrough &
+    acts_through() const override
+    {
+      return *contact.functionals;
+    }
+
     unsigned int
     n_functionals() const override
     {

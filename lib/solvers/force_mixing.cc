@@ -168,13 +168,17 @@ namespace Ricochet
 
 
   void
-  ForceMixing::next(const Vector &residual, Vector &step)
+  ForceMixing::next(const Vector                                     &residual,
+                    Vector                                           &step,
+                    const std::function<void(std::vector<double> &)> &complete)
   {
     const double     *r = residual.trilinos_vector()[0];
     const std::size_t n = residual.locally_owned_size();
     communicator        = residual.get_mpi_communicator();
     residual_now.assign(r, r + n);
+    // The plain step for what no change explains, and steps for what they do.
     step_now.resize(n);
+    known_step.assign(n, 0.);
     for (std::size_t i = 0; i < n; ++i)
       step_now[i] = -r[i];
     std::vector<double> parts = products(residual_now, 0);
@@ -191,7 +195,7 @@ namespace Ricochet
         for (std::size_t i = 0; i < n; ++i)
           last_residual[i] = r[i] - last_residual[i];
         add(changes, minus_earlier, last_residual, parts, step_now);
-        add(steps, minus_earlier, last_step, minus_parts, step_now);
+        add(steps, minus_earlier, last_step, minus_parts, known_step);
         const double square =
           Utilities::MPI::sum(std::inner_product(last_residual.begin(),
                                                  last_residual.end(),
@@ -230,10 +234,17 @@ namespace Ricochet
             ++n_changes;
             const double part = products(residual_now, n_changes - 1)[0];
             for (std::size_t i = 0; i < n; ++i)
-              step_now[i] += part * (change[i] - its_step[i]);
+              {
+                step_now[i] += part * change[i];
+                known_step[i] -= part * its_step[i];
+              }
             parts.push_back(part);
           }
       }
+    if (complete)
+      complete(step_now);
+    for (std::size_t i = 0; i < n; ++i)
+      step_now[i] += known_step[i];
     last_residual.swap(residual_now);
     last_products.swap(parts);
     std::copy(step_now.begin(), step_now.end(), step.trilinos_vector()[0]);

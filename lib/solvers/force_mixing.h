@@ -4,6 +4,7 @@
 
 #include <base/types.h>
 
+#include <functional>
 #include <vector>
 
 namespace Ricochet
@@ -32,8 +33,12 @@ namespace Ricochet
     restart();
 
     /// The step of the force from the iterate with this @p residual. @p step gets it.
+    /// @param complete makes a plain step of this rank, in its place, a better one: a
+    /// linear function, if any.
     void
-    next(const Vector &residual, Vector &step);
+    next(const Vector                                     &residual,
+         Vector                                           &step,
+         const std::function<void(std::vector<double> &)> &complete = nullptr);
 
   private:
     using Column = std::vector<float>;
@@ -59,7 +64,7 @@ namespace Ricochet
     bool                has_last = false;
     std::vector<double> last_residual, last_step, last_products;
     // Work space.
-    std::vector<double> residual_now, step_now;
+    std::vector<double> residual_now, step_now, known_step;
     MPI_Comm            communicator = MPI_COMM_SELF;
   };
 } // namespace Ricochet

@@ -26,6 +26,22 @@ namespace Ricochet
 
 
 
+  Functionals
+  functionals_of_all_ranks(const Functionals &own, const MPI_Comm communicator)
+  {
+    std::vector<std::size_t> n_entries;
+    for (unsigned int f = 0; f < own.size(); ++f)
+      n_entries.push_back(own.begin[f + 1] - own.begin[f]);
+    Functionals all;
+    for (const std::size_t n : of_all_ranks(n_entries, communicator))
+      all.begin.push_back(all.begin.back() + n);
+    all.index = of_all_ranks(own.index, communicator);
+    all.value = of_all_ranks(own.value, communicator);
+    return all;
+  }
+
+
+
   FunctionalPlaces::FunctionalPlaces(
     const ContactStructure::ActsThrough &contact,
     const MPI_Comm                       communicator)

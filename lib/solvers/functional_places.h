@@ -13,6 +13,10 @@ namespace Ricochet
   std::vector<unsigned int>
   places_in_order(const std::vector<double> &order);
 
+  /// @return the functionals of all ranks, one rank's behind the other's. Collective.
+  Functionals
+  functionals_of_all_ranks(const Functionals &own, const MPI_Comm communicator);
+
   /// The functionals of all ranks have numbers, one rank's behind the other's, and places,
   /// by their order.
   struct FunctionalPlaces

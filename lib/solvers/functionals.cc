@@ -121,4 +121,25 @@ namespace Ricochet
         sums.push_back(std::move(own));
     return sums;
   }
+
+
+
+  std::vector<NumberedRows>
+  rows_of_all_ranks(std::vector<FunctionalRow>       first,
+                    std::vector<FunctionalRow>       second,
+                    const std::vector<unsigned int> &numbers,
+                    const MPI_Comm                   communicator)
+  {
+    std::vector<NumberedRows> rows;
+    for (unsigned int f = 0; f < first.size(); ++f)
+      if (!first[f].empty() || !second[f].empty())
+        {
+          rows.push_back(
+            {numbers[f], {{std::move(first[f]), std::move(second[f]), {}}}});
+          for (FunctionalRow &row : rows.back().rows)
+            for (auto &entry : row)
+              entry.first = numbers[entry.first];
+        }
+    return sum_of_all_ranks(std::move(rows), communicator);
+  }
 } // namespace Ricochet

@@ -71,6 +71,15 @@ namespace Ricochet
   /// Collective.
   std::vector<NumberedRows>
   sum_of_all_ranks(std::vector<NumberedRows> rows, const MPI_Comm communicator);
+
+  /// The same of two square matrices between functionals that have these @p numbers, in
+  /// which a rank has rows and columns of all functionals that it knows: those that are not
+  /// empty.
+  std::vector<NumberedRows>
+  rows_of_all_ranks(std::vector<FunctionalRow>       first,
+                    std::vector<FunctionalRow>       second,
+                    const std::vector<unsigned int> &numbers,
+                    const MPI_Comm                   communicator);
 } // namespace Ricochet
 
 #endif

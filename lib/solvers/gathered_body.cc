@@ -20,18 +20,10 @@ namespace Ricochet
   void
   GatheredBody::make_nearby()
   {
-    const MPI_Comm     communicator = matrix.get_mpi_communicator();
-    const Functionals &own          = contact.functionals;
-
-    places = FunctionalPlaces(contact, communicator);
-    std::vector<std::size_t> n_entries;
-    for (unsigned int f = 0; f < own.size(); ++f)
-      n_entries.push_back(own.begin[f + 1] - own.begin[f]);
-    Functionals &all = all_contact.functionals;
-    for (const std::size_t n : of_all_ranks(n_entries, communicator))
-      all.begin.push_back(all.begin.back() + n);
-    all.index         = of_all_ranks(own.index, communicator);
-    all.value         = of_all_ranks(own.value, communicator);
+    const MPI_Comm communicator = matrix.get_mpi_communicator();
+    places                      = FunctionalPlaces(contact, communicator);
+    all_contact.functionals =
+      functionals_of_all_ranks(contact.functionals, communicator);
     all_contact.order = of_all_ranks(contact.order, communicator);
     if (first_rank.is_here())
       nearby = std::make_unique<NearbyBody>(std::move(factorisation),
@@ -140,17 +132,11 @@ namespace Ricochet
                               std::vector<double>              &coefficients,
                               const std::vector<double>        &values)
   {
-    std::vector<NumberedRows> rows;
-    for (unsigned int f = 0; f < change.size(); ++f)
-      if (!change[f].empty() || !excess_change[f].empty())
-        {
-          rows.push_back(
-            {places.numbers[f], {{change[f], excess_change[f], {}}}});
-          for (FunctionalRow &row : rows.back().rows)
-            for (auto &entry : row)
-              entry.first = places.numbers[entry.first];
-        }
-    rows = sum_of_all_ranks(std::move(rows), matrix.get_mpi_communicator());
+    std::vector<NumberedRows> rows =
+      rows_of_all_ranks(change,
+                        excess_change,
+                        places.numbers,
+                        matrix.get_mpi_communicator());
     first_rank.run([&]() {
       std::vector<FunctionalRow> all_change(n_functionals()),
         all_excess_change(n_functionals());

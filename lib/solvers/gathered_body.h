@@ -19,6 +19,18 @@ namespace Ricochet
     bool
     factorise(const Tangent &tangent) override;
 
+    const Matrix &
+    body_matrix() const override
+    {
+      return matrix;
+    }
+
+    const ContactStructure::ActsThrough &
+    acts_through() const override
+    {
+      return contact;
+    }
+
     unsigned int
     n_functionals() const override
     {

@@ -16,6 +16,7 @@ namespace Ricochet
                          const ContactStructure::ActsThrough &contact,
                          TangentSolver::Costs                &spent)
     : factorisation(std::move(factorisation))
+    , contact(contact)
     , functionals(contact.functionals)
     , products(functionals)
     , spent(spent)

@@ -51,6 +51,18 @@ namespace Ricochet
     bool
     factorise(const Epetra_CrsMatrix &tangent_matrix);
 
+    const Matrix &
+    body_matrix() const override
+    {
+      return matrix;
+    }
+
+    const ContactStructure::ActsThrough &
+    acts_through() const override
+    {
+      return contact;
+    }
+
     unsigned int
     n_functionals() const override
     {
@@ -108,6 +120,7 @@ namespace Ricochet
 
     Matrix                               matrix;
     const std::unique_ptr<Factorisation> factorisation;
+    const ContactStructure::ActsThrough &contact;
     const Functionals                   &functionals;
     FunctionalProducts                   products;
     TangentSolver::Costs                &spent;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/vector_operations.h>
 #include <time_integration/quasi_newton.h>
-#include <time_integration/stage_problem.h>
 
 #include <cmath>
 
@@ -19,15 +18,36 @@ namespace Ricochet
     /// times and a hundred times as much take as many iterations; without it, what stiff
     /// laws make of round-off may be more than the tolerance, while the residual is large.
     constexpr double rest_of_contact = 1e-3;
+
+    /// A region where the tangent has changed is looked for when there are so many
+    /// residuals, as the first iterates are too far from the solution, and again after some
+    /// more. It takes as long as some three iterations; where so few are to come, they do
+    /// without.
+    constexpr unsigned int first_look = 4, look_again = 12;
+    constexpr double       few_iterations = 6.;
   } // namespace
 
 
 
   bool
-  QuasiNewton::solve(StageProblem                &problem,
-                     const NewtonSolver::Problem &newton_problem,
-                     NewtonSolver                &condensed_newton,
-                     Vector                      &solution)
+  QuasiNewton::region_is_worth_while() const
+  {
+    const unsigned int n = history.size();
+    if (n < first_look || (n - first_look) % look_again != 0)
+      return false;
+    const double norm = history[n - 1].relative_residual,
+                 rate = std::sqrt(norm / history[n - 3].relative_residual);
+    return std::pow(rate, few_iterations) * norm > parameters.tolerance;
+  }
+
+
+
+  bool
+  QuasiNewton::solve(StageProblem                     &problem,
+                     const NewtonSolver::Problem      &newton_problem,
+                     NewtonSolver                     &condensed_newton,
+                     const StageProblem::TangentPoint &kept,
+                     Vector                           &solution)
   {
     if (residual.size() != solution.size())
       {
@@ -36,6 +56,7 @@ namespace Ricochet
       }
     history.clear();
     mixing.restart();
+    region.forget();
     while (true)
       {
         newton_problem.residual(solution, residual);
@@ -57,7 +78,14 @@ namespace Ricochet
 
         // Residuals are compared as forces, whatever the equations of multipliers are.
         problem.rows_to_forces(residual);
-        mixing.next(residual, step);
+        if (region_is_worth_while())
+          problem.find_region(residual, kept, region);
+        if (region.exists())
+          mixing.next(residual, step, [this](std::vector<double> &force) {
+            region.complete(force);
+          });
+        else
+          mixing.next(residual, step);
         entries(step) *= -1.;
         problem.forces_to_rows(step);
         problem.add_iterations(1);

@@ -262,14 +262,23 @@ namespace Ricochet
   {
     if (!kept.serves(stage.time_step))
       kept.begin(stage.end_time, stage.time_step, old_solution);
-    else if (tangent_at_hand.is_same(kept))
-      return;
-    copy_values(kept.solution, work);
+    copy_values(kept.solution, kept_guess);
     if (unknowns.impose)
-      unknowns.impose(kept.record.end_time, work);
+      unknowns.impose(kept.record.end_time, kept_guess);
+    if (tangent_at_hand.is_same(kept))
+      return;
     tangent_at_hand.forget();
-    problem.condense_at(kept.record.end_time, kept.solution, work);
+    problem.condense_at(kept_point(kept));
     tangent_at_hand = kept;
+  }
+
+  StageProblem::TangentPoint
+  SemiDiscreteSystem::kept_point(const KeptTangent &kept) const
+  {
+    return {kept.solution,
+            kept_guess,
+            kept.record.end_time,
+            kept.record.end_time + kept.record.time_step};
   }
 
   bool
@@ -298,6 +307,7 @@ namespace Ricochet
             is_solved           = quasi_newton.solve(problem,
                                            newton_problem,
                                            condensed_newton,
+                                           kept_point(kept),
                                            solution);
             const auto &history = quasi_newton.iterations();
             n_iterations_with_tangent += history.size() - 1;

@@ -271,6 +271,10 @@ namespace Ricochet
                   const Vector &old_solution,
                   KeptTangent  &kept);
 
+    /// Where that tangent is made. @pre condense_body()
+    StageProblem::TangentPoint
+    kept_point(const KeptTangent &kept) const;
+
     /// The forces of contact are those of the operator's last call.
     void
     take_shares(State &state) const;
@@ -296,9 +300,11 @@ namespace Ricochet
     // What the equations leave over in prescribed displacements (N), where
     // Newton's method may begin, and the residual at the guess (N).
     Vector reaction, safe_guess, residual;
-    // The one with which the body is condensed now; in this stage, whether that was done,
-    // and how many iterations were made with it.
+    // The one with which the body is condensed now, and its state with the displacements
+    // prescribed at the end of its step; in this stage, whether that was done, and how
+    // many iterations were made with it.
     KeptTangent   tangent_at_hand;
+    Vector        kept_guess;
     bool          body_is_condensed         = false;
     unsigned int  n_iterations_with_tangent = 0;
     UnitedPattern united_pattern;

@@ -91,13 +91,48 @@ namespace Ricochet
   }
 
   void
-  StageProblem::condense_at(const double  begin,
-                            const Vector &old_solution,
-                            const Vector &solution)
+  StageProblem::condense_at(const TangentPoint &point)
   {
     parts.linear_solver.forget_condensed();
-    parts.linear_solver.condensed(
-      tangent({old_solution, solution, begin, begin + stage.time_step}, true));
+    parts.linear_solver.condensed(tangent(point, true));
+  }
+
+  void
+  StageProblem::find_region(const Vector       &residual,
+                            const TangentPoint &kept,
+                            TangentRegion      &region)
+  {
+    // Masses are the same, and so are loads that follow the body, nearly.
+    const auto add_difference = [&](const TangentRegion::Unknowns &unknowns,
+                                    Matrix                        &matrix) {
+      const Stopwatch stopwatch(parts.tangent_seconds);
+      add_bulk_tangent(kept, matrix, &unknowns);
+      matrix *= -1.;
+      add_bulk_tangent(here(), matrix, &unknowns);
+    };
+    const Tangent current = tangent(here(), true);
+    region.find(residual,
+                current,
+                parts.linear_solver.condensed(current),
+                add_difference);
+  }
+
+  void
+  StageProblem::add_bulk_tangent(const TangentPoint           &point,
+                                 Matrix                       &matrix,
+                                 const BulkOperator::Unknowns *near) const
+  {
+    if (stage.bulk_step_force)
+      parts.bulk.add_step_tangent(point.old_solution,
+                                  point.solution,
+                                  stage.time_step,
+                                  matrix,
+                                  near);
+    else
+      parts.bulk.add_tangent(stage.bulk_weight_new,
+                             point.solution,
+                             matrix,
+                             near);
   }
 
   void
@@ -168,28 +203,20 @@ namespace Ricochet
         AssertThrow(!tangent.body_terms.empty(), ExcInternalError());
         tangent.body_terms.push_back({stage.inertia, &parts.mass});
       }
-    const auto assemble_body = [this, point, bulk_weight](Matrix &matrix) {
+    const auto assemble_body = [this, point](Matrix &matrix) {
       const auto &pattern = parts.pattern();
       if (matrix.n_nonzero_elements() == pattern.n_nonzero_elements())
         matrix = 0.;
       else
         matrix.reinit(pattern);
       parts.mass.add_to(stage.inertia, matrix);
-      if (stage.bulk_step_force)
-        {
-          parts.bulk.add_step_tangent(point.old_solution,
-                                      point.solution,
-                                      stage.time_step,
-                                      matrix);
-          if (parts.follower)
-            parts.follower->subtract_step_tangent(point.old_solution,
-                                                  point.solution,
-                                                  point.begin,
-                                                  point.end,
-                                                  matrix);
-        }
-      else
-        parts.bulk.add_tangent(bulk_weight, point.solution, matrix);
+      add_bulk_tangent(point, matrix);
+      if (stage.bulk_step_force && parts.follower)
+        parts.follower->subtract_step_tangent(point.old_solution,
+                                              point.solution,
+                                              point.begin,
+                                              point.end,
+                                              matrix);
     };
     tangent.row_scaling = &parts.contact.row_scaling();
     const Couplings *couplings =

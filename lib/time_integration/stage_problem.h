@@ -8,6 +8,7 @@
 #include <solvers/body_matrix.h>
 #include <solvers/linear_solver.h>
 #include <solvers/newton.h>
+#include <solvers/tangent_region.h>
 #include <time_integration/condensed_stage.h>
 #include <time_integration/stage.h>
 
@@ -77,12 +78,26 @@ namespace Ricochet
     CondensedStage
     condensed(const NewtonSolver::Problem &for_newton, const Vector &residual);
 
-    /// Condense with the tangent of a stage like this one that begins at another time (s)
-    /// with @p old_solution, at @p solution. @throws NewtonFailure
+    /// Where a tangent is that of a step.
+    struct TangentPoint
+    {
+      const Vector &old_solution, &solution;
+      /// Beginning and end of the step (s).
+      double begin, end;
+    };
+
+    /// Condense with the tangent of a stage like this one at another @p point.
+    /// @throws NewtonFailure
     void
-    condense_at(const double  begin,
-                const Vector &old_solution,
-                const Vector &solution);
+    condense_at(const TangentPoint &point);
+
+    /// Find the region where the tangent at the iterate, which has left the @p residual
+    /// (N), differs from that at the @p kept point.
+    /// @pre condense_at() with that point.
+    void
+    find_region(const Vector       &residual,
+                const TangentPoint &kept,
+                TangentRegion      &region);
 
     /// Make the rows of a residual those of forces, whatever the equations of
     /// multipliers are; and the other way round.
@@ -116,13 +131,6 @@ namespace Ricochet
           const bool    may_reuse,
           const double  tolerance);
 
-    /// Where a tangent is that of a step.
-    struct TangentPoint
-    {
-      const Vector &old_solution, &solution;
-      double        begin, end;
-    };
-
     /// That of this stage, at the iterate.
     TangentPoint
     here() const
@@ -132,6 +140,12 @@ namespace Ricochet
               stage.end_time - stage.time_step,
               stage.end_time};
     }
+
+    /// Add the derivative of the body's forces at a point, see BulkOperator::add_tangent().
+    void
+    add_bulk_tangent(const TangentPoint           &point,
+                     Matrix                       &matrix,
+                     const BulkOperator::Unknowns *near = nullptr) const;
 
     /// @param condenses contact is looked at by its functionals alone.
     Tangent
