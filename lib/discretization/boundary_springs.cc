@@ -102,10 +102,10 @@ namespace Ricochet
 
   template <int dim>
   void
-  BulkOnSprings<dim>::add_tangent(const double    factor,
-                                  const Vector   &solution,
-                                  Matrix         &tangent,
-                                  const Unknowns *near) const
+  BulkOnSprings<dim>::add_tangent(const double       factor,
+                                  const Vector      &solution,
+                                  Matrix            &tangent,
+                                  const UnknownList *near) const
   {
     bulk->add_tangent(factor, solution, tangent, near);
     stiffness.add_to(factor, tangent);
@@ -137,11 +137,11 @@ namespace Ricochet
 
   template <int dim>
   void
-  BulkOnSprings<dim>::add_step_tangent(const Vector   &old_solution,
-                                       const Vector   &new_solution,
-                                       const double    time_step,
-                                       Matrix         &tangent,
-                                       const Unknowns *near) const
+  BulkOnSprings<dim>::add_step_tangent(const Vector      &old_solution,
+                                       const Vector      &new_solution,
+                                       const double       time_step,
+                                       Matrix            &tangent,
+                                       const UnknownList *near) const
   {
     bulk->add_step_tangent(old_solution,
                            new_solution,

@@ -30,17 +30,14 @@ namespace Ricochet
     virtual void
     force(const Vector &solution, Vector &force) const = 0;
 
-    /// Unknowns of all ranks.
-    using Unknowns = std::vector<dealii::types::global_dof_index>;
-
     /// @p tangent += @p factor times the derivative of force().
     /// @param near if there are any, cells that have none of these unknowns may be left
     /// out: their rows and columns are whole nevertheless.
     virtual void
-    add_tangent(const double    factor,
-                const Vector   &solution,
-                Matrix         &tangent,
-                const Unknowns *near = nullptr) const = 0;
+    add_tangent(const double       factor,
+                const Vector      &solution,
+                Matrix            &tangent,
+                const UnknownList *near = nullptr) const = 0;
 
     /// @p force (N) with force . (new - old) = energy(new) - energy(old) +
     /// viscous_dissipation(old, new, time_step).
@@ -53,11 +50,11 @@ namespace Ricochet
     /// @p tangent += the derivative of step_force() with respect to the new
     /// solution. @param near as for add_tangent().
     virtual void
-    add_step_tangent(const Vector   &old_solution,
-                     const Vector   &new_solution,
-                     const double    time_step,
-                     Matrix         &tangent,
-                     const Unknowns *near = nullptr) const = 0;
+    add_step_tangent(const Vector      &old_solution,
+                     const Vector      &new_solution,
+                     const double       time_step,
+                     Matrix            &tangent,
+                     const UnknownList *near = nullptr) const = 0;
 
     /// What add_tangent() adds, for a linear body: the matrices live as long as
     /// this object. Empty if the body is not linear.

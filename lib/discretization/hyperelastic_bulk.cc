@@ -588,7 +588,7 @@ namespace Ricochet
                                     const Vector         &old_solution,
                                     const Vector         &new_solution,
                                     Matrix               &tangent,
-                                    const Unknowns       *near) const
+                                    const UnknownList    *near) const
   {
     import_ghosts(old_solution, new_solution);
     int      *row_begin = nullptr, *columns = nullptr;
@@ -599,13 +599,16 @@ namespace Ricochet
                                                        values);
     AssertThrow(error == 0, ExcTrilinosError(error));
 
+    std::vector<unsigned int> some_batches;
+    if (near)
+      some_batches = batches_near(*near);
     with_cell_size([&](const auto size) {
       add_matrices(size,
                    factor,
                    new_weight,
                    stress_function,
                    values,
-                   near ? batches_near(*near) : all_batches);
+                   near ? some_batches : all_batches);
     });
   }
 
@@ -613,7 +616,7 @@ namespace Ricochet
 
   template <int dim>
   std::vector<unsigned int>
-  HyperelasticBulk<dim>::batches_near(const Unknowns &unknowns) const
+  HyperelasticBulk<dim>::batches_near(const UnknownList &unknowns) const
   {
     std::vector<bool> is_near(ghosted_new.size(), false);
     for (const types::global_dof_index unknown : unknowns)
@@ -732,10 +735,10 @@ namespace Ricochet
 
   template <int dim>
   void
-  HyperelasticBulk<dim>::add_tangent(const double    factor,
-                                     const Vector   &solution,
-                                     Matrix         &tangent,
-                                     const Unknowns *near) const
+  HyperelasticBulk<dim>::add_tangent(const double       factor,
+                                     const Vector      &solution,
+                                     Matrix            &tangent,
+                                     const UnknownList *near) const
   {
     add_matrix(factor,
                1.,
@@ -766,11 +769,11 @@ namespace Ricochet
 
   template <int dim>
   void
-  HyperelasticBulk<dim>::add_step_tangent(const Vector   &old_solution,
-                                          const Vector   &new_solution,
-                                          const double    time_step,
-                                          Matrix         &tangent,
-                                          const Unknowns *near) const
+  HyperelasticBulk<dim>::add_step_tangent(const Vector      &old_solution,
+                                          const Vector      &new_solution,
+                                          const double       time_step,
+                                          Matrix            &tangent,
+                                          const UnknownList *near) const
   {
     add_matrix(1.,
                .5,

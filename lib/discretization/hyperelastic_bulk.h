@@ -42,10 +42,10 @@ namespace Ricochet
     force(const Vector &solution, Vector &force) const override;
 
     void
-    add_tangent(const double    factor,
-                const Vector   &solution,
-                Matrix         &tangent,
-                const Unknowns *near = nullptr) const override;
+    add_tangent(const double       factor,
+                const Vector      &solution,
+                Matrix            &tangent,
+                const UnknownList *near = nullptr) const override;
 
     void
     step_force(const Vector &old_solution,
@@ -54,11 +54,11 @@ namespace Ricochet
                Vector       &force) const override;
 
     void
-    add_step_tangent(const Vector   &old_solution,
-                     const Vector   &new_solution,
-                     const double    time_step,
-                     Matrix         &tangent,
-                     const Unknowns *near = nullptr) const override;
+    add_step_tangent(const Vector      &old_solution,
+                     const Vector      &new_solution,
+                     const double       time_step,
+                     Matrix            &tangent,
+                     const UnknownList *near = nullptr) const override;
 
     double
     energy(const Vector &solution) const override;
@@ -146,7 +146,7 @@ namespace Ricochet
                const Vector         &old_solution,
                const Vector         &new_solution,
                Matrix               &tangent,
-               const Unknowns       *near) const;
+               const UnknownList    *near) const;
 
     /// The loop of add_matrix().
     template <unsigned int n_points_of_cell,
@@ -162,7 +162,7 @@ namespace Ricochet
 
     /// The batches with a cell that has one of these unknowns.
     std::vector<unsigned int>
-    batches_near(const Unknowns &unknowns) const;
+    batches_near(const UnknownList &unknowns) const;
 
     /// Sum over the owned cells of @p density, a function of the material, C_old
     /// and the difference of C, on all ranks and for each part.

@@ -237,7 +237,7 @@ namespace Ricochet
   LinearBulk<dim>::add_tangent(const double factor,
                                const Vector & /*solution*/,
                                Matrix &tangent,
-                               const Unknowns * /*near*/) const
+                               const UnknownList * /*near*/) const
   {
     for (const MatrixTerm &term : tangent_terms(factor))
       term.matrix->add_to(term.weight, tangent);
@@ -283,7 +283,7 @@ namespace Ricochet
                                     const Vector & /*new_solution*/,
                                     const double time_step,
                                     Matrix      &tangent,
-                                    const Unknowns * /*near*/) const
+                                    const UnknownList * /*near*/) const
   {
     for (const MatrixTerm &term : step_tangent_terms(time_step))
       term.matrix->add_to(term.weight, tangent);

@@ -27,7 +27,7 @@ namespace Ricochet
   public:
     virtual ~CondensedSystem() = default;
 
-    /// K, with what is not Tangent::contact_change.
+    /// K, with what contact adds besides Tangent::contact_change.
     virtual const Matrix &
     body_matrix() const = 0;
 

@@ -125,17 +125,16 @@ namespace Ricochet
 
 
   std::vector<NumberedRows>
-  rows_of_all_ranks(std::vector<FunctionalRow>       first,
-                    std::vector<FunctionalRow>       second,
-                    const std::vector<unsigned int> &numbers,
-                    const MPI_Comm                   communicator)
+  rows_of_all_ranks(const std::vector<FunctionalRow> &first,
+                    const std::vector<FunctionalRow> &second,
+                    const std::vector<unsigned int>  &numbers,
+                    const MPI_Comm                    communicator)
   {
     std::vector<NumberedRows> rows;
     for (unsigned int f = 0; f < first.size(); ++f)
       if (!first[f].empty() || !second[f].empty())
         {
-          rows.push_back(
-            {numbers[f], {{std::move(first[f]), std::move(second[f]), {}}}});
+          rows.push_back({numbers[f], {{first[f], second[f], {}}}});
           for (FunctionalRow &row : rows.back().rows)
             for (auto &entry : row)
               entry.first = numbers[entry.first];

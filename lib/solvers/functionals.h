@@ -76,10 +76,10 @@ namespace Ricochet
   /// which a rank has rows and columns of all functionals that it knows: those that are not
   /// empty.
   std::vector<NumberedRows>
-  rows_of_all_ranks(std::vector<FunctionalRow>       first,
-                    std::vector<FunctionalRow>       second,
-                    const std::vector<unsigned int> &numbers,
-                    const MPI_Comm                   communicator);
+  rows_of_all_ranks(const std::vector<FunctionalRow> &first,
+                    const std::vector<FunctionalRow> &second,
+                    const std::vector<unsigned int>  &numbers,
+                    const MPI_Comm                    communicator);
 } // namespace Ricochet
 
 #endif

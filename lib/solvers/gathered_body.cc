@@ -10,8 +10,8 @@ namespace Ricochet
   GatheredBody::GatheredBody(std::unique_ptr<Factorisation>       on_one_rank,
                              const ContactStructure::ActsThrough &contact,
                              TangentSolver::Costs                &spent)
-    : factorisation(std::move(on_one_rank))
-    , contact(contact)
+    : FactoredBody(contact)
+    , factorisation(std::move(on_one_rank))
     , spent(spent)
   {}
 
@@ -37,8 +37,7 @@ namespace Ricochet
   bool
   GatheredBody::factorise(const Tangent &tangent)
   {
-    tangent.assemble_body(matrix);
-    tangent.complete_constant_contact(matrix);
+    assemble(tangent);
     const Stopwatch         stopwatch(spent.factorising);
     const Epetra_CrsMatrix &all_rows =
       first_rank.gather(matrix.trilinos_matrix());

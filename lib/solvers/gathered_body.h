@@ -19,28 +19,10 @@ namespace Ricochet
     bool
     factorise(const Tangent &tangent) override;
 
-    const Matrix &
-    body_matrix() const override
-    {
-      return matrix;
-    }
-
-    const ContactStructure::ActsThrough &
-    acts_through() const override
-    {
-      return contact;
-    }
-
     unsigned int
     n_functionals() const override
     {
       return places.place_of_number.size();
-    }
-
-    unsigned int
-    n_known() const override
-    {
-      return contact.n_known();
     }
 
     unsigned int
@@ -82,12 +64,10 @@ namespace Ricochet
     make_nearby();
 
     // Until there is a NearbyBody.
-    std::unique_ptr<Factorisation>      factorisation;
-    const ContactStructure::ActsThrough contact;
-    TangentSolver::Costs               &spent;
-    Matrix                              matrix;
-    FirstRank                           first_rank;
-    FunctionalPlaces                    places;
+    std::unique_ptr<Factorisation> factorisation;
+    TangentSolver::Costs          &spent;
+    FirstRank                      first_rank;
+    FunctionalPlaces               places;
     // The functionals of all ranks by number; and on the first rank, the body.
     ContactStructure::ActsThrough all_contact;
     std::unique_ptr<NearbyBody>   nearby;

@@ -15,8 +15,8 @@ namespace Ricochet
   NearbyBody::NearbyBody(std::unique_ptr<Factorisation>       factorisation,
                          const ContactStructure::ActsThrough &contact,
                          TangentSolver::Costs                &spent)
-    : factorisation(std::move(factorisation))
-    , contact(contact)
+    : FactoredBody(contact)
+    , factorisation(std::move(factorisation))
     , functionals(contact.functionals)
     , products(functionals)
     , spent(spent)
@@ -32,8 +32,7 @@ namespace Ricochet
   bool
   NearbyBody::factorise(const Tangent &tangent)
   {
-    tangent.assemble_body(matrix);
-    tangent.complete_constant_contact(matrix);
+    assemble(tangent);
     const Stopwatch stopwatch(spent.factorising);
     return factorise(matrix.trilinos_matrix());
   }

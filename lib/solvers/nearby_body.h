@@ -18,11 +18,46 @@ namespace Ricochet
   class FactoredBody : public CondensedSystem
   {
   public:
+    /// @param contact functionals, which are not copied.
+    explicit FactoredBody(const ContactStructure::ActsThrough &contact)
+      : contact(contact)
+    {}
+
     /// Factor the tangent but for Tangent::contact_change. @return whether the factors are at hand,
     /// which is the same each time; if not, this cannot be used. Collective.
     /// @throws NewtonFailure when it is singular.
     virtual bool
     factorise(const Tangent &tangent) = 0;
+
+    const Matrix &
+    body_matrix() const override
+    {
+      return matrix;
+    }
+
+    const ContactStructure::ActsThrough &
+    acts_through() const override
+    {
+      return contact;
+    }
+
+    unsigned int
+    n_known() const override
+    {
+      return contact.n_known();
+    }
+
+  protected:
+    /// Make #matrix what factorise() factors.
+    void
+    assemble(const Tangent &tangent)
+    {
+      tangent.assemble_body(matrix);
+      tangent.complete_constant_contact(matrix);
+    }
+
+    const ContactStructure::ActsThrough &contact;
+    Matrix                               matrix;
   };
 
   /**
@@ -51,26 +86,8 @@ namespace Ricochet
     bool
     factorise(const Epetra_CrsMatrix &tangent_matrix);
 
-    const Matrix &
-    body_matrix() const override
-    {
-      return matrix;
-    }
-
-    const ContactStructure::ActsThrough &
-    acts_through() const override
-    {
-      return contact;
-    }
-
     unsigned int
     n_functionals() const override
-    {
-      return functionals.size();
-    }
-
-    unsigned int
-    n_known() const override
     {
       return functionals.size();
     }
@@ -118,9 +135,7 @@ namespace Ricochet
     const std::vector<double> &
     column(const unsigned int place, const unsigned int n_rows);
 
-    Matrix                               matrix;
     const std::unique_ptr<Factorisation> factorisation;
-    const ContactStructure::ActsThrough &contact;
     const Functionals                   &functionals;
     FunctionalProducts                   products;
     TangentSolver::Costs                &spent;

@@ -54,7 +54,7 @@ namespace Ricochet
     class Places
     {
     public:
-      explicit Places(const TangentRegion::Unknowns &region)
+      explicit Places(const UnknownList &region)
         : places(region.empty() ? 0 : region.back() + 1, not_there)
       {
         for (unsigned int place = 0; place < region.size(); ++place)
@@ -72,7 +72,7 @@ namespace Ricochet
     };
 
     void
-    sort_and_unite(TangentRegion::Unknowns &unknowns)
+    sort_and_unite(UnknownList &unknowns)
     {
       std::sort(unknowns.begin(), unknowns.end());
       unknowns.erase(std::unique(unknowns.begin(), unknowns.end()),
@@ -80,7 +80,7 @@ namespace Ricochet
     }
 
     /// The unknowns of the largest entries.
-    TangentRegion::Unknowns
+    UnknownList
     largest(const Vector &vector)
     {
       const MPI_Comm      communicator = vector.get_mpi_communicator();
@@ -93,8 +93,8 @@ namespace Ricochet
       const auto          last =
         all.begin() + static_cast<std::ptrdiff_t>(region_share * all.size());
       std::nth_element(all.begin(), last, all.end(), std::greater<>());
-      const IndexSet          indices = vector.locally_owned_elements();
-      TangentRegion::Unknowns unknowns;
+      const IndexSet indices = vector.locally_owned_elements();
+      UnknownList    unknowns;
       for (std::size_t i = 0; i < n_own; ++i)
         if (sizes[i] > *last)
           unknowns.push_back(indices.nth_index_in_set(i));
@@ -120,10 +120,10 @@ namespace Ricochet
     void
     add_contact(const std::vector<NumberedRows> &contact,
                 const Functionals               &functionals,
-                TangentRegion::Unknowns         &region)
+                UnknownList                     &region)
     {
-      const Places            places(region);
-      TangentRegion::Unknowns coupled;
+      const Places places(region);
+      UnknownList  coupled;
       for (const NumberedRows &row : contact)
         {
           coupled.clear();
@@ -142,14 +142,14 @@ namespace Ricochet
       sort_and_unite(region);
     }
 
-    /// Append the entries between unknowns of a region of one of the matrices of @p contact.
-    void
-    add_entries(const std::vector<NumberedRows> &contact,
-                const unsigned int               which,
-                const Functionals               &functionals,
-                const Places                    &places,
-                std::vector<Entry>              &entries)
+    /// The entries between unknowns of a region of one of the matrices of @p contact.
+    std::vector<Entry>
+    entries_of(const std::vector<NumberedRows> &contact,
+               const unsigned int               which,
+               const Functionals               &functionals,
+               const Places                    &places)
     {
+      std::vector<Entry> entries;
       for (const NumberedRows &row : contact)
         for (const auto &[other, change] : row.rows[which])
           for_each_unknown(
@@ -170,6 +170,19 @@ namespace Ricochet
                                         along_i * change * along_j});
                                  });
             });
+      return entries;
+    }
+
+    Eigen::SparseMatrix<double>
+    sparse_matrix(const std::vector<Entry> &entries, const Eigen::Index n)
+    {
+      std::vector<Eigen::Triplet<double>> triplets;
+      triplets.reserve(entries.size());
+      for (const Entry &entry : entries)
+        triplets.emplace_back(entry.row, entry.column, entry.value);
+      Eigen::SparseMatrix<double> matrix(n, n);
+      matrix.setFromTriplets(triplets.begin(), triplets.end());
+      return matrix;
     }
   } // namespace
 
@@ -219,51 +232,36 @@ namespace Ricochet
 
 
 
-  const Functionals &
-  TangentRegion::functionals(const CondensedSystem &system)
-  {
-    const auto &contact = system.acts_through();
-    if (numbers.empty())
-      numbers = FunctionalPlaces(contact, communicator).numbers;
-    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
-      return contact.functionals;
-    if (!all_functionals)
-      all_functionals =
-        functionals_of_all_ranks(contact.functionals, communicator);
-    return *all_functionals;
-  }
-
-
-
   std::vector<NumberedRows>
-  TangentRegion::rows_of_contact(const Tangent         &contact,
-                                 const CondensedSystem &system)
+  TangentRegion::rows_of_contact(const Tangent &contact) const
   {
-    std::vector<FunctionalRow> change(system.n_known()),
-      excess_change(system.n_known());
+    std::vector<FunctionalRow> change(numbers.size()),
+      excess_change(numbers.size());
     contact.contact_change(change);
     contact.contact_excess_change(excess_change);
-    return rows_of_all_ranks(std::move(change),
-                             std::move(excess_change),
-                             numbers,
-                             communicator);
+    return rows_of_all_ranks(change, excess_change, numbers, communicator);
   }
 
 
 
   void
   TangentRegion::find(
-    const Vector                                          &residual,
-    const Tangent                                         &contact,
-    const CondensedSystem                                 &kept,
-    const std::function<void(const Unknowns &, Matrix &)> &add_difference)
+    const Vector                                             &residual,
+    const Tangent                                            &contact,
+    const CondensedSystem                                    &kept,
+    const std::function<void(const UnknownList &, Matrix &)> &add_difference)
   {
     forget();
-    communicator                  = residual.get_mpi_communicator();
-    const Functionals &all        = functionals(kept);
-    const auto         of_contact = rows_of_contact(contact, kept);
-    Unknowns           region     = largest(residual);
-    add_contact(of_contact, all, region);
+    communicator = residual.get_mpi_communicator();
+    if (!functionals)
+      {
+        const auto &own = kept.acts_through();
+        numbers         = FunctionalPlaces(own, communicator).numbers;
+        functionals = functionals_of_all_ranks(own.functionals, communicator);
+      }
+    const auto  of_contact = rows_of_contact(contact);
+    UnknownList region     = largest(residual);
+    add_contact(of_contact, *functionals, region);
     if (region.empty())
       return;
     const Places places(region);
@@ -277,6 +275,8 @@ namespace Ricochet
     std::vector<Entry> entries;
     system->n = region.size();
     const Rows change(difference), old(kept.body_matrix());
+    AssertThrow(change.matrix.NumMyNonzeros() == old.matrix.NumMyNonzeros(),
+                ExcMessage("The matrices have the same pattern."));
     const int *columns = change.matrix.ColMap().MyGlobalElements();
     for (unsigned int row = 0; row < change.size(); ++row)
       {
@@ -298,31 +298,13 @@ namespace Ricochet
                 {place, column, old.value[k] + change.value[k]});
           }
       }
-    entries           = of_all_ranks(entries, communicator);
-    const auto sparse = [&](const std::vector<Entry> &of) {
-      std::vector<Eigen::Triplet<double>> triplets;
-      triplets.reserve(of.size());
-      for (const Entry &entry : of)
-        triplets.emplace_back(entry.row, entry.column, entry.value);
-      Eigen::SparseMatrix<double> matrix(system->n, system->n);
-      matrix.setFromTriplets(triplets.begin(), triplets.end());
-      return matrix;
-    };
-    std::vector<Entry> taken;
-    add_entries(of_contact, 1, all, places, taken);
-    Eigen::SparseMatrix<double> matrix;
-    if (taken.empty())
-      {
-        add_entries(of_contact, 0, all, places, entries);
-        matrix = sparse(entries);
-      }
-    else
-      {
-        std::vector<Entry> put;
-        add_entries(of_contact, 0, all, places, put);
-        const Eigen::SparseMatrix<double> body = sparse(entries);
-        matrix = body + sparse(taken) * body + sparse(put);
-      }
+    const Eigen::SparseMatrix<double>
+      body  = sparse_matrix(of_all_ranks(entries, communicator), system->n),
+      put   = sparse_matrix(entries_of(of_contact, 0, *functionals, places),
+                          system->n),
+      taken = sparse_matrix(entries_of(of_contact, 1, *functionals, places),
+                            system->n);
+    const Eigen::SparseMatrix<double> matrix = body + taken * body + put;
     system->factors.compute(matrix);
     if (system->factors.info() == Eigen::Success)
       small = std::move(system);

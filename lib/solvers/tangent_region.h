@@ -37,9 +37,6 @@ namespace Ricochet
   class TangentRegion
   {
   public:
-    /// Unknowns of all ranks, ascending.
-    using Unknowns = std::vector<dealii::types::global_dof_index>;
-
     TangentRegion();
     ~TangentRegion();
 
@@ -55,10 +52,11 @@ namespace Ricochet
      * columns of these unknowns at least.
      */
     void
-    find(const Vector                                          &residual,
-         const Tangent                                         &contact,
-         const CondensedSystem                                 &kept,
-         const std::function<void(const Unknowns &, Matrix &)> &add_difference);
+    find(
+      const Vector                                             &residual,
+      const Tangent                                            &contact,
+      const CondensedSystem                                    &kept,
+      const std::function<void(const UnknownList &, Matrix &)> &add_difference);
 
     void
     forget();
@@ -74,17 +72,13 @@ namespace Ricochet
   private:
     struct SmallSystem;
 
-    /// The functionals of all ranks, of a body that is on several.
-    const Functionals &
-    functionals(const CondensedSystem &system);
-
     /// The rows of C and E of all ranks.
     std::vector<NumberedRows>
-    rows_of_contact(const Tangent &contact, const CondensedSystem &system);
+    rows_of_contact(const Tangent &contact) const;
 
     MPI_Comm communicator = MPI_COMM_SELF;
     // Of all ranks, and the numbers there of those that this rank knows.
-    std::optional<Functionals>   all_functionals;
+    std::optional<Functionals>   functionals;
     std::vector<unsigned int>    numbers;
     std::unique_ptr<SmallSystem> small;
     Matrix                       difference;

@@ -80,12 +80,10 @@ namespace Ricochet
         problem.rows_to_forces(residual);
         if (region_is_worth_while())
           problem.find_region(residual, kept, region);
-        if (region.exists())
-          mixing.next(residual, step, [this](std::vector<double> &force) {
+        mixing.next(residual, step, [this](std::vector<double> &force) {
+          if (region.exists())
             region.complete(force);
-          });
-        else
-          mixing.next(residual, step);
+        });
         entries(step) *= -1.;
         problem.forces_to_rows(step);
         problem.add_iterations(1);

@@ -103,8 +103,8 @@ namespace Ricochet
                             TangentRegion      &region)
   {
     // Masses are the same, and so are loads that follow the body, nearly.
-    const auto add_difference = [&](const TangentRegion::Unknowns &unknowns,
-                                    Matrix                        &matrix) {
+    const auto add_difference = [&](const UnknownList &unknowns,
+                                    Matrix            &matrix) {
       const Stopwatch stopwatch(parts.tangent_seconds);
       add_bulk_tangent(kept, matrix, &unknowns);
       matrix *= -1.;
@@ -118,9 +118,9 @@ namespace Ricochet
   }
 
   void
-  StageProblem::add_bulk_tangent(const TangentPoint           &point,
-                                 Matrix                       &matrix,
-                                 const BulkOperator::Unknowns *near) const
+  StageProblem::add_bulk_tangent(const TangentPoint &point,
+                                 Matrix             &matrix,
+                                 const UnknownList  *near) const
   {
     if (stage.bulk_step_force)
       parts.bulk.add_step_tangent(point.old_solution,

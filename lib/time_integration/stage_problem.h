@@ -143,9 +143,9 @@ namespace Ricochet
 
     /// Add the derivative of the body's forces at a point, see BulkOperator::add_tangent().
     void
-    add_bulk_tangent(const TangentPoint           &point,
-                     Matrix                       &matrix,
-                     const BulkOperator::Unknowns *near = nullptr) const;
+    add_bulk_tangent(const TangentPoint &point,
+                     Matrix             &matrix,
+                     const UnknownList  *near = nullptr) const;
 
     /// @param condenses contact is looked at by its functionals alone.
     Tangent

@@ -282,7 +282,7 @@ namespace
       region.find(residual,
                   current,
                   *nearby,
-                  [&](const TangentRegion::Unknowns &unknowns, Matrix &matrix) {
+                  [&](const UnknownList &unknowns, Matrix &matrix) {
                     found = unknowns;
                     matrix.add(1., tangent);
                     matrix.add(-1., kept_tangent);
@@ -295,7 +295,7 @@ namespace
     TangentSolver::Costs          spent;
     std::unique_ptr<NearbyBody>   nearby;
     Tangent                       current;
-    TangentRegion::Unknowns       found;
+    UnknownList                   found;
   };
 } // namespace
 
@@ -314,8 +314,7 @@ BOOST_AUTO_TEST_CASE(region_with_the_tangent_of_today)
   BOOST_CHECK(!region.exists());
   body.find(residual, region);
   BOOST_REQUIRE(region.exists());
-  const TangentRegion::Unknowns expected =
-    {46, 47, 59, 60, 61, 62, 74, 75, 88, 150};
+  const UnknownList expected = {46, 47, 59, 60, 61, 62, 74, 75, 88, 150};
   BOOST_CHECK(body.found == expected);
 
   // r + (K - T) d, with d of (K + E K + C)_RR d = -r_R, by a dense matrix.
