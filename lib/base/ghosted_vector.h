@@ -9,6 +9,7 @@
 #include <Epetra_Vector.h>
 
 #include <memory>
+#include <vector>
 
 class Epetra_Import;
 
@@ -67,8 +68,9 @@ namespace Ricochet
 
   private:
     std::unique_ptr<Epetra_Vector> ghosted;
-    // None where all values are this rank's, in the same order.
+    // None on one rank, where values are taken from their places in the vector.
     std::shared_ptr<const Epetra_Import> exchange;
+    std::vector<int>                     places;
     bool                                 knows_exchange = false;
   };
 } // namespace Ricochet

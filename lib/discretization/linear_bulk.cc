@@ -126,10 +126,11 @@ namespace Ricochet
                                 }))
     , communicator(body.communicator)
     , n_parts(materials.size())
-    , group(body.owned_indices().n_elements(), n_parts * dim)
     , work(body.make_vector())
     , product(body.make_vector())
   {
+    std::vector<unsigned int>       group(body.owned_indices().n_elements(),
+                                    n_parts * dim);
     const std::vector<unsigned int> parts   = body.parts_of_unknowns(n_parts);
     const FiniteElement<dim>       &element = body.dof_handler().get_fe();
     std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
@@ -167,10 +168,7 @@ namespace Ricochet
     for (unsigned int &one : group)
       if (one < n_parts * dim)
         one = first[one / dim] * dim + one % dim;
-    group_sizes.assign(n_parts * dim + 1, 0.);
-    for (const unsigned int one : group)
-      group_sizes[one] += 1.;
-    Utilities::MPI::sum(group_sizes, communicator, group_sizes);
+    make_runs(group);
 
     // W_v = eta/2 tr(strain_rate^2): the viscous stress is eta times the strain
     // rate.
@@ -305,19 +303,63 @@ namespace Ricochet
 
   template <int dim>
   void
+  LinearBulk<dim>::make_runs(const std::vector<unsigned int> &group)
+  {
+    group_sizes.assign(n_parts * dim, 0.);
+    for (unsigned int i = 0; i < group.size(); ++i)
+      {
+        const unsigned int part = group[i] / dim, component = group[i] % dim;
+        if (part == n_parts)
+          continue;
+        group_sizes[group[i]] += 1.;
+        if (runs.empty() || runs.back().end != i || runs.back().part != part ||
+            component !=
+              (runs.back().first_component + i - runs.back().begin) % dim)
+          runs.push_back({part, component, i, i});
+        runs.back().end = i + 1;
+      }
+    Utilities::MPI::sum(group_sizes, communicator, group_sizes);
+  }
+
+
+
+  template <int dim>
+  void
   LinearBulk<dim>::remove_translation() const
   {
-    // What belongs to no part has the last place, and is left as it is.
-    double *const       values = work.trilinos_vector()[0];
-    std::vector<double> my_sums(group_sizes.size(), 0.), means(my_sums);
-    for (unsigned int i = 0; i < group.size(); ++i)
-      my_sums[group[i]] += values[i];
-    my_sums.back() = 0.;
-    Utilities::MPI::sum(my_sums, communicator, means);
-    for (unsigned int g = 0; g + 1 < means.size(); ++g)
-      means[g] /= group_sizes[g];
-    for (unsigned int i = 0; i < group.size(); ++i)
-      values[i] -= means[group[i]];
+    // Several nodes at once.
+    constexpr unsigned int width = 4 * dim;
+    using Lanes                  = Eigen::Array<double, width, 1>;
+    double *const       values   = work.trilinos_vector()[0];
+    std::vector<double> means(group_sizes.size(), 0.);
+    const auto          group_of = [](const Run &run, const unsigned int i) {
+      return run.part * dim + (run.first_component + i) % dim;
+    };
+    for (const Run &run : runs)
+      {
+        Lanes        sums = Lanes::Zero();
+        unsigned int i    = run.begin;
+        for (; i + width <= run.end; i += width)
+          sums += Eigen::Map<const Lanes>(values + i);
+        for (unsigned int k = 0; k < width; ++k)
+          means[group_of(run, k)] += sums[k];
+        for (; i < run.end; ++i)
+          means[group_of(run, i - run.begin)] += values[i];
+      }
+    Utilities::MPI::sum(means, communicator, means);
+    for (unsigned int g = 0; g < means.size(); ++g)
+      means[g] /= std::max(1., group_sizes[g]);
+    for (const Run &run : runs)
+      {
+        Lanes mean;
+        for (unsigned int k = 0; k < width; ++k)
+          mean[k] = means[group_of(run, k)];
+        unsigned int i = run.begin;
+        for (; i + width <= run.end; i += width)
+          Eigen::Map<Lanes>(values + i) -= mean;
+        for (; i < run.end; ++i)
+          values[i] -= mean[(i - run.begin) % width];
+      }
   }
 
 
@@ -331,30 +373,13 @@ namespace Ricochet
       return known.energies;
     copy_values(solution, work);
     remove_translation();
-    known.energies.assign(n_parts + 1, 0.);
-    if (n_parts == 1)
-      {
-        known.energies[0] = .5 * (known.force * work);
-        return known.energies;
-      }
-    const double *const force        = known.force.trilinos_vector()[0];
-    const double *const displacement = work.trilinos_vector()[0];
-    std::vector<double> my_energies(known.energies);
-    // Most unknowns are of the part of the one before them.
-    unsigned int part = 0;
-    double       sum  = 0.;
-    for (unsigned int i = 0; i < group.size(); ++i)
-      {
-        if (group[i] / dim != part)
-          {
-            my_energies[part] += .5 * sum;
-            part = group[i] / dim;
-            sum  = 0.;
-          }
-        sum += force[i] * displacement[i];
-      }
-    my_energies[part] += .5 * sum;
-    Utilities::MPI::sum(my_energies, communicator, known.energies);
+    known.energies.assign(n_parts, 0.);
+    for (const Run &run : runs)
+      known.energies[run.part] += .5 *
+        entries(known.force)
+          .segment(run.begin, run.end - run.begin)
+          .dot(entries(work).segment(run.begin, run.end - run.begin));
+    Utilities::MPI::sum(known.energies, communicator, known.energies);
     return known.energies;
   }
 
@@ -374,9 +399,7 @@ namespace Ricochet
   std::vector<double>
   LinearBulk<dim>::energies_of_parts(const Vector &solution) const
   {
-    std::vector<double> energies = known_energies(solution);
-    energies.pop_back();
-    return energies;
+    return known_energies(solution);
   }
 
 

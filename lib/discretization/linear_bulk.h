@@ -91,13 +91,23 @@ namespace Ricochet
     void
     remove_translation() const;
 
-    const bool     has_viscosity;
-    const MPI_Comm communicator;
-    // dim times the part of each owned displacement, and its component; larger for
-    // multipliers.
-    unsigned int              n_parts = 1;
-    std::vector<unsigned int> group;
-    // Unknowns of each group on all ranks; the last one has what belongs to none.
+    /// Displacements of this rank that follow each other: those of one part, of one
+    /// component after the other.
+    struct Run
+    {
+      unsigned int part, first_component, begin, end;
+    };
+
+    /// @param group dim times the part of each owned displacement, and its component;
+    /// larger for multipliers.
+    void
+    make_runs(const std::vector<unsigned int> &group);
+
+    const bool       has_viscosity;
+    const MPI_Comm   communicator;
+    unsigned int     n_parts = 1;
+    std::vector<Run> runs;
+    // Displacements of each part and component on all ranks.
     std::vector<double> group_sizes;
     BodyMatrix          stiffness;
     BodyMatrix          viscosity_matrix;
@@ -109,7 +119,7 @@ namespace Ricochet
     struct KnownForce
     {
       Vector displacement, force;
-      /// Of the parts (J), and of what belongs to none; empty as long as nobody asks.
+      /// Of the parts (J); empty as long as nobody asks.
       std::vector<double> energies;
     };
     mutable std::list<KnownForce> known_forces;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <output/momenta.h>
 #include <solvers/body_matrix.h>
+
+#include <algorithm>
 
 namespace Ricochet
 {
@@ -61,6 +64,35 @@ namespace Ricochet
             return cross_product_3d(direction, arm);
           });
       }
+
+    begin_of_motions = momentum.locally_owned_size();
+    end_of_motions   = 0;
+    for (const auto *const motions : {&of_translations, &of_rotations})
+      for (const Vector &motion : *motions)
+        for (unsigned int i = 0; i < motion.locally_owned_size(); ++i)
+          if (motion.trilinos_vector()[0][i] != 0.)
+            {
+              begin_of_motions = std::min(begin_of_motions, i);
+              end_of_motions   = std::max(end_of_motions, i + 1);
+            }
+    end_of_motions = std::max(begin_of_motions, end_of_motions);
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Momenta<dim>::products(const std::vector<Vector> &motions,
+                         const Vector              &velocity) const
+  {
+    const unsigned int  n = end_of_motions - begin_of_motions;
+    std::vector<double> sums;
+    for (const Vector &motion : motions)
+      sums.push_back(entries(motion)
+                       .segment(begin_of_motions, n)
+                       .dot(entries(velocity).segment(begin_of_motions, n)));
+    Utilities::MPI::sum(sums, communicator, sums);
+    return sums;
   }
 
 
@@ -70,9 +102,10 @@ namespace Ricochet
   Momenta<dim>::linear(const Vector &velocity) const
   {
     move_rigidly();
-    Tensor<1, dim> sum;
+    const std::vector<double> sums = products(of_translations, velocity);
+    Tensor<1, dim>            sum;
     for (unsigned int c = 0; c < dim; ++c)
-      sum[c] = of_translations[c] * velocity;
+      sum[c] = sums[c];
     return sum;
   }
 
@@ -83,9 +116,10 @@ namespace Ricochet
   Momenta<dim>::angular(const Vector &solution, const Vector &velocity) const
   {
     move_rigidly();
-    Tensor<1, 3> sum;
-    for (unsigned int axis = 3 - of_rotations.size(); axis < 3; ++axis)
-      sum[axis] = of_rotations[axis - (3 - of_rotations.size())] * velocity;
+    const std::vector<double> sums = products(of_rotations, velocity);
+    Tensor<1, 3>              sum;
+    for (unsigned int axis = 3 - sums.size(); axis < 3; ++axis)
+      sum[axis] = sums[axis - (3 - sums.size())];
     if (small_strains)
       return sum;
     mass.vmult(momentum, velocity);

@@ -43,6 +43,10 @@ namespace Ricochet
     void
     move_rigidly() const;
 
+    /// Products of @p velocity with each of #of_translations or #of_rotations.
+    std::vector<double>
+    products(const std::vector<Vector> &motions, const Vector &velocity) const;
+
     const MPI_Comm                   communicator;
     const BodyMatrix                &mass;
     const bool                       small_strains;
@@ -51,7 +55,9 @@ namespace Ricochet
     // velocity about it, made when first asked for: their products with a velocity
     // are its momenta.
     mutable std::vector<Vector> of_translations, of_rotations;
-    mutable Vector              momentum;
+    // Where this rank's entries of them begin and end that are not zero.
+    mutable unsigned int begin_of_motions = 0, end_of_motions = 0;
+    mutable Vector       momentum;
   };
 } // namespace Ricochet
 

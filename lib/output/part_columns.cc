@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/vector_operations.h>
 #include <output/part_columns.h>
-#include <solvers/body_matrix.h>
 
 #include <algorithm>
 #include <numeric>
@@ -22,6 +21,7 @@ namespace Ricochet
     }
 
     template <int dim>
+    /// Of each owned unknown, its body.
     std::vector<unsigned int>
     bodies_of_unknowns(const Body<dim>                 &body,
                        const std::vector<unsigned int> &first_part)
@@ -38,25 +38,37 @@ namespace Ricochet
 
 
   template <int dim>
+  std::vector<typename PartColumns<dim>::Run>
+  PartColumns<dim>::runs_of(const std::vector<unsigned int> &body_of_unknown)
+  {
+    std::vector<Run> runs;
+    for (unsigned int i = 0; i < body_of_unknown.size(); ++i)
+      if (!runs.empty() && runs.back().body == body_of_unknown[i])
+        runs.back().end = i + 1;
+      else
+        runs.push_back({body_of_unknown[i], i, i + 1});
+    return runs;
+  }
+
+
+
+  template <int dim>
   PartColumns<dim>::PartColumns(const Body<dim>                &body,
-                                const BulkOperator             &bulk,
-                                const BodyMatrix               &mass,
+                                const SemiDiscreteSystem       &system,
                                 const bool                      small_strains,
                                 const std::vector<std::string> &names,
                                 std::vector<unsigned int>       given_parts)
-    : bulk(bulk)
-    , mass(mass)
+    : system(system)
     , communicator(body.communicator)
     , names(names)
     , first_part(given_parts.empty() ? counting(names.size() + 1)
                                      : std::move(given_parts))
-    , part_of_unknown(bodies_of_unknowns(body, first_part))
-    , momenta_of_all(body, mass, small_strains)
-    , momentum(body.make_vector())
+    , runs(runs_of(bodies_of_unknowns(body, first_part)))
+    , momenta_of_all(body, system.mass_matrix(), small_strains)
   {
     for (unsigned int p = 0; p < names.size(); ++p)
       momenta_of_parts.emplace_back(body,
-                                    mass,
+                                    system.mass_matrix(),
                                     small_strains,
                                     first_part.back(),
                                     first_part[p],
@@ -66,37 +78,19 @@ namespace Ricochet
 
 
   template <int dim>
-  const std::vector<double> &
-  PartColumns<dim>::kinetic_energies(const Vector &velocity) const
-  {
-    const unsigned int  n      = velocity.locally_owned_size();
-    const double *const values = velocity.trilinos_vector()[0];
-    // To the last digit, so that it makes no difference to know them.
-    const bool is_known = !known_energies.empty() &&
-      std::equal(values, values + n, known_velocity.trilinos_vector()[0]);
-    if (Utilities::MPI::min(is_known ? 1 : 0, communicator) == 1)
-      return known_energies;
-    // Masses do not couple bodies.
-    mass.vmult(momentum, velocity);
-    std::vector<double> my_energies(names.size(), 0.);
-    for (unsigned int i = 0; i < part_of_unknown.size(); ++i)
-      if (part_of_unknown[i] < names.size())
-        my_energies[part_of_unknown[i]] +=
-          .5 * momentum.trilinos_vector()[0][i] * values[i];
-    known_energies.resize(names.size());
-    Utilities::MPI::sum(my_energies, communicator, known_energies);
-    copy_values(velocity, known_velocity);
-    return known_energies;
-  }
-
-
-
-  template <int dim>
   double
   PartColumns<dim>::kinetic_energy(const unsigned int p,
                                    const Vector      &velocity) const
   {
-    return kinetic_energies(velocity)[p];
+    // Masses do not couple bodies.
+    const auto momenta    = entries(system.momentum().with(velocity));
+    const auto velocities = entries(velocity);
+    double     sum        = 0.;
+    for (const Run &run : runs)
+      if (run.body == p)
+        sum += momenta.segment(run.begin, run.size())
+                 .dot(velocities.segment(run.begin, run.size()));
+    return .5 * Utilities::MPI::sum(sum, communicator);
   }
 
 
@@ -108,13 +102,13 @@ namespace Ricochet
                          const Vector      &begin,
                          const Vector      &end) const
   {
-    const double *f   = force.trilinos_vector()[0];
-    const double *a   = begin.trilinos_vector()[0];
-    const double *b   = end.trilinos_vector()[0];
-    double        sum = 0.;
-    for (unsigned int i = 0; i < part_of_unknown.size(); ++i)
-      if (part_of_unknown[i] == p)
-        sum += f[i] * (b[i] - a[i]);
+    double sum = 0.;
+    for (const Run &run : runs)
+      if (run.body == p)
+        sum += entries(force)
+                 .segment(run.begin, run.size())
+                 .dot(entries(end).segment(run.begin, run.size()) -
+                      entries(begin).segment(run.begin, run.size()));
     return Utilities::MPI::sum(sum, communicator);
   }
 
@@ -126,21 +120,23 @@ namespace Ricochet
   {
     const auto add_momenta = [&](const std::string  &suffix,
                                  const Momenta<dim> &momenta_of) {
+      std::vector<std::string> linear, angular;
       for (unsigned int c = 0; c < dim; ++c)
-        loop.add_column(std::string("momentum_") + "xyz"[c] + suffix,
-                        "kg m/s",
-                        [&momenta_of, c](const State &state) {
-                          return momenta_of.linear(state.velocity)[c];
-                        });
+        linear.push_back(std::string("momentum_") + "xyz"[c] + suffix);
       for (unsigned int c = dim == 2 ? 2 : 0; c < 3; ++c)
-        loop.add_column("angular_momentum" +
+        angular.push_back("angular_momentum" +
                           (dim == 2 ? "" : std::string("_") + "xyz"[c]) +
-                          suffix,
-                        "kg m^2/s",
-                        [&momenta_of, c](const State &state) {
-                          return momenta_of.angular(state.solution,
-                                                    state.velocity)[c];
-                        });
+                          suffix);
+      loop.add_columns(linear, "kg m/s", [&momenta_of](const State &state) {
+        const Tensor<1, dim> sum = momenta_of.linear(state.velocity);
+        return std::vector<double>(sum.begin_raw(), sum.end_raw());
+      });
+      loop.add_columns(angular, "kg m^2/s", [&momenta_of](const State &state) {
+        const Tensor<1, 3> sum =
+          momenta_of.angular(state.solution, state.velocity);
+        return std::vector<double>(sum.begin_raw() + (dim == 2 ? 2 : 0),
+                                   sum.end_raw());
+      });
     };
     // One part is all.
     for (unsigned int p = 0; p < names.size() && names.size() > 1; ++p)
@@ -154,7 +150,7 @@ namespace Ricochet
                         "J",
                         [this, p](const State &state) {
                           const std::vector<double> energies =
-                            bulk.energies_of_parts(state.solution);
+                            system.bulk.energies_of_parts(state.solution);
                           return std::accumulate(energies.begin() +
                                                    first_part[p],
                                                  energies.begin() +

@@ -2,7 +2,6 @@
 #ifndef ricochet_output_part_columns_h
 #define ricochet_output_part_columns_h
 
-#include <discretization/bulk_operator.h>
 #include <output/momenta.h>
 #include <problems/time_loop.h>
 
@@ -12,8 +11,8 @@
 namespace Ricochet
 {
   /**
-   * What each of several bodies, each of one or several parts, has of the energies and momenta in the ledger:
-   * columns kinetic_energy_NAME, elastic_energy_NAME, contact_work_NAME (what the body
+   * What each of several bodies, each of one or several parts, has of the energies and
+   * momenta in the ledger: columns kinetic_energy_NAME, elastic_energy_NAME, contact_work_NAME (what the body
    * has given to others through contact, friction included), momentum_x_NAME, ...,
    * angular_momentum_NAME, and momentum_x, ..., angular_momentum for all together. The
    * sum of the first three changes by the work from outside and by viscosity only. One
@@ -23,13 +22,12 @@ namespace Ricochet
   class PartColumns
   {
   public:
-    /// @param mass of the equation of motion (kg).
+    /// @param system the equation of motion of the bodies.
     /// @param names of the bodies.
     /// @param first_part of each body, and the number of all parts; empty where each body
     /// is one. All must outlive the object.
     PartColumns(const Body<dim>                &body,
-                const BulkOperator             &bulk,
-                const BodyMatrix               &mass,
+                const SemiDiscreteSystem       &system,
                 const bool                      small_strains,
                 const std::vector<std::string> &names,
                 std::vector<unsigned int>       first_part = {});
@@ -64,23 +62,28 @@ namespace Ricochet
     }
 
   private:
-    /// Energies of motion of all bodies (J).
-    const std::vector<double> &
-    kinetic_energies(const Vector &velocity) const;
+    /// Unknowns of this rank that follow each other and belong to one body.
+    struct Run
+    {
+      unsigned int body, begin, end;
 
-    const BulkOperator             &bulk;
-    const BodyMatrix               &mass;
+      unsigned int
+      size() const
+      {
+        return end - begin;
+      }
+    };
+
+    static std::vector<Run>
+    runs_of(const std::vector<unsigned int> &body_of_unknown);
+
+    const SemiDiscreteSystem       &system;
     const MPI_Comm                  communicator;
     const std::vector<std::string>  names;
     const std::vector<unsigned int> first_part;
-    // Of each owned unknown, its body.
-    const std::vector<unsigned int> part_of_unknown;
+    const std::vector<Run>          runs;
     std::vector<Momenta<dim>>       momenta_of_parts;
     Momenta<dim>                    momenta_of_all;
-    // What the columns of one body after the other ask for is known from the first
-    // of them: the energies at this velocity (m/s).
-    mutable Vector              momentum, known_velocity;
-    mutable std::vector<double> known_energies;
   };
 } // namespace Ricochet
 

@@ -176,8 +176,22 @@ namespace Ricochet
                        const std::string                          &unit,
                        const std::function<double(const State &)> &value)
   {
-    ledger.add_column(name, units.name(unit));
-    own_columns.push_back(value);
+    add_columns({name}, unit, [value](const State &state) {
+      return std::vector<double>{value(state)};
+    });
+  }
+
+
+
+  void
+  TimeLoop::add_columns(
+    const std::vector<std::string>                          &names,
+    const std::string                                       &unit,
+    const std::function<std::vector<double>(const State &)> &values)
+  {
+    for (const std::string &name : names)
+      ledger.add_column(name, units.name(unit));
+    own_columns.push_back(values);
   }
 
 
@@ -379,8 +393,11 @@ namespace Ricochet
           row.push_back(contact.stress_pressure);
         row.push_back(static_cast<double>(contact.active_points));
       }
-    for (const auto &value : own_columns)
-      row.push_back(value(state));
+    for (const auto &values : own_columns)
+      {
+        const std::vector<double> own = values(state);
+        row.insert(row.end(), own.begin(), own.end());
+      }
     for (unsigned int i = 0; i < row.size(); ++i)
       if (!std::isfinite(row[i]) && !ledger.columns()[i].may_be_empty)
         throw ComputationError(

@@ -58,6 +58,13 @@ namespace Ricochet
                const std::string                          &unit,
                const std::function<double(const State &)> &value);
 
+    /// The same for several columns, all of which @p values finds at once.
+    void
+    add_columns(
+      const std::vector<std::string>                          &names,
+      const std::string                                       &unit,
+      const std::function<std::vector<double>(const State &)> &values);
+
     /// Add a column that sums up over the run what each step, or each part of a halved
     /// one, adds to it, from its beginning to its end.
     void
@@ -185,7 +192,7 @@ namespace Ricochet
                 contact_names;
     const Units units;
     // Values of the benchmark's own columns, in the order of the ledger.
-    std::vector<std::function<double(const State &)>> own_columns;
+    std::vector<std::function<std::vector<double>(const State &)>> own_columns;
     std::vector<std::function<double(const State &, const State &)>> own_sums;
     // Of each of them, its mean over the last step.
     std::vector<double> own_means;

@@ -254,8 +254,7 @@ namespace Ricochet
     for (const Part<dim> &part : assembly.parts)
       all_materials.push_back(part.material);
     const PartColumns<dim> columns(assembly.body,
-                                   *assembly.bulk,
-                                   assembly.system.mass_matrix(),
+                                   assembly.system,
                                    /* small strains */
                                    all_materials.front().linear.has_value(),
                                    body_names,

@@ -3,9 +3,11 @@
 #define ricochet_solvers_condensed_system_h
 
 #include <base/types.h>
+#include <solvers/functional_norm.h>
 #include <solvers/functionals.h>
 #include <solvers/tangent.h>
 
+#include <optional>
 #include <vector>
 
 namespace Ricochet
@@ -69,6 +71,13 @@ namespace Ricochet
     add_functionals(const std::vector<double> &coefficients,
                     Vector                    &vector) const = 0;
 
+    /// l2 norm of that sum, of all ranks, each entry times that of @p scaling (null for
+    /// 1). @param work of the layout of the unknowns; may be overwritten.
+    double
+    norm_of_functionals(const std::vector<double> &coefficients,
+                        const Vector              *scaling,
+                        Vector                    &work);
+
     /// @return @p vector along this rank's functionals: its products with them.
     virtual std::vector<double>
     along_functionals(const Vector &vector) = 0;
@@ -95,6 +104,10 @@ namespace Ricochet
                   const std::vector<FunctionalRow> &excess_change,
                   std::vector<double>              &coefficients,
                   const std::vector<double>        &values) = 0;
+
+  private:
+    // Known when it is first asked for.
+    std::optional<FunctionalNorm> functional_norm;
   };
 } // namespace Ricochet
 

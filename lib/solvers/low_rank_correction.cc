@@ -27,9 +27,11 @@ namespace Ricochet
     , products(directions)
     , work(owned, communicator)
   {
-    IndexSet relevant = owned;
-    relevant.add_indices(observables.index.begin(), observables.index.end());
-    ghosted = GhostedVector(Vector(owned, relevant, communicator));
+    std::vector<Index> seen = observables.index;
+    std::sort(seen.begin(), seen.end());
+    IndexSet to_know(owned.size());
+    to_know.add_indices(seen.begin(), std::unique(seen.begin(), seen.end()));
+    ghosted = GhostedVector(to_know, communicator);
     for (const Index index : observables.index)
       local_index.push_back(ghosted.local_index(index));
 
@@ -365,11 +367,16 @@ namespace Ricochet
     std::vector<NumberedRows> all;
     for (unsigned int d = 0; d < my_rows.size(); ++d)
       {
-        const Row excess_row =
-          my_excess_rows.empty() ? Row() : my_excess_rows[d];
-        if (!my_rows[d].empty() || !excess_row.empty())
-          all.push_back({place_of_direction[d],
-                         {{my_rows[d], excess_row, taken_by(excess_row)}}});
+        const bool takes =
+          !my_excess_rows.empty() && !my_excess_rows[d].empty();
+        if (my_rows[d].empty() && !takes)
+          continue;
+        all.push_back({place_of_direction[d], {{my_rows[d], {}, {}}}});
+        if (takes)
+          {
+            all.back().rows[1] = my_excess_rows[d];
+            all.back().rows[2] = taken_by(my_excess_rows[d]);
+          }
       }
     all = sum_of_all_ranks(std::move(all), communicator);
     changed.clear();

@@ -17,16 +17,19 @@ namespace Ricochet
                                  CondensedSystem             &system,
                                  ContactOperator             &contact,
                                  const Vector                &residual,
-                                 const double                 contact_scale,
+                                 const ContactForces         &contact_forces,
                                  WorkSpace                   &space)
     : problem(problem)
     , system(system)
     , contact(contact)
     , communicator(residual.get_mpi_communicator())
-    , body_force_scale(problem.force_scale() - contact_scale)
-    , contact_force_scale(contact_scale)
+    , contact_forces(contact_forces)
+    , body_force_scale(problem.force_scale() - contact_forces.scale)
+    , contact_force_scale(contact_forces.scale)
     , open_residual(space.open_residual)
     , work(space.work)
+    , change(space.change)
+    , excess_change(space.excess_change)
   {
     copy_values(residual, open_residual);
     if (work.size() != residual.size())
@@ -126,11 +129,7 @@ namespace Ricochet
     for (unsigned int f = 0; f < change.size(); ++f)
       unknowns.coefficients[f] = forces[f] - unknowns.coefficients[f];
     if (unknowns.share != 0.)
-      {
-        work = 0.;
-        system.add_functionals(forces, work);
-        contact_force_scale = l2_norm(work);
-      }
+      contact_force_scale = system.norm_of_functionals(forces, nullptr, work);
     unknowns.share = 1. - unknowns.share;
     write(unknowns, result);
   }
@@ -141,9 +140,13 @@ namespace Ricochet
   CondensedStage::norm(const Vector &small_residual)
   {
     const Unknowns rest = read(small_residual);
-    work                = 0.;
-    if (rest.share != 0.)
-      work.add(rest.share, open_residual);
+    if (rest.share == 0.)
+      return system.norm_of_functionals(rest.coefficients,
+                                        contact_forces.row_scaling,
+                                        work) +
+        contact_forces.weight * contact.linearisation_error();
+    work = 0.;
+    work.add(rest.share, open_residual);
     system.add_functionals(rest.coefficients, work);
     return problem.norm(work);
   }

@@ -34,7 +34,18 @@ namespace Ricochet
     /// Vectors that serve in all stages: to allocate them takes longer than to fill them.
     struct WorkSpace
     {
-      Vector open_residual, work;
+      Vector                     open_residual, work;
+      std::vector<FunctionalRow> change, excess_change;
+    };
+
+    /// How forces of contact count in the norms of the whole stage.
+    struct ContactForces
+    {
+      /// Weight in the residual (1), and what contact has of the problem's force scale at
+      /// the guess (N).
+      double weight, scale;
+      /// ContactOperator::row_scaling(); null where all of it is 1.
+      const Vector *row_scaling;
     };
 
     /**
@@ -42,14 +53,13 @@ namespace Ricochet
      * @param system of its body.
      * @param contact has begun the stage, and looked at the guess last.
      * @param residual that of the whole stage there.
-     * @param contact_force_scale what contact has of the problem's force scale (N).
      * @param space is not used by another one as long as this one is.
      */
     CondensedStage(const NewtonSolver::Problem &problem,
                    CondensedSystem             &system,
                    ContactOperator             &contact,
                    const Vector                &residual,
-                   const double                 contact_force_scale,
+                   const ContactForces         &contact_forces,
                    WorkSpace                   &space);
 
     /**
@@ -104,6 +114,7 @@ namespace Ricochet
     CondensedSystem             &system;
     ContactOperator             &contact;
     const MPI_Comm               communicator;
+    const ContactForces          contact_forces;
     /// Magnitude of all forces but contact's (N), and of contact's.
     double body_force_scale, contact_force_scale;
     // The residual at the guess with open contact (N), and what its solution makes
@@ -114,7 +125,7 @@ namespace Ricochet
     std::vector<double> open_excess, excess;
     std::vector<double> forces;
     // The tangent of the last linear_solve(), and the active set that it is for.
-    std::vector<FunctionalRow>   change, excess_change;
+    std::vector<FunctionalRow>  &change, &excess_change;
     std::optional<std::uint64_t> tangent_active_set;
   };
 } // namespace Ricochet

@@ -100,6 +100,7 @@ namespace Ricochet
     , contact(contact)
     , unknowns(unknowns)
     , mass(mass)
+    , momenta(mass)
     , invertible_mass(invertible_mass)
     , clamped_list(unknowns.clamped.begin(), unknowns.clamped.end())
     , load(std::move(load))
@@ -496,7 +497,9 @@ namespace Ricochet
   double
   SemiDiscreteSystem::kinetic_energy(const Vector &velocity) const
   {
-    mass.vmult(work, velocity);
-    return .5 * (work * velocity);
+    return .5 *
+      product(entries(momenta.with(velocity)),
+              entries(velocity),
+              velocity.get_mpi_communicator());
   }
 } // namespace Ricochet

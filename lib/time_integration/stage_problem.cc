@@ -86,7 +86,11 @@ namespace Ricochet
             parts.linear_solver.condensed(tangent(here(), true)),
             parts.contact,
             residual,
-            contact_scale,
+            CondensedStage::ContactForces{stage.contact_weight_new,
+                                          contact_scale,
+                                          parts.n_multipliers == 0
+                                            ? nullptr
+                                            : &parts.contact.row_scaling()},
             parts.condensed_space};
   }
 

@@ -319,8 +319,7 @@ CollidingDisks::run(RunFolder &folder)
                 *collision.scheme,
                 {{slave_id, "disks"}});
   const PartColumns<2> parts(collision.body,
-                             *collision.bulk,
-                             collision.system.mass_matrix(),
+                             collision.system,
                              elastic.linear.has_value(),
                              {"left", "right"});
   parts.add_to(loop);

@@ -454,8 +454,7 @@ CollidingSpheres::run(RunFolder &folder)
                 *collision.scheme,
                 {{slave_id, "spheres"}});
   const PartColumns<3> parts(collision.body,
-                             *collision.bulk,
-                             collision.system.mass_matrix(),
+                             collision.system,
                              elastic.linear.has_value(),
                              {"left", "right"});
   parts.add_to(loop);

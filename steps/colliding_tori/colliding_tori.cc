@@ -405,8 +405,7 @@ CollidingTori::run(RunFolder &folder)
                 *collision.scheme,
                 surfaces());
   const PartColumns<3> parts(collision.body,
-                             *collision.bulk,
-                             collision.system.mass_matrix(),
+                             collision.system,
                              /* small strains */ false,
                              {throws[0].name, throws[1].name});
   parts.add_to(loop);

@@ -294,8 +294,7 @@ SlidingBlock::run(RunFolder &folder)
                 *assembly.scheme,
                 {{underside, "block"}});
   const PartColumns<2> parts(assembly.body,
-                             *assembly.bulk,
-                             assembly.system.mass_matrix(),
+                             assembly.system,
                              elastic.linear.has_value(),
                              {"block", "strip"});
   parts.add_to(loop);

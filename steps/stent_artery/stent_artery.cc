@@ -313,8 +313,7 @@ StentArtery::run(RunFolder &folder)
                 *assembly.scheme,
                 {{StentArteryGeometry::artery_inner_wall, "wall"}});
   const PartColumns<2> parts(assembly.body,
-                             *assembly.bulk,
-                             assembly.system.mass_matrix(),
+                             assembly.system,
                              wall_material.linear.has_value(),
                              {"artery", "stent"});
   parts.add_to(loop);

@@ -13,7 +13,7 @@ namespace Ricochet
                                       unsigned int      &place) const
   {
     unsigned int first = f;
-    for (unsigned int k = 0; k < 2; ++k)
+    for (unsigned int k = 0; k < Chain::n_beside; ++k)
       if (const auto previous = master.facets[first].previous)
         first = *previous;
     // A closed surface of few facets is gone round more than once.
@@ -22,7 +22,7 @@ namespace Ricochet
     std::optional<unsigned int> facet         = first;
     unsigned int                n_behind_last = 0;
     bool                        passed        = false;
-    while (facet && n_behind_last < 3)
+    while (facet && n_behind_last <= Chain::n_beside)
       {
         if (!passed && *facet == f)
           place = chain.facets.size();

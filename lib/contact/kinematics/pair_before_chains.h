@@ -5,6 +5,8 @@
 #include <contact/kinematics/surface_pair.h>
 #include <contact/surfaces/facet_chain.h>
 
+#include <boost/container/static_vector.hpp>
+
 #include <limits>
 #include <optional>
 
@@ -26,10 +28,14 @@ namespace Ricochet
   protected:
     using SurfacePair<dim>::master;
 
-    /// Facets that hang together, and their nodes.
+    /// Facets that hang together, and their nodes: one that a point is before, and two on
+    /// either side at most.
     struct Chain
     {
-      std::vector<unsigned int> facets, nodes;
+      static constexpr unsigned int n_beside = 2, most = 2 * n_beside + 1;
+
+      boost::container::static_vector<unsigned int, most>     facets;
+      boost::container::static_vector<unsigned int, most + 1> nodes;
     };
 
     /// The facet before which a point is.

@@ -96,15 +96,17 @@ namespace Ricochet
   {
     typename SurfacePair<dim>::Course course;
     this->begin_course(start, course);
-    old_positions         = std::move(course.begin);
-    const bool has_length = start.time_step > 0.;
+    old_positions           = std::move(course.begin);
+    const bool   has_length = start.time_step > 0.;
+    const double way =
+      has_length || is_self ? this->longest_way(old_positions, course.end) : 0.;
     if (is_self)
       {
         // A facet, and as much as two points come nearer to each other in the step.
         self_distance = 0.;
         for (const auto &facet : master.facets)
           self_distance = std::max(self_distance, facet.measure);
-        self_distance += this->longest_way(old_positions, course.end);
+        self_distance += way;
       }
     find_places_now();
     const std::unique_ptr<FacetSearch<dim>> later = has_length
@@ -124,7 +126,8 @@ namespace Ricochet
           continue;
         if (places_now[p])
           begin_before(p, *places_now[p]);
-        if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
+        if (has_length &&
+            (!gap.is_before_facet || this->may_change_facet(gap.old_gap, way)))
           find_facet_later(p, *later, course.end);
         step.is_double = gap.is_before_facet && is_self && meets_node(p);
         if (step.is_double && !has_other_sides())

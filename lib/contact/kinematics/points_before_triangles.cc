@@ -503,7 +503,9 @@ namespace Ricochet
                        PointBeforeTriangle<double>::gap(
                          corners(p, *f, old_positions)),
                        true);
-        if (has_length && !(gap.is_before_facet && gap.old_gap <= 0.))
+        if (has_length &&
+            (!gap.is_before_facet ||
+             may_change_facet(gap.old_gap, course.reach - smallest_reach)))
           find_facet_later(p, *later, course.end, facets);
         step.is_double = gap.is_before_facet && is_self && meets_node(p);
         if (step.is_double)

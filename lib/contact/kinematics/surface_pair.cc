@@ -149,7 +149,6 @@ namespace Ricochet
   void
   SurfacePair<dim>::make_exchange()
   {
-    const bool is_alone = Utilities::MPI::n_mpi_processes(communicator) == 1;
     std::vector<Index> indices;
     const auto         add = [&](const ContactSurface<dim> &surface,
                          const unsigned int         facet) {
@@ -175,10 +174,10 @@ namespace Ricochet
             indices.push_back(index);
     std::sort(indices.begin(), indices.end());
     indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-    // One rank reads the vector as it is.
-    IndexSet to_know = is_alone ? owned : IndexSet(owned.size());
+    IndexSet to_know(owned.size());
     to_know.add_indices(indices.begin(), indices.end());
     ghosted = GhostedVector(to_know, communicator);
+    multiplier_index.clear();
 
     const auto find = [&](const ContactSurface<dim>         &surface,
                           std::vector<std::array<int, dim>> &local) {
@@ -289,10 +288,21 @@ namespace Ricochet
   {
     ghosted.import(solution);
     get_positions(positions);
+    if (multiplier_index.size() != own_points.size())
+      for (const Point &point : own_points)
+        {
+          multiplier_index.emplace_back();
+          for (unsigned int c = 0; c < dim; ++c)
+            multiplier_index.back()[c] =
+              point.multipliers[c] != numbers::invalid_dof_index
+              ? ghosted.local_index(point.multipliers[c])
+              : -1;
+        }
+    const double *value = ghosted.values();
     for (unsigned int p = 0; p < own_points.size(); ++p)
       for (unsigned int c = 0; c < dim; ++c)
-        if (own_points[p].multipliers[c] != numbers::invalid_dof_index)
-          gaps[p].multipliers[c] = ghosted(own_points[p].multipliers[c]);
+        if (multiplier_index[p][c] >= 0)
+          gaps[p].multipliers[c] = value[multiplier_index[p][c]];
   }
 
 

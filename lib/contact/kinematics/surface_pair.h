@@ -329,6 +329,14 @@ namespace Ricochet
     double
     longest_way(const Positions &from, const Positions &to) const;
 
+    /// Whether a point that is before a facet at the distance @p gap may get before another
+    /// one in a step in which surfaces come nearer by not more than @p way (m).
+    static bool
+    may_change_facet(const double gap, const double way)
+    {
+      return gap > 0. && gap < 2. * way;
+    }
+
     /// Outward, of any length.
     Position
     normal_of(const Point &point, const std::vector<Position> &slave_x) const;
@@ -374,6 +382,8 @@ namespace Ricochet
     std::vector<bool>                 known;
     GhostedVector                     ghosted;
     std::vector<std::array<int, dim>> slave_index, master_index;
+    /// Of each own point, once it is asked for.
+    std::vector<std::array<int, dim>> multiplier_index;
   };
 } // namespace Ricochet
 

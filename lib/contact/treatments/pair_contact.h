@@ -216,8 +216,10 @@ namespace Ricochet
       ContactPointState<> old_state, state;
       // Where the law is linearised: now, and at the last accepted iterate.
       ContactPointState<> linearisation, accepted_linearisation;
-      /// SurfacePair::passage() at the last accepted iterate.
-      int accepted_passage = 0;
+      /// SurfacePair::passage() at the last accepted iterate, and how often it was another
+      /// one than before.
+      int          accepted_passage   = 0;
+      unsigned int n_passages_changed = 0;
       /// Unknowns that the sparsity pattern couples, sorted.
       std::vector<dealii::types::global_dof_index> coupled;
     };
@@ -398,7 +400,9 @@ namespace Ricochet
     // contact is expected to spread over them, their values at the last
     // complete_residual(), and what contact does to each.
     std::vector<dealii::types::global_dof_index> skin;
-    std::vector<double> skin_order, skin_values, skin_force;
+    /// Of each of the skin among this rank's unknowns.
+    std::vector<unsigned int> own_place;
+    std::vector<double>       skin_order, skin_values, skin_force;
     // Those of other ranks, ascending, and whose they are.
     std::vector<dealii::types::global_dof_index>          other_skin;
     std::vector<ContactStructure::ActsThrough::Elsewhere> elsewhere;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_known_product_h
+#define ricochet_solvers_known_product_h
+
+#include <base/types.h>
+#include <solvers/body_matrix.h>
+
+namespace Ricochet
+{
+  /**
+   * Products of a matrix with vectors, of which the last one is known: what several ask
+   * for one after the other, is made once.
+   */
+  class KnownProduct
+  {
+  public:
+    /// @param matrix has to outlive this.
+    explicit KnownProduct(const BodyMatrix &matrix)
+      : matrix(matrix)
+    {}
+
+    /// The product with @p vector; stays as it is until the next call with another one.
+    /// Collective.
+    const Vector &
+    with(const Vector &vector) const;
+
+  private:
+    const BodyMatrix &matrix;
+    mutable Vector    known, product;
+  };
+} // namespace Ricochet
+
+#endif
