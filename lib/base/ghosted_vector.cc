@@ -28,12 +28,13 @@ namespace Ricochet
     if (!knows_exchange)
       {
         const auto &map = ghosted->Map();
-        if (map.Comm().NumProc() == 1)
+        takes_all       = map.SameAs(from.Map());
+        if (!takes_all && map.Comm().NumProc() == 1)
           for (int i = 0; i < map.NumMyElements(); ++i)
             places.push_back(from.Map().LID(
               static_cast<dealii::TrilinosWrappers::types::int_type>(
                 map.GID64(i))));
-        else if (!map.SameAs(from.Map()))
+        else if (!takes_all)
           exchange = std::make_shared<const Epetra_Import>(map, from.Map());
         knows_exchange = true;
       }
@@ -42,11 +43,11 @@ namespace Ricochet
         const int error = ghosted->Import(from, *exchange, Insert);
         AssertThrow(error == 0, dealii::ExcTrilinosError(error));
       }
-    else if (places.size() < static_cast<std::size_t>(from.MyLength()))
+    else if (takes_all)
+      std::copy_n(from[0], ghosted->MyLength(), ghosted->Values());
+    else
       for (std::size_t i = 0; i < places.size(); ++i)
         ghosted->Values()[i] = from[0][places[i]];
-    else
-      std::copy_n(from[0], from.MyLength(), ghosted->Values());
   }
 
 

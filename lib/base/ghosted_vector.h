@@ -68,10 +68,11 @@ namespace Ricochet
 
   private:
     std::unique_ptr<Epetra_Vector> ghosted;
-    // None on one rank, where values are taken from their places in the vector.
+    // Whether all values are this rank's, in the same order. Otherwise several ranks have
+    // an exchange, and one takes values from their places in the vector.
+    bool knows_exchange = false, takes_all = false;
     std::shared_ptr<const Epetra_Import> exchange;
     std::vector<int>                     places;
-    bool                                 knows_exchange = false;
   };
 } // namespace Ricochet
 

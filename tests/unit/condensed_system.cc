@@ -6,8 +6,11 @@
 #include "meshes.h"
 
 #include <base/exceptions.h>
+#include <base/ghosted_vector.h>
 #include <discretization/linear_bulk.h>
 #include <solvers/factorisation.h>
+#include <solvers/functional_norm.h>
+#include <solvers/known_product.h>
 #include <solvers/low_rank_correction.h>
 #include <solvers/mass_solver.h>
 #include <solvers/positive_system.h>
@@ -500,6 +503,99 @@ BOOST_AUTO_TEST_CASE(rows_of_all_ranks_are_summed)
       BOOST_CHECK(sums[r + 1].rows[0] == FunctionalRow({{r, 1.}}));
       BOOST_CHECK(sums[r + 1].rows[2] == FunctionalRow({{3, 4.}}));
     }
+}
+
+// The norm of a sum of functionals, some of which share unknowns, is that of the vector
+// which is the sum. On several ranks each has functionals of its own unknowns; where one
+// looks at those of another rank, norms are not known.
+BOOST_AUTO_TEST_CASE(norms_of_sums_of_functionals)
+{
+  const CubeAbovePlane<3> cube(true, 3);
+  const Body<3>           body  = cube_body(cube, {});
+  const auto             &owned = body.owned_indices();
+  const unsigned int      n     = 6;
+  Functionals             functionals;
+  std::vector<double>     coefficients;
+  Vector                  sum = body.make_vector(), scaling(sum);
+  for (unsigned int i = 0; i < scaling.locally_owned_size(); ++i)
+    scaling.trilinos_vector()[0][i] = 1. + i % 7;
+  for (unsigned int f = 0; f < n; ++f)
+    {
+      coefficients.push_back(f == 2 ? 0. : 1.5 - f);
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          const auto index =
+            owned.nth_index_in_set((3 * f + 5 * k) % owned.n_elements());
+          functionals.add(index, 1. + f - .3 * k);
+          sum(index) += coefficients[f] * (1. + f - .3 * k);
+        }
+      functionals.end_functional();
+    }
+  sum.compress(VectorOperation::add);
+  FunctionalNorm norm(functionals, owned, body.communicator);
+  BOOST_REQUIRE(norm.is_known());
+  BOOST_CHECK_CLOSE(norm.of_sum(coefficients, nullptr), sum.l2_norm(), 1e-12);
+  sum.scale(scaling);
+  BOOST_CHECK_CLOSE(norm.of_sum(coefficients, &scaling), sum.l2_norm(), 1e-12);
+
+  if (dealii::Utilities::MPI::n_mpi_processes(body.communicator) == 1)
+    return;
+  Functionals  elsewhere = functionals;
+  const auto   all       = owned.size();
+  unsigned int other     = 0;
+  while (owned.is_element(other))
+    ++other;
+  BOOST_REQUIRE_LT(other, all);
+  elsewhere.add(other, 1.);
+  elsewhere.end_functional();
+  BOOST_CHECK(!FunctionalNorm(elsewhere, owned, body.communicator).is_known());
+}
+
+// All values of this rank, in their order, or some of them and of other ranks'.
+BOOST_AUTO_TEST_CASE(ghosted_values_are_those_of_the_vector)
+{
+  const CubeAbovePlane<3> cube(true, 3);
+  const Body<3>           body   = cube_body(cube, {});
+  Vector                  vector = body.make_vector();
+  dealii::IndexSet        some(vector.size());
+  for (dealii::types::global_dof_index i = 1; i < vector.size(); i += 3)
+    some.add_index(i);
+  for (const auto &indices : {body.owned_indices(), some})
+    {
+      GhostedVector ghosted(indices, body.communicator);
+      for (const double factor : {1., -.5})
+        {
+          for (const auto i : body.owned_indices())
+            vector(i) = factor * (1. + i);
+          vector.compress(VectorOperation::insert);
+          ghosted.import(vector);
+          BOOST_TEST(ghosted.size() == indices.n_elements());
+          for (const auto i : indices)
+            BOOST_TEST(ghosted(i) == factor * (1. + i));
+        }
+    }
+}
+
+// A product is made again when the vector is another one, be it by its last digit.
+BOOST_AUTO_TEST_CASE(products_are_those_of_the_vector)
+{
+  const CubeAbovePlane<3> cube(true, 3);
+  const Body<3>           body = cube_body(cube, {});
+  const BodyMatrix        mass = assemble_mass_matrix(body, 20.);
+  const KnownProduct      momentum(mass);
+  Vector                  velocity = body.make_vector(), product(velocity);
+  for (unsigned int i = 0; i < velocity.locally_owned_size(); ++i)
+    velocity.trilinos_vector()[0][i] = .01 * i - 1.;
+  const auto check = [&]() {
+    mass.vmult(product, velocity);
+    product -= momentum.with(velocity);
+    BOOST_CHECK_EQUAL(product.linfty_norm(), 0.);
+  };
+  check();
+  check();
+  const unsigned int last = velocity.locally_owned_size() - 1;
+  velocity.trilinos_vector()[0][last] += 1e-3;
+  check();
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -326,4 +326,40 @@ BOOST_AUTO_TEST_CASE(derivatives_are_quotients_of_differences)
     }
 }
 
+// What is thrown along the other surface over several of its nodes, or comes before it only
+// in this step, is before the facets to which it comes: their gaps are those of a look at
+// the end of the step.
+BOOST_AUTO_TEST_CASE(fast_points_are_before_the_facets_they_come_to)
+{
+  for (const bool comes_in : {false, true})
+    {
+      // The lower strip ends at 1.4, with nine facets of .2.
+      const double first = comes_in ? .9 : -.3, last = comes_in ? .3 : .35;
+      Strips       strips(11, .04);
+      const Vector begin = strips.displacements(1e-3, first, 0.),
+                   way   = strips.displacements(0., last - first, .02),
+                   zero  = strips.body->make_vector();
+      Vector end(begin);
+      end += way;
+      const auto pair = strips.pair("nodes"), later = strips.pair("nodes");
+      pair->begin_step({begin, zero, way, 1., 1.});
+      pair->evaluate(end);
+      later->begin_step({end, zero, zero, 0., 1.});
+      unsigned int n_seen = 0, n_before = 0;
+      for (unsigned int p = 0; p < pair->points().size(); ++p)
+        {
+          const bool is_inside = later->is_before_facet(p);
+          n_before += is_inside ? 1 : 0;
+          if (!is_inside || !pair->is_before_facet(p))
+            continue;
+          ++n_seen;
+          BOOST_CHECK_SMALL(pair->new_gap(p) - later->old_gap(p), 1e-12);
+        }
+      n_seen = dealii::Utilities::MPI::sum(n_seen, MPI_COMM_WORLD);
+      BOOST_TEST(n_seen ==
+                 dealii::Utilities::MPI::sum(n_before, MPI_COMM_WORLD));
+      BOOST_TEST(n_seen == 8u);
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

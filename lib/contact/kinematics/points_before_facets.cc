@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <contact/kinematics/points_before_facets.h>
+#include <contact/surfaces/facet_patches.h>
 #include <contact/surfaces/facet_search.h>
 
 #include <algorithm>
@@ -109,6 +110,18 @@ namespace Ricochet
         self_distance += way;
       }
     find_places_now();
+    // Points outside of it cannot come to the other surface in this step.
+    BoundingBox<dim> within_reach = box_of_facets<dim>(master,
+                                                       this->near_facets,
+                                                       old_positions.master,
+                                                       course.end.master);
+    within_reach.extend(2. * way);
+    const auto is_within_reach = [&](const Point &point) {
+      dealii::Point<dim> y;
+      const Position     x = this->position_of(point, old_positions.slave);
+      std::copy(x.begin(), x.end(), y.begin_raw());
+      return within_reach.point_inside(y);
+    };
     const std::unique_ptr<FacetSearch<dim>> later = has_length
       ? std::make_unique<FacetSearch<dim>>(master, course.end.master)
       : nullptr;
@@ -127,7 +140,8 @@ namespace Ricochet
         if (places_now[p])
           begin_before(p, *places_now[p]);
         if (has_length &&
-            (!gap.is_before_facet || this->may_change_facet(gap.old_gap, way)))
+            (gap.is_before_facet ? this->may_change_facet(gap.old_gap, way)
+                                 : is_within_reach(own_points[p])))
           find_facet_later(p, *later, course.end);
         step.is_double = gap.is_before_facet && is_self && meets_node(p);
         if (step.is_double && !has_other_sides())
