@@ -248,8 +248,10 @@ namespace Ricochet
           remember();
         }
 
-    // There was at least one step.
     Unknowns result = read(unknowns);
+    // Without a step the guess is the solution, to the last digit.
+    if (result.share == 0.)
+      return history;
     for (double &coefficient : result.coefficients)
       coefficient /= -result.share;
     system.finish(result.coefficients, work);
