@@ -20,8 +20,8 @@ namespace Ricochet
       return list;
     }
 
-    template <int dim>
     /// Of each owned unknown, its body.
+    template <int dim>
     std::vector<unsigned int>
     bodies_of_unknowns(const Body<dim>                 &body,
                        const std::vector<unsigned int> &first_part)

@@ -12,11 +12,11 @@ namespace Ricochet
 {
   /**
    * What each of several bodies, each of one or several parts, has of the energies and
-   * momenta in the ledger: columns kinetic_energy_NAME, elastic_energy_NAME, contact_work_NAME (what the body
-   * has given to others through contact, friction included), momentum_x_NAME, ...,
-   * angular_momentum_NAME, and momentum_x, ..., angular_momentum for all together. The
-   * sum of the first three changes by the work from outside and by viscosity only. One
-   * body has the last ones only.
+   * momenta in the ledger: columns kinetic_energy_NAME, elastic_energy_NAME,
+   * contact_work_NAME (what the body has given to others through contact, friction
+   * included), momentum_x_NAME, ..., angular_momentum_NAME, and momentum_x, ...,
+   * angular_momentum for all together. The sum of the first three changes by the work from
+   * outside and by viscosity only. One body has the last ones only.
    */
   template <int dim>
   class PartColumns

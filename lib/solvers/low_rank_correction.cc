@@ -27,10 +27,8 @@ namespace Ricochet
     , products(directions)
     , work(owned, communicator)
   {
-    std::vector<Index> seen = observables.index;
-    std::sort(seen.begin(), seen.end());
     IndexSet to_know(owned.size());
-    to_know.add_indices(seen.begin(), std::unique(seen.begin(), seen.end()));
+    to_know.add_indices(observables.index.begin(), observables.index.end());
     ghosted = GhostedVector(to_know, communicator);
     for (const Index index : observables.index)
       local_index.push_back(ghosted.local_index(index));

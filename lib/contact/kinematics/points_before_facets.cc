@@ -100,7 +100,7 @@ namespace Ricochet
     old_positions           = std::move(course.begin);
     const bool   has_length = start.time_step > 0.;
     const double way =
-      has_length || is_self ? this->longest_way(old_positions, course.end) : 0.;
+      has_length ? this->longest_way(old_positions, course.end) : 0.;
     if (is_self)
       {
         // A facet, and as much as two points come nearer to each other in the step.
@@ -111,11 +111,15 @@ namespace Ricochet
       }
     find_places_now();
     // Points outside of it cannot come to the other surface in this step.
-    BoundingBox<dim> within_reach = box_of_facets<dim>(master,
-                                                       this->near_facets,
-                                                       old_positions.master,
-                                                       course.end.master);
-    within_reach.extend(2. * way);
+    BoundingBox<dim> within_reach;
+    if (has_length)
+      {
+        within_reach = box_of_facets<dim>(master,
+                                          this->near_facets,
+                                          old_positions.master,
+                                          course.end.master);
+        within_reach.extend(2. * way);
+      }
     const auto is_within_reach = [&](const Point &point) {
       dealii::Point<dim> y;
       const Position     x = this->position_of(point, old_positions.slave);

@@ -479,6 +479,7 @@ namespace Ricochet
     Course course;
     begin_course(start, course);
     reach                 = course.reach;
+    const double way      = reach - smallest_reach;
     old_positions         = std::move(course.begin);
     new_positions         = old_positions;
     const bool has_length = start.time_step > 0.;
@@ -504,8 +505,7 @@ namespace Ricochet
                          corners(p, *f, old_positions)),
                        true);
         if (has_length &&
-            (!gap.is_before_facet ||
-             may_change_facet(gap.old_gap, course.reach - smallest_reach)))
+            (!gap.is_before_facet || may_change_facet(gap.old_gap, way)))
           find_facet_later(p, *later, course.end, facets);
         step.is_double = gap.is_before_facet && is_self && meets_node(p);
         if (step.is_double)

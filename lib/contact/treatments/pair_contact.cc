@@ -549,10 +549,14 @@ namespace Ricochet
       change_worst_only();
 
     // Elsewhere they are zero.
-    double *const forces          = force.trilinos_vector()[0];
-    double *const friction_forces = friction_part.trilinos_vector()[0];
+    double *const forces = force.trilinos_vector()[0];
+    double *const friction_forces =
+      has_friction ? friction_part.trilinos_vector()[0] : nullptr;
     for (const unsigned int place : own_place)
-      forces[place] = friction_forces[place] = 0.;
+      forces[place] = 0.;
+    if (has_friction)
+      for (const unsigned int place : own_place)
+        friction_forces[place] = 0.;
     for (const PointState &state : states)
       add_force(state);
     force.compress(VectorOperation::add);
