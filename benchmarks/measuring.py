@@ -14,7 +14,7 @@ SHARES = re.compile(r"residuals (\S+) s, tangents (\S+) s, (\d+) factorisations 
                     r"(\S+) s, back-substitutions (\S+) s")
 
 
-def measure(program, parameters, parameter_file=None, n_ranks=1):
+def measure(program, parameters, parameter_file=None, n_ranks=1, n_threads=1):
     """Unknowns, steps, iterations, seconds in all steps, the shares of a run, seconds
     of the processors in all of it, and the memory of all ranks (MB)."""
     with tempfile.TemporaryDirectory() as folder:
@@ -25,7 +25,7 @@ def measure(program, parameters, parameter_file=None, n_ranks=1):
                                        "Output/Log every=0"]:
             command += ["--set", parameter]
         environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1",
-                       "DEAL_II_NUM_THREADS": "1"}
+                       "DEAL_II_NUM_THREADS": "1", "OMP_NUM_THREADS": str(n_threads)}
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         log = subprocess.run(command, check=True, capture_output=True,
                              text=True, env=environment).stdout

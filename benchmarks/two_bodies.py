@@ -93,6 +93,7 @@ def main():
     parser.add_argument("--quick", action="store_true",
                         help="disks of at most 13 000 unknowns, no spheres")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of each run")
+    parser.add_argument("--threads", type=int, default=1, help="threads of each rank")
     arguments = parser.parse_args()
     program = str(pathlib.Path(arguments.build_dir) / "ricochet")
     cases = []
@@ -113,7 +114,8 @@ def main():
                 file = pathlib.Path(folder) / "scene.prm"
                 file.write_text(scene(dim, body, places[:n_bodies], 1, treatment,
                                       steps, of_obstacle))
-                runs.append(measure(program, [], str(file), arguments.ranks))
+                runs.append(measure(program, [], str(file), arguments.ranks,
+                                    arguments.threads))
         one, two, before_round = runs
         print(f"| {name} | {one['unknowns']} | {two['unknowns']} "
               f"| {one['seconds']:.3g} | {two['seconds']:.3g} "

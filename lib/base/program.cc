@@ -2,6 +2,7 @@
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
 #include <base/program.h>
+#include <base/threads.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -11,7 +12,6 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
-#include <omp.h>
 #include <sstream>
 
 namespace Ricochet
@@ -311,14 +311,12 @@ namespace Ricochet
 
     start_alone_unless_launched();
 
-    // One thread per rank: the parallelism of Ricochet is MPI. Our options are not shown
-    // to the libraries of deal.II: PETSc would warn that it does not know them.
+    // deal.II itself has one thread per rank. Our options are not shown to its libraries:
+    // PETSc would warn that it does not know them.
     int                                      mpi_argc = std::min(argc, 1);
     char                                   **mpi_argv = argv;
     dealii::Utilities::MPI::MPI_InitFinalize mpi(mpi_argc, mpi_argv, 1);
-    // CHOLMOD asks OpenMP for four whatever the environment says, which wait more than
-    // they work.
-    omp_set_max_active_levels(0);
+    Threads::begin();
     const bool is_root =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/threads.h>
 #include <solvers/block_matrix.h>
 
 #include <algorithm>
@@ -130,6 +131,19 @@ namespace Ricochet
         begin.push_back(column.size());
         std::vector<unsigned int>().swap(row);
       }
+    unsigned int farthest = 0;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        if (i == 0 || farthest < i)
+          {
+            separate.push_back(i);
+            blocks_before.push_back(begin[i] + i);
+          }
+        if (ghosts_begin[i] > begin[i])
+          farthest = std::max(farthest, column[ghosts_begin[i] - 1]);
+      }
+    separate.push_back(n);
+    blocks_before.push_back(begin[n] + n);
   }
 
 
@@ -371,30 +385,46 @@ namespace Ricochet
                              const Number        *from,
                              Number              *to) const
   {
-    const unsigned int *const column = places->column.data();
-    const unsigned int        n      = places->n_rows();
-    std::fill(to, to + places->partitioner->locally_owned_size(), Number(0));
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        // In registers, whatever else the vectors share.
-        Number own[dim], sum[dim];
-        for (int c = 0; c < dim; ++c)
-          {
-            own[c] = from[std::size_t(i) * dim + c];
-            sum[c] = to[std::size_t(i) * dim + c];
-          }
-        add_diagonal(i, own, sum);
-        std::size_t k = places->begin[i];
-        for (; k < places->ghosts_begin[i]; ++k)
-          {
+    const unsigned int *const column     = places->column.data();
+    const auto                sweep_rows = [&](const unsigned int first,
+                                const unsigned int last) {
+      std::fill(to + std::size_t(first) * dim,
+                to + std::size_t(last) * dim,
+                Number(0));
+      for (unsigned int i = first; i < last; ++i)
+        {
+          // In registers, whatever else the vectors share.
+          Number own[dim], sum[dim];
+          for (int c = 0; c < dim; ++c)
+            {
+              own[c] = from[std::size_t(i) * dim + c];
+              sum[c] = to[std::size_t(i) * dim + c];
+            }
+          add_diagonal(i, own, sum);
+          std::size_t k = places->begin[i];
+          for (; k < places->ghosts_begin[i]; ++k)
+            {
+              add(k, from + std::size_t(column[k]) * dim, sum);
+              add_transposed(k, own, to + std::size_t(column[k]) * dim);
+            }
+          for (; k < places->begin[i + 1]; ++k)
             add(k, from + std::size_t(column[k]) * dim, sum);
-            add_transposed(k, own, to + std::size_t(column[k]) * dim);
-          }
-        for (; k < places->begin[i + 1]; ++k)
-          add(k, from + std::size_t(column[k]) * dim, sum);
-        for (int c = 0; c < dim; ++c)
-          to[std::size_t(i) * dim + c] = sum[c];
-      }
+          for (int c = 0; c < dim; ++c)
+            to[std::size_t(i) * dim + c] = sum[c];
+        }
+    };
+    const unsigned int n = places->n_rows();
+    std::fill(to + std::size_t(n) * dim,
+              to + places->partitioner->locally_owned_size(),
+              Number(0));
+    // Bodies, each on a thread.
+    if (places->separate.size() <= 2 || n < 1000 || Threads::number() == 1)
+      return sweep_rows(0, n);
+    const auto parts =
+      Threads::balanced_parts(places->separate, places->blocks_before);
+    Threads::for_each_part(parts.size() - 1, [&](const unsigned int part) {
+      sweep_rows(parts[part], parts[part + 1]);
+    });
   }
 
 

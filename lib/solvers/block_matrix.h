@@ -64,6 +64,10 @@ namespace Ricochet
     /// it in another row, or in one of another rank.
     std::vector<std::size_t>  begin, ghosts_begin;
     std::vector<unsigned int> column;
+    /// Rows that no block couples to one before, without ghosts to couple to, and how many
+    /// blocks there are before them. The last one is the end.
+    std::vector<unsigned int> separate;
+    std::vector<double>       blocks_before;
 
   private:
     void

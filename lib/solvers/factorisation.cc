@@ -235,14 +235,15 @@ namespace Ricochet
       go_forwards(const Vector        &right_hand_side,
                   std::vector<double> &half) override
       {
-        const int     n      = symmetric.rows();
         const double *values = right_hand_side.trilinos_vector()[0];
-        work.resize(n);
-        for (int i = 0; i < n; ++i)
-          work[i] = sign[i] * values[i];
-        accurate_factor().go_forwards(work.data(), half);
-        for (int k = 0; k < n; ++k)
-          half[k] /= diagonal_of_factor[k];
+        if (!negative.empty())
+          {
+            work.assign(values, values + symmetric.rows());
+            for (std::size_t i = 0; i < work.size(); ++i)
+              work[i] *= sign[i];
+            values = work.data();
+          }
+        accurate_factor().go_half_way(values, half);
       }
 
       HalfColumns
@@ -460,10 +461,9 @@ namespace Ricochet
       void
       go_backwards(const std::vector<double> &half, Vector &solution) override
       {
-        work = half;
-        for (std::size_t k = 0; k < half.size(); ++k)
-          work[k] *= diagonal_of_factor[k];
-        accurate_factor().go_backwards(work, solution.trilinos_vector()[0]);
+        accurate_factor().go_other_half_way(half,
+                                            work,
+                                            solution.trilinos_vector()[0]);
       }
 
       void
@@ -575,16 +575,14 @@ namespace Ricochet
             const auto       *entries    = static_cast<const int *>(factor->px);
             const std::size_t n          = factor->n;
             std::vector<int>  first_row(n), first_value(n), n_entries(n);
-            diagonal_of_factor.resize(n);
             for (std::size_t column = 0; column < n; ++column)
               {
-                const int        s         = supernode_of[column];
-                const Supernode &node      = supernodes[s];
-                const int        k         = column - node.first_column;
-                first_row[column]          = begin[s] + k;
-                first_value[column]        = entries[s] + k * (node.n_rows + 1);
-                n_entries[column]          = node.n_rows - k;
-                diagonal_of_factor[column] = node.values[k * (node.n_rows + 1)];
+                const int        s    = supernode_of[column];
+                const Supernode &node = supernodes[s];
+                const int        k    = column - node.first_column;
+                first_row[column]     = begin[s] + k;
+                first_value[column]   = entries[s] + k * (node.n_rows + 1);
+                n_entries[column]     = node.n_rows - k;
               }
             const std::vector<double> no_signs(n, 1.);
             accurate = std::make_unique<TriangularFactor<double>>(
@@ -890,10 +888,8 @@ namespace Ricochet
       std::vector<Supernode> supernodes;
       std::vector<int>       supernode_of, place_in_factor;
       // Places of unknowns whose sign is.
-      std::vector<int> negative;
-      int              largest_below = 0;
-      // In the order of the factor.
-      std::vector<double>         diagonal_of_factor;
+      std::vector<int>            negative;
+      int                         largest_below = 0;
       std::vector<double>         work;
       mutable std::vector<double> seen_half;
       mutable Eigen::VectorXd     of_columns;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/threads.h>
 #include <solvers/triangular_factor.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <type_traits>
 
 namespace Ricochet
@@ -129,8 +131,10 @@ namespace Ricochet
   template <typename Value>
   TriangularFactor<Value>::TriangularFactor(const Columns &columns)
     : place(columns.n)
+    , unknown(columns.order, columns.order + columns.n)
     , block_of(columns.n)
     , inverse_diagonal(columns.n)
+    , root_of_inverse(columns.n)
     , dense(columns.n, 0.)
   {
     for (int k = 0; k < columns.n; ++k)
@@ -154,8 +158,10 @@ namespace Ricochet
           {
             const bool has_second =
               k + 1 < n_below && below[k + 1] == below[k] + 1;
-            // The last row of all stands behind the one before it.
-            const bool is_second = !has_second && below[k] + 1 == columns.n;
+            // The last row of a tree stands behind the one before it: what follows is
+            // another thread's, or nothing.
+            const bool is_second =
+              !has_second && columns.n_entries[below[k]] == 1;
             first_rows.push_back(is_second ? below[k] - 1 : below[k]);
             k += has_second ? 2 : 1;
           }
@@ -176,7 +182,7 @@ namespace Ricochet
             row_at[first_rows[k]]     = at;
             row_at[first_rows[k] + 1] = at + 1;
           }
-        // The row before the last one of all may be among them, too.
+        // The row before the last one of a tree may be among them, too.
         for (int i = 0; i < width; ++i)
           row_at[block.first + i] = block.triangle + i * (i - 1) / 2;
         for (int c = 0; c < width; ++c)
@@ -188,6 +194,9 @@ namespace Ricochet
             const double  scale = columns.diagonal_is_of_l ? 1. / *value : 1.;
             inverse_diagonal[column] = columns.sign[columns.order[column]] *
               (columns.diagonal_is_of_l ? scale * scale : 1. / *value);
+            root_of_inverse[column] = columns.diagonal_is_of_l
+              ? std::abs(scale)
+              : std::sqrt(std::abs(inverse_diagonal[column]));
             for (++row, ++value; row != rows_end && *row < end; ++row, ++value)
               values[row_at[*row] + c] = static_cast<Value>(*value * scale);
             for (; row != rows_end; ++row, ++value)
@@ -197,6 +206,35 @@ namespace Ricochet
           block.parent = block_of[block.parent];
       }
     is_needed.assign(blocks.size(), 0);
+
+    int last_parent = -1;
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+      {
+        if (last_parent < static_cast<int>(b))
+          {
+            trees.push_back(b);
+            values_before.push_back(blocks[b].triangle);
+          }
+        last_parent = std::max(last_parent, blocks[b].parent);
+      }
+    trees.push_back(blocks.size());
+    values_before.push_back(n_values);
+  }
+
+
+
+  template <typename Value>
+  template <typename Action>
+  void
+  TriangularFactor<Value>::for_each_part(const Action &action) const
+  {
+    // Small factors are done before another thread has begun.
+    if (trees.size() <= 2 || values.size() < 20000 || Threads::number() == 1)
+      return action(0u, static_cast<unsigned int>(blocks.size()));
+    const auto parts = Threads::balanced_parts(trees, values_before);
+    Threads::for_each_part(parts.size() - 1, [&](const unsigned int part) {
+      action(parts[part], parts[part + 1]);
+    });
   }
 
 
@@ -320,13 +358,19 @@ namespace Ricochet
   template <typename Value>
   void
   TriangularFactor<Value>::go_forwards(const double        *right_hand_side,
-                                       std::vector<double> &half) const
+                                       std::vector<double> &half,
+                                       const std::vector<double> *factor) const
   {
     half.resize(n());
-    for (unsigned int i = 0; i < n(); ++i)
-      half[place[i]] = right_hand_side[i];
-    for (const Block &block : blocks)
-      eliminate(block, half.data());
+    for_each_part([&](const unsigned int begin, const unsigned int end) {
+      for (int k = first_place(begin); k < first_place(end); ++k)
+        half[k] = right_hand_side[unknown[k]];
+      for (unsigned int b = begin; b < end; ++b)
+        eliminate(blocks[b], half.data());
+      if (factor != nullptr)
+        for (int k = first_place(begin); k < first_place(end); ++k)
+          half[k] *= (*factor)[k];
+    });
   }
 
 
@@ -358,15 +402,19 @@ namespace Ricochet
 
   template <typename Value>
   void
-  TriangularFactor<Value>::go_backwards(std::vector<double> &half,
-                                        double              *solution) const
+  TriangularFactor<Value>::go_backwards(const double              *half,
+                                        std::vector<double>       &work,
+                                        double                    *solution,
+                                        const std::vector<double> &factor) const
   {
-    for (unsigned int i = 0; i < n(); ++i)
-      half[i] *= inverse_diagonal[i];
-    for (auto block = blocks.rbegin(); block != blocks.rend(); ++block)
-      substitute(*block, half.data());
-    for (unsigned int i = 0; i < n(); ++i)
-      solution[i] = half[place[i]];
+    for_each_part([&](const unsigned int begin, const unsigned int end) {
+      for (int k = first_place(begin); k < first_place(end); ++k)
+        work[k] = factor[k] * half[k];
+      for (unsigned int b = end; b-- > begin;)
+        substitute(blocks[b], work.data());
+      for (int k = first_place(begin); k < first_place(end); ++k)
+        solution[unknown[k]] = work[k];
+    });
   }
 
 

@@ -61,7 +61,17 @@ namespace Ricochet
 
     /// @p half = L^{-1} P @p right_hand_side.
     void
-    go_forwards(const double *right_hand_side, std::vector<double> &half) const;
+    go_forwards(const double *right_hand_side, std::vector<double> &half) const
+    {
+      go_forwards(right_hand_side, half, nullptr);
+    }
+
+    /// @p half = |D|^{-1/2} L^{-1} P @p right_hand_side.
+    void
+    go_half_way(const double *right_hand_side, std::vector<double> &half) const
+    {
+      go_forwards(right_hand_side, half, &root_of_inverse);
+    }
 
     /// The same for a sparse right hand side: @p n_entries values with their unknowns.
     template <typename Index>
@@ -78,7 +88,21 @@ namespace Ricochet
 
     /// @p solution = P^T L^{-T} D^{-1} @p half, which is overwritten.
     void
-    go_backwards(std::vector<double> &half, double *solution) const;
+    go_backwards(std::vector<double> &half, double *solution) const
+    {
+      go_backwards(half.data(), half, solution, inverse_diagonal);
+    }
+
+    /// @p solution = P^T L^{-T} |D|^{-1/2} @p half
+    /// @param work space.
+    void
+    go_other_half_way(const std::vector<double> &half,
+                      std::vector<double>       &work,
+                      double                    *solution) const
+    {
+      work.resize(n());
+      go_backwards(half.data(), work, solution, root_of_inverse);
+    }
 
     /// @p one D^{-1} @p other
     double
@@ -143,6 +167,17 @@ namespace Ricochet
     Half
     go_forwards(const std::vector<Start> &start) const;
 
+    void
+    go_forwards(const double              *right_hand_side,
+                std::vector<double>       &half,
+                const std::vector<double> *factor) const;
+
+    void
+    go_backwards(const double              *half,
+                 std::vector<double>       &work,
+                 double                    *solution,
+                 const std::vector<double> &factor) const;
+
     /// The first column and the end of each block.
     static std::vector<std::array<int, 2>>
     find_blocks(const Columns &columns);
@@ -182,11 +217,30 @@ namespace Ricochet
     void
     finish(std::vector<int> &region) const;
 
-    std::vector<int>    place, block_of;
-    std::vector<Block>  blocks;
-    std::vector<int>    first_rows;
-    LargeVector<Value>  values;
-    std::vector<double> inverse_diagonal;
+    /// Call @p action(begin, end) with blocks of trees of their own, on several threads.
+    template <typename Action>
+    void
+    for_each_part(const Action &action) const;
+
+    /// Of block @p b, or the end of all.
+    int
+    first_place(const unsigned int b) const
+    {
+      return b < blocks.size() ? blocks[b].first : n();
+    }
+
+    // Of each unknown, and the other way round.
+    std::vector<int>   place, unknown;
+    std::vector<int>   block_of;
+    std::vector<Block> blocks;
+    std::vector<int>   first_rows;
+    LargeVector<Value> values;
+    // 1 / D, and the root of its absolute values.
+    std::vector<double> inverse_diagonal, root_of_inverse;
+    // No column before a block of #trees has rows in it or behind it; and how many values
+    // there are before it. The last one is the end.
+    std::vector<unsigned int> trees;
+    std::vector<double>       values_before;
     // Work space: zero between calls.
     mutable std::vector<double> dense;
     mutable std::vector<char>   is_needed;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/threads.h>
 #include <solvers/unsymmetric_system.h>
 
 #include <Eigen/Core>
@@ -113,13 +114,12 @@ namespace Ricochet
     template <typename Number>
     void
     assemble(const UnsymmetricSystem::Terms &terms,
-             LAPACKFullMatrix<Number>       &matrix)
+             DenseFactors<Number>           &matrix)
     {
       const auto        &places   = terms.places;
       const unsigned int n        = places.size(),
                          n_values = terms.columns[places.front()].size();
-      // Its memory is kept: pages that are new cost more than to fill them.
-      matrix.reinit(n, n);
+      matrix.reinit(n);
 
       // The values that rows look at: few of those that they could.
       std::vector<bool> is_seen(n_values, false);
@@ -138,30 +138,37 @@ namespace Ricochet
       const std::vector<RowGroup<Number>> groups =
         groups_of_rows<Number>(terms.on_values, number_of_seen);
       constexpr unsigned int width = n_columns_at_once<Number>;
-      std::vector<Number>    block(seen.size() * width, Number());
-      std::array<Number, n_rows_at_once * width> products;
-      for (unsigned int begin = 0; begin < n; begin += width)
-        {
-          const unsigned int size = std::min(width, n - begin);
-          for (unsigned int j = 0; j < size; ++j)
+      Threads::for_each_range(
+        (n + width - 1) / width,
+        1,
+        [&](const unsigned int first_block, const unsigned int end_block) {
+          std::vector<Number> block(seen.size() * width, Number());
+          std::array<Number, n_rows_at_once * width> products;
+          for (unsigned int begin = first_block * width;
+               begin < std::min(n, end_block * width);
+               begin += width)
             {
-              const std::vector<double> &column =
-                terms.columns[places[begin + j]];
-              for (unsigned int k = 0; k < seen.size(); ++k)
-                block[k * width + j] = static_cast<Number>(column[seen[k]]);
-            }
-          for (const RowGroup<Number> &group : groups)
-            {
-              if (group.n_rows == n_rows_at_once)
-                multiply<n_rows_at_once>(group, block, products);
-              else
-                multiply<1>(group, block, products);
+              const unsigned int size = std::min(width, n - begin);
               for (unsigned int j = 0; j < size; ++j)
-                for (unsigned int r = 0; r < group.n_rows; ++r)
-                  matrix(group.first_row + r, begin + j) =
-                    products[r * width + j];
+                {
+                  const std::vector<double> &column =
+                    terms.columns[places[begin + j]];
+                  for (unsigned int k = 0; k < seen.size(); ++k)
+                    block[k * width + j] = static_cast<Number>(column[seen[k]]);
+                }
+              for (const RowGroup<Number> &group : groups)
+                {
+                  if (group.n_rows == n_rows_at_once)
+                    multiply<n_rows_at_once>(group, block, products);
+                  else
+                    multiply<1>(group, block, products);
+                  for (unsigned int j = 0; j < size; ++j)
+                    for (unsigned int r = 0; r < group.n_rows; ++r)
+                      matrix(group.first_row + r, begin + j) =
+                        products[r * width + j];
+                }
             }
-        }
+        });
       for (unsigned int i = 0; i < n; ++i)
         matrix(i, i) += Number(1);
       for (unsigned int i = 0; i < n; ++i)
@@ -185,21 +192,30 @@ namespace Ricochet
               std::vector<double>                    &values)
   {
     // Several columns at once, so that the sums are read and written less often.
-    constexpr unsigned int                                    n_at_once = 4;
-    std::array<std::vector<double>::const_pointer, n_at_once> column{};
-    std::array<double, n_at_once>                             weight{};
-    for (std::size_t first = 0; first < places.size(); first += n_at_once)
-      {
-        for (unsigned int c = 0; c < n_at_once; ++c)
+    constexpr unsigned int n_at_once = 4, smallest_part = 256;
+    const unsigned int     smallest =
+      places.size() < 100 ? values.size() : smallest_part;
+    Threads::for_each_range(
+      values.size(),
+      smallest,
+      [&](const unsigned int begin, const unsigned int end) {
+        std::array<std::vector<double>::const_pointer, n_at_once> column{};
+        std::array<double, n_at_once>                             weight{};
+        for (std::size_t first = 0; first < places.size(); first += n_at_once)
           {
-            const bool is_there = first + c < places.size();
-            column[c] = columns[places[is_there ? first + c : first]].data();
-            weight[c] = is_there ? factor * coefficients[first + c] : 0.;
+            for (unsigned int c = 0; c < n_at_once; ++c)
+              {
+                const bool is_there = first + c < places.size();
+                column[c] =
+                  columns[places[is_there ? first + c : first]].data();
+                weight[c] = is_there ? factor * coefficients[first + c] : 0.;
+              }
+            for (std::size_t o = begin; o < end; ++o)
+              values[o] +=
+                (weight[0] * column[0][o] + weight[1] * column[1][o]) +
+                (weight[2] * column[2][o] + weight[3] * column[3][o]);
           }
-        for (std::size_t o = 0; o < values.size(); ++o)
-          values[o] += (weight[0] * column[0][o] + weight[1] * column[1][o]) +
-            (weight[2] * column[2][o] + weight[3] * column[3][o]);
-      }
+      });
   }
 
 
@@ -210,28 +226,18 @@ namespace Ricochet
     // Small ones take no time.
     constexpr unsigned int fewest_for_single = 256;
     is_single = may_be_single && terms.places.size() >= fewest_for_single;
-    try
+    if (is_single)
       {
-        if (is_single)
-          {
-            assemble(terms, single_factors);
-            single_factors.compute_lu_factorization();
-          }
-        else
-          {
-            assemble(terms, factors);
-            factors.compute_lu_factorization();
-          }
+        assemble(terms, single_factors);
+        if (single_factors.factorise())
+          return;
+        is_single = false;
       }
-    catch (const LACExceptions::ExcSingular &)
-      {
-        if (is_single)
-          factorise(terms, false);
-        else
-          throw NewtonFailure(
-            "The tangent matrix cannot be factored: with this state of contact it "
-            "is singular.");
-      }
+    assemble(terms, factors);
+    if (!factors.factorise())
+      throw NewtonFailure(
+        "The tangent matrix cannot be factored: with this state of contact it "
+        "is singular.");
   }
 
 
@@ -245,7 +251,7 @@ namespace Ricochet
           return;
         factorise(terms, false);
       }
-    factors.solve(vector);
+    factors.solve(vector.data());
   }
 
 
@@ -262,7 +268,7 @@ namespace Ricochet
       for (const auto &entry : row)
         n_seen = std::max<std::size_t>(n_seen, entry.first + 1);
     dealii::Vector<double> rest(vector);
-    dealii::Vector<float>  correction(n);
+    std::vector<float>     correction(n);
     std::vector<double>    solution(n, 0.), by_place(terms.columns.size(), 0.),
       seen;
     double size = rest.linfty_norm();
@@ -271,7 +277,7 @@ namespace Ricochet
         // Of the size of one, so that single precision can hold it.
         for (unsigned int i = 0; i < n; ++i)
           correction[i] = static_cast<float>(rest[i] / size);
-        single_factors.solve(correction);
+        single_factors.solve(correction.data());
         for (unsigned int i = 0; i < n; ++i)
           {
             solution[i] += size * correction[i];

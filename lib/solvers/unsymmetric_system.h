@@ -2,9 +2,10 @@
 #ifndef ricochet_solvers_unsymmetric_system_h
 #define ricochet_solvers_unsymmetric_system_h
 
+#include <solvers/dense_factors.h>
 #include <solvers/functionals.h>
 
-#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 #include <vector>
 
@@ -67,16 +68,13 @@ namespace Ricochet
     }
 
   private:
-    template <typename Number>
-    using DenseMatrix = dealii::LAPACKFullMatrix<Number>;
-
     /// @return whether refinement has led to a solution.
     bool
     solve_with_refinement(const Terms &terms, dealii::Vector<double> &vector);
 
-    bool                is_single = false;
-    DenseMatrix<double> factors;
-    DenseMatrix<float>  single_factors;
+    bool                 is_single = false;
+    DenseFactors<double> factors;
+    DenseFactors<float>  single_factors;
   };
 } // namespace Ricochet
 

@@ -158,6 +158,7 @@ def main():
     sys.modules["common"].arguments = arguments
     # As ctest sets them: Open MPI as root and with more ranks than cores.
     for name in ("OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM",
-                 "OMPI_MCA_rmaps_base_oversubscribe", "OPENBLAS_NUM_THREADS"):
+                 "OMPI_MCA_rmaps_base_oversubscribe", "OPENBLAS_NUM_THREADS",
+                 "OMP_NUM_THREADS"):
         os.environ.setdefault(name, "1")
     unittest.main(module="__main__", argv=[sys.argv[0]] + rest, verbosity=2)

@@ -3,7 +3,9 @@
 solutions with the body's factorisation in each stage of a step."""
 
 import math
+import os
 import re
+from unittest import mock
 
 from common import *
 
@@ -317,6 +319,31 @@ class Condensed(ProgramTest):
                 alone, together = (self.substitutions(self.folder / f"{n}")
                                    for n in (1, n_ranks))
                 self.assertAlmostEqual(alone, together, delta=2)
+
+    def test_same_digits_on_two_threads(self):
+        """Bodies that are solved for, dense systems that are factored, and points that are
+        looked for and evaluated by one thread or by two. The rings of the disks are so many
+        that their matrices are cut."""
+        disks = ["Disks/Rings of the left disk=20", "Disks/Rings of the right disk=23"]
+        spheres = ["Spheres/Offset=0.3", "Time/Final time=0.1"]
+        cases = [PAIRS[4], (PAIRS[3][0], PAIRS[3][1] + disks),
+                 ("colliding_spheres", PAIRS[5][1] + spheres +
+                  ["Contact/Friction coefficient=0.3"]),
+                 ("colliding_spheres", NO_FIELDS + spheres +
+                  ["Contact/Treatment=penalty"])]
+        for number, (program, parameters) in enumerate(
+                cases[:1] if is_debug_build() else cases):
+            with self.subTest(f"{program} " + " ".join(parameters)):
+                texts = []
+                for n_threads in ("1", "2"):
+                    folder = self.folder / f"{number}-{n_threads}"
+                    with mock.patch.dict(os.environ, OMP_NUM_THREADS=n_threads):
+                        ledger = self.run_program(program, parameters, folder)
+                    texts.append((folder / "energy.csv").read_text())
+                penetration = next(name for name in ledger.names
+                                   if name.startswith("penetration"))
+                self.assertGreater(max(ledger[penetration]), 0.)
+                self.assertEqual(*texts)
 
     def test_resumed_digit_for_digit(self):
         for number, (program, parameters), middle in ((2, CASES[2], "8"),

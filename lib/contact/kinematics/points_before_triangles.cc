@@ -331,6 +331,7 @@ namespace Ricochet
   {
     if (!is_self)
       return around[f];
+    static thread_local std::vector<unsigned int> allowed;
     allowed.clear();
     std::set_difference(around[f].begin(),
                         around[f].end(),
@@ -429,10 +430,15 @@ namespace Ricochet
       return;
     const FacetSearch<3> search(master, old_positions.master, near_facets);
     facets_now.resize(own_points.size());
-    for (unsigned int p = 0; p < own_points.size(); ++p)
-      if (own_points[p].can_touch)
-        facets_now[p] =
-          find_facet(p, search, old_positions, smallest_reach, likely_facet(p));
+    for_each_range([&](const unsigned int begin, const unsigned int end) {
+      for (unsigned int p = begin; p < end; ++p)
+        if (own_points[p].can_touch)
+          facets_now[p] = find_facet(p,
+                                     search,
+                                     old_positions,
+                                     smallest_reach,
+                                     likely_facet(p));
+    });
     found_at = old_positions;
   }
 
@@ -484,43 +490,45 @@ namespace Ricochet
     new_positions         = old_positions;
     const bool has_length = start.time_step > 0.;
     find_facets_now();
-    FacetsAround<3> facets(master, old_positions.master),
-      facets_between(master, course.middle.master);
     const auto later = has_length
       ? std::make_unique<FacetSearch<3>>(master, course.end.master, near_facets)
       : nullptr;
-    for (unsigned int p = 0; p < own_points.size(); ++p)
-      {
-        Step &step          = steps[p];
-        Gaps &gap           = gaps[p];
-        gap.is_before_facet = false;
-        step.up_to_date     = false;
-        if (!own_points[p].can_touch)
-          continue;
-        step.normal = normal_of(own_points[p], old_positions.slave);
-        if (const auto f = facets_now[p])
-          begin_before(p,
-                       *f,
-                       PointBeforeTriangle<double>::gap(
-                         corners(p, *f, old_positions)),
-                       true);
-        if (has_length &&
-            (!gap.is_before_facet || may_change_facet(gap.old_gap, way)))
-          find_facet_later(p, *later, course.end, facets);
-        step.is_double = gap.is_before_facet && is_self && meets_node(p);
-        if (step.is_double)
+    for_each_range([&](const unsigned int begin, const unsigned int end) {
+      FacetsAround<3> facets(master, old_positions.master),
+        facets_between(master, course.middle.master);
+      for (unsigned int p = begin; p < end; ++p)
+        {
+          Step &step          = steps[p];
+          Gaps &gap           = gaps[p];
           gap.is_before_facet = false;
-        if (!gap.is_before_facet)
-          continue;
-        step.new_facet    = step.old_facet;
-        gap.new_gap       = gap.old_gap;
-        gap.predicted_gap = gap.old_gap;
-        if (has_length)
-          gap.predicted_gap = PointBeforeTriangle<double>::gap(
-            corners(p,
-                    last_facet(p, course.middle, facets_between),
-                    course.middle));
-      }
+          step.up_to_date     = false;
+          if (!own_points[p].can_touch)
+            continue;
+          step.normal = normal_of(own_points[p], old_positions.slave);
+          if (const auto f = facets_now[p])
+            begin_before(p,
+                         *f,
+                         PointBeforeTriangle<double>::gap(
+                           corners(p, *f, old_positions)),
+                         true);
+          if (has_length &&
+              (!gap.is_before_facet || may_change_facet(gap.old_gap, way)))
+            find_facet_later(p, *later, course.end, facets);
+          step.is_double = gap.is_before_facet && is_self && meets_node(p);
+          if (step.is_double)
+            gap.is_before_facet = false;
+          if (!gap.is_before_facet)
+            continue;
+          step.new_facet    = step.old_facet;
+          gap.new_gap       = gap.old_gap;
+          gap.predicted_gap = gap.old_gap;
+          if (has_length)
+            gap.predicted_gap = PointBeforeTriangle<double>::gap(
+              corners(p,
+                      last_facet(p, course.middle, facets_between),
+                      course.middle));
+        }
+    });
   }
 
 
@@ -529,16 +537,18 @@ namespace Ricochet
   PointsBeforeTriangles::evaluate(const Vector &solution)
   {
     read(solution, new_positions);
-    FacetsAround<3> facets(master, new_positions.master);
-    for (unsigned int p = 0; p < own_points.size(); ++p)
-      if (gaps[p].is_before_facet)
-        {
-          Step &step      = steps[p];
-          step.new_facet  = last_facet(p, new_positions, facets);
-          gaps[p].new_gap = PointBeforeTriangle<double>::gap(
-            corners(p, step.new_facet, new_positions));
-          step.up_to_date = false;
-        }
+    for_each_range([&](const unsigned int begin, const unsigned int end) {
+      FacetsAround<3> facets(master, new_positions.master);
+      for (unsigned int p = begin; p < end; ++p)
+        if (gaps[p].is_before_facet)
+          {
+            Step &step      = steps[p];
+            step.new_facet  = last_facet(p, new_positions, facets);
+            gaps[p].new_gap = PointBeforeTriangle<double>::gap(
+              corners(p, step.new_facet, new_positions));
+            step.up_to_date = false;
+          }
+    });
   }
 
 
@@ -670,7 +680,8 @@ namespace Ricochet
   PointsBeforeTriangles::differentiate(const unsigned int p,
                                        const double       pressure,
                                        const Tangential  &traction,
-                                       const Evaluate    &evaluate) const
+                                       const Evaluate    &evaluate,
+                                       Derivatives       &result) const
   {
     constexpr unsigned int n = 3 * n_points;
     using Differentiable     = Sacado::Fad::SLFad<double, n>;
@@ -717,26 +728,37 @@ namespace Ricochet
                                      const Caution      caution) const
   {
     update(p);
-    const Step        &step = steps[p];
-    const unsigned int old = step.old_facet, now = step.new_facet;
+    static thread_local Derivatives result;
+    const Step                     &step = steps[p];
+    const unsigned int              old = step.old_facet, now = step.new_facet;
     if (now == old)
-      differentiate<4>(p, pressure, traction, [&](const auto &x, auto &rows) {
-        using Number = std::decay_t<decltype(x[0][0])>;
-        PointBeforeTriangle<Number>::evaluate(corners(p, old, old_positions),
-                                              x,
-                                              rows,
-                                              needs_slip);
-      });
+      differentiate<4>(
+        p,
+        pressure,
+        traction,
+        [&](const auto &x, auto &rows) {
+          using Number = std::decay_t<decltype(x[0][0])>;
+          PointBeforeTriangle<Number>::evaluate(corners(p, old, old_positions),
+                                                x,
+                                                rows,
+                                                needs_slip);
+        },
+        result);
     else
-      differentiate<7>(p, pressure, traction, [&](const auto &x, auto &rows) {
-        using Number = std::decay_t<decltype(x[0][0])>;
-        PointPassingTriangles<Number>::evaluate(
-          corners(p, old, now, old_positions),
-          x,
-          shared_edge(old, now),
-          caution,
-          rows);
-      });
+      differentiate<7>(
+        p,
+        pressure,
+        traction,
+        [&](const auto &x, auto &rows) {
+          using Number = std::decay_t<decltype(x[0][0])>;
+          PointPassingTriangles<Number>::evaluate(
+            corners(p, old, now, old_positions),
+            x,
+            shared_edge(old, now),
+            caution,
+            rows);
+        },
+        result);
     return result;
   }
 

@@ -2,6 +2,7 @@
 #ifndef ricochet_contact_kinematics_points_before_triangles_h
 #define ricochet_contact_kinematics_points_before_triangles_h
 
+#include <base/threads.h>
 #include <contact/kinematics/surface_pair.h>
 #include <contact/surfaces/own_facets.h>
 #include <contact/surfaces/point_passing_triangles.h>
@@ -47,6 +48,12 @@ namespace Ricochet
 
     void
     evaluate(const Vector &solution) override;
+
+    bool
+    points_share_nothing() const override
+    {
+      return true;
+    }
 
     const Rows &
     rows(const unsigned int p) const override;
@@ -211,7 +218,16 @@ namespace Ricochet
     differentiate(const unsigned int p,
                   const double       pressure,
                   const Tangential  &traction,
-                  const Evaluate    &evaluate) const;
+                  const Evaluate    &evaluate,
+                  Derivatives       &result) const;
+
+    /// Call @p action(begin, end) for ranges of points, on several threads.
+    template <typename Action>
+    void
+    for_each_range(const Action &action) const
+    {
+      Threads::for_each_range(own_points.size(), 64, action);
+    }
 
     void
     update(const unsigned int p) const;
@@ -230,9 +246,7 @@ namespace Ricochet
     /// Of each point, and for which positions they were found.
     std::vector<std::optional<unsigned int>> facets_now;
     Positions                                found_at;
-    mutable std::vector<unsigned int>        allowed;
     mutable std::vector<Step>                steps;
-    mutable Derivatives                      result;
   };
 } // namespace Ricochet
 

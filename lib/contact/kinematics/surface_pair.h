@@ -209,11 +209,19 @@ namespace Ricochet
       return 0.;
     }
 
+    /// Whether rows() and derivatives() of different points may be asked for on several
+    /// threads at once.
+    virtual bool
+    points_share_nothing() const
+    {
+      return false;
+    }
+
     virtual const Rows &
     rows(const unsigned int p) const = 0;
 
     /**
-     * In work space that the next call overwrites.
+     * In work space that the next call (on this thread) overwrites.
      *
      * @param caution keep points from going to and fro between facets,
      * see FacetChain.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/threads.h>
 #include <base/vector_operations.h>
 #include <contact/kinematics/mortar_pair.h>
 #include <contact/kinematics/mortar_triangles.h>
@@ -10,6 +11,7 @@
 #include <contact/treatments/power_law_linearisation.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -187,6 +189,47 @@ namespace Ricochet
 
 
   template <int dim>
+  bool
+  PairContact<dim>::begin_point(PointState &state) const
+  {
+    const Pair        &pair  = pair_of(state);
+    const unsigned int p     = state.point;
+    state.candidate          = pair.is_before_facet(p);
+    state.accepted_status    = Status::open;
+    state.accepted_passage   = 0;
+    state.n_passages_changed = 0;
+    state.old_state          = {};
+    if (state.candidate)
+      {
+        // Not by what Newton's method leaves of a pressure that is none.
+        const bool was_pressed = !method.law &&
+          pair.multipliers(p)[0] > stiffness(state) * pair.round_off(p);
+        state.old_state.gap = pair.old_gap(p);
+        // The predictor leads away from the surface where it is not flat, and
+        // points that are pressed would be let go.
+        if (!method.law && method.condition == ClosingCondition::persistent)
+          state.candidate =
+            pair.predicted_gap(p) <= pair.round_off(p) || was_pressed;
+        if (state.candidate && was_pressed)
+          state.accepted_status = Status::slip;
+      }
+    // Couplings of what may be pressed in this step; should it be more, they
+    // are added when it is.
+    const bool is_near = state.candidate &&
+      std::min(pair.old_gap(p), pair.predicted_gap(p)) <
+        std::abs(pair.old_gap(p) - pair.predicted_gap(p)) +
+          .1 * point_of(state).cell_diameter;
+    std::vector<types::global_dof_index> coupled;
+    if (is_near)
+      coupled = pair.unknowns_nearby(p);
+    const bool changed = coupled != state.coupled;
+    state.coupled.swap(coupled);
+    return changed;
+  }
+
+
+
+  template <int dim>
   void
   PairContact<dim>::begin_stage(const ContactStart &start, const double weight_)
   {
@@ -198,42 +241,14 @@ namespace Ricochet
     friction.begin_stage(time_step);
     for (const auto &pair : pairs)
       pair->begin_step(start);
-    bool changed = false;
-    for (PointState &state : states)
-      {
-        const Pair        &pair  = pair_of(state);
-        const unsigned int p     = state.point;
-        state.candidate          = pair.is_before_facet(p);
-        state.accepted_status    = Status::open;
-        state.accepted_passage   = 0;
-        state.n_passages_changed = 0;
-        state.old_state          = {};
-        if (state.candidate)
-          {
-            // Not by what Newton's method leaves of a pressure that is none.
-            const bool was_pressed = !method.law &&
-              pair.multipliers(p)[0] > stiffness(state) * pair.round_off(p);
-            state.old_state.gap = pair.old_gap(p);
-            // The predictor leads away from the surface where it is not flat, and
-            // points that are pressed would be let go.
-            if (!method.law && method.condition == ClosingCondition::persistent)
-              state.candidate =
-                pair.predicted_gap(p) <= pair.round_off(p) || was_pressed;
-            if (state.candidate && was_pressed)
-              state.accepted_status = Status::slip;
-          }
-        // Couplings of what may be pressed in this step; should it be more, they
-        // are added when it is.
-        const bool is_near = state.candidate &&
-          std::min(pair.old_gap(p), pair.predicted_gap(p)) <
-            std::abs(pair.old_gap(p) - pair.predicted_gap(p)) +
-              .1 * point_of(state).cell_diameter;
-        std::vector<types::global_dof_index> coupled;
-        if (is_near)
-          coupled = pair.unknowns_nearby(p);
-        changed = changed || coupled != state.coupled;
-        state.coupled.swap(coupled);
-      }
+    std::atomic<bool> changed = false;
+    for_each_range(states.size(),
+                   64,
+                   [&](const unsigned int begin, const unsigned int end) {
+                     for (unsigned int s = begin; s < end; ++s)
+                       if (begin_point(states[s]))
+                         changed = true;
+                   });
     if (Utilities::MPI::max(changed ? 1 : 0, communicator) == 1)
       ++all_couplings.version;
   }
@@ -443,6 +458,60 @@ namespace Ricochet
 
   template <int dim>
   void
+  PairContact<dim>::evaluate_point(const unsigned int s)
+  {
+    PointState        &state = states[s];
+    const Pair        &pair  = pair_of(state);
+    const unsigned int p     = state.point;
+    state.status             = Status::open;
+    state.pressure = state.with_gap = state.error = 0.;
+    state.traction                                = 0.;
+    if (!state.candidate)
+      return;
+    state.state.gap = pair.new_gap(p);
+    if (!method.law)
+      return set_constraint(state);
+    evaluate_law(state);
+    if (has_friction && state.pressure > 0.)
+      {
+        friction.evaluate(s,
+                          state.pressure,
+                          along_surface(pair.rows(p).slip),
+                          point_of(state).cell_diameter);
+        for (unsigned int d = 0; d < n_tangents; ++d)
+          state.traction[d] = friction.traction(s)[d];
+        if (friction.sticks(s))
+          state.status = Status::stick;
+      }
+    // Now, on this thread, as they will be asked for.
+    if (state.pressure != 0.)
+      pair.rows(p);
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::for_each_range(
+    const unsigned int                                                 n,
+    const unsigned int                                                 smallest,
+    const std::function<void(const unsigned int, const unsigned int)> &action)
+    const
+  {
+    const bool share_nothing =
+      std::all_of(pairs.begin(), pairs.end(), [](const auto &pair) {
+        return pair->points_share_nothing();
+      });
+    if (share_nothing)
+      Threads::for_each_range(n, smallest, action);
+    else
+      action(0, n);
+  }
+
+
+
+  template <int dim>
+  void
   PairContact<dim>::change_worst_only()
   {
     // The worst of all ranks.
@@ -516,35 +585,12 @@ namespace Ricochet
     for (const auto &pair : pairs)
       pair->evaluate(solution);
     friction.begin_evaluation(states.size());
-    for (unsigned int s = 0; s < states.size(); ++s)
-      {
-        PointState        &state = states[s];
-        const Pair        &pair  = pair_of(state);
-        const unsigned int p     = state.point;
-        state.status             = Status::open;
-        state.pressure = state.with_gap = state.error = 0.;
-        state.traction                                = 0.;
-        if (!state.candidate)
-          continue;
-        state.state.gap = pair.new_gap(p);
-        if (!method.law)
-          {
-            set_constraint(state);
-            continue;
-          }
-        evaluate_law(state);
-        if (has_friction && state.pressure > 0.)
-          {
-            friction.evaluate(s,
-                              state.pressure,
-                              along_surface(pair.rows(p).slip),
-                              point_of(state).cell_diameter);
-            for (unsigned int d = 0; d < n_tangents; ++d)
-              state.traction[d] = friction.traction(s)[d];
-            if (friction.sticks(s))
-              state.status = Status::stick;
-          }
-      }
+    for_each_range(states.size(),
+                   64,
+                   [&](const unsigned int begin, const unsigned int end) {
+                     for (unsigned int s = begin; s < end; ++s)
+                       evaluate_point(s);
+                   });
     if (sets_recur)
       change_worst_only();
 
@@ -774,6 +820,67 @@ namespace Ricochet
 
   template <int dim>
   void
+  PairContact<dim>::add_change_of_law(std::vector<FunctionalRow> &change) const
+  {
+    // Points of a facet that are before the same other one act on the same unknowns:
+    // what they make is summed first. In chunks, so that sums are the same whatever the
+    // threads.
+    struct Sum
+    {
+      const std::vector<types::global_dof_index> *unknowns;
+      /// Row by row.
+      std::vector<double> entries;
+    };
+    constexpr unsigned int        chunk_size = 64;
+    const unsigned int            n_states   = states.size();
+    std::vector<std::vector<Sum>> chunks((n_states + chunk_size - 1) /
+                                         chunk_size);
+    for_each_range(
+      chunks.size(),
+      1,
+      [&](const unsigned int begin, const unsigned int end) {
+        for (unsigned int c = begin; c < end; ++c)
+          for (unsigned int s = c * chunk_size;
+               s < std::min(n_states, (c + 1) * chunk_size);
+               ++s)
+            {
+              const PointState &state = states[s];
+              if (!is_in_contact(state))
+                continue;
+              const auto &own = pair_of(state).rows(state.point).unknowns;
+              if (chunks[c].empty() || *chunks[c].back().unknowns != own)
+                chunks[c].push_back(
+                  {&own, std::vector<double>(own.size() * own.size(), 0.)});
+              double *sum = chunks[c].back().entries.data();
+              add_tangent(state,
+                          [&](const types::global_dof_index /*row*/,
+                              const unsigned int n_columns,
+                              const types::global_dof_index * /*columns*/,
+                              const double *entries) {
+                            for (unsigned int k = 0; k < n_columns; ++k)
+                              *sum++ += entries[k];
+                          });
+            }
+      });
+    std::vector<unsigned int> places;
+    for (const auto &chunk : chunks)
+      for (const Sum &sum : chunk)
+        {
+          places.clear();
+          for (const auto index : *sum.unknowns)
+            places.push_back(skin_place(index));
+          const double *entry = sum.entries.data();
+          for (const unsigned int row : places)
+            for (const unsigned int column : places)
+              if (const double value = *entry++; value != 0.)
+                change[row].emplace_back(column, value);
+        }
+  }
+
+
+
+  template <int dim>
+  void
   PairContact<dim>::tangent_change(std::vector<FunctionalRow> &change) const
   {
     const auto add = [&](const types::global_dof_index  row,
@@ -785,57 +892,25 @@ namespace Ricochet
         if (entries[k] != 0.)
           own.emplace_back(skin_place(columns[k]), entries[k]);
     };
-    // Points of a facet that are before the same other one act on the same unknowns:
-    // what they make is summed first.
-    std::vector<types::global_dof_index> unknowns;
-    std::vector<double>                  sums;
-    const auto                           add_sums = [&]() {
-      for (unsigned int a = 0; a < unknowns.size(); ++a)
-        add(unknowns[a],
-            unknowns.size(),
-            unknowns.data(),
-            &sums[a * unknowns.size()]);
-      unknowns.clear();
-    };
-    for (const PointState &state : states)
-      {
-        if (method.law)
-          {
-            if (!is_in_contact(state))
-              continue;
-            const auto &own = pair_of(state).rows(state.point).unknowns;
-            if (own != unknowns)
-              {
-                add_sums();
-                unknowns = own;
-                sums.assign(own.size() * own.size(), 0.);
-              }
-            double *sum = sums.data();
-            add_tangent(state,
-                        [&](const types::global_dof_index /*row*/,
-                            const unsigned int n_columns,
-                            const types::global_dof_index * /*columns*/,
-                            const double *entries) {
-                          for (unsigned int k = 0; k < n_columns; ++k)
-                            *sum++ += entries[k];
-                        });
+    if (method.law)
+      add_change_of_law(change);
+    else
+      for (const PointState &state : states)
+        {
+          // The multiplier of an open point is not to change if it is zero: then it is
+          // no matter what it would push.
+          const auto &multipliers = pair_of(state).multipliers(state.point);
+          if (state.status == Status::open &&
+              std::all_of(multipliers.begin(),
+                          multipliers.end(),
+                          [](const double value) { return value == 0.; }))
             continue;
-          }
-        // The multiplier of an open point is not to change if it is zero: then it is
-        // no matter what it would push.
-        const auto &multipliers = pair_of(state).multipliers(state.point);
-        if (state.status == Status::open &&
-            std::all_of(multipliers.begin(),
-                        multipliers.end(),
-                        [](const double value) { return value == 0.; }))
-          continue;
-        add_tangent(state, add);
-        for_each_multiplier(state, [&](const types::global_dof_index index) {
-          const double open = -open_diagonal(state);
-          add(index, 1, &index, &open);
-        });
-      }
-    add_sums();
+          add_tangent(state, add);
+          for_each_multiplier(state, [&](const types::global_dof_index index) {
+            const double open = -open_diagonal(state);
+            add(index, 1, &index, &open);
+          });
+        }
     // Parts of open points cancel.
     sum_columns(change);
   }
@@ -913,6 +988,7 @@ namespace Ricochet
               with_slip[d][e] = of_friction.with_slip[d][e];
           }
       }
+    static thread_local std::vector<double> values;
     values.resize(m);
     for (unsigned int a = 0; a < m; ++a)
       {

@@ -8,6 +8,7 @@
 #include <contact/treatments/pointwise_friction.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -282,6 +283,26 @@ namespace Ricochet
     void
     evaluate_law(PointState &state) const;
 
+    /// The state of a point, where its pair is.
+    void
+    evaluate_point(const unsigned int s);
+
+    /// Call @p action(begin, end) for ranges from 0 to @p n, not shorter than @p smallest:
+    /// on several threads if the points of the pairs allow that.
+    void
+    for_each_range(const unsigned int                             n,
+                   const unsigned int                             smallest,
+                   const std::function<void(const unsigned int,
+                                            const unsigned int)> &action) const;
+
+    /// Begin a stage. @return whether the unknowns that it is coupled with are others.
+    bool
+    begin_point(PointState &state) const;
+
+    /// What tangent_change() adds for a law.
+    void
+    add_change_of_law(std::vector<FunctionalRow> &change) const;
+
     void
     choose_status(PointState &state) const;
 
@@ -413,7 +434,7 @@ namespace Ricochet
     // Where look_at_change() looks.
     Vector point_of_change;
     // Work space.
-    mutable std::vector<double> values;
+    std::vector<double> values;
   };
 } // namespace Ricochet
 

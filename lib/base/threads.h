@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_base_threads_h
+#define ricochet_base_threads_h
+
+#include <functional>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * Threads of a rank, for work that falls into parts which have nothing to do with each
+   * other: bodies, between contacts, and points before facets. Ranks are what large
+   * problems are distributed over (MPI); threads are for cores that would wait else, as
+   * all but one do where a program is started without MPI.
+   *
+   * Parts are chosen such that results are the same to the last digit, however many
+   * threads there are.
+   *
+   * They are those of OpenMP, which waits for the next part for a moment before it goes
+   * to sleep; OMP_NUM_THREADS says how many there may be.
+   */
+  namespace Threads
+  {
+    /**
+     * To be called once MPI has begun: as many threads as the environment allows; if it
+     * says nothing, this rank's share of the cores that it may run on. Without this
+     * call there is one.
+     *
+     * Libraries are not to begin threads of OpenMP themselves (CHOLMOD asks for four
+     * whatever the environment says, which wait more than they work).
+     */
+    void
+    begin();
+
+    /// How many there are; in a part, one.
+    unsigned int
+    number();
+
+    /// Set their number, for a comparison. @return what it was.
+    unsigned int
+    set_number(const unsigned int n_threads);
+
+    /// Call @p action(part) for each part < @p n_parts, on several threads.
+    /// @throws what the first part threw that did, after the others have ended.
+    void
+    for_each_part(const unsigned int                             n_parts,
+                  const std::function<void(const unsigned int)> &action);
+
+    /**
+     * Cut a range into as many parts as there are threads, about the same in work, at
+     * some places only.
+     *
+     * @param cuts the places, rising, from the beginning of the range to its end.
+     * @param work for all that is before each of them.
+     * @return the beginning of each part, and the end of the last one.
+     */
+    std::vector<unsigned int>
+    balanced_parts(const std::vector<unsigned int> &cuts,
+                   const std::vector<double>       &work);
+
+    /// Call @p action(begin, end) for parts of the range from 0 to @p n, any of which
+    /// may be long; in one part if there are fewer than @p smallest for each.
+    void
+    for_each_range(const unsigned int                             n,
+                   const unsigned int                             smallest,
+                   const std::function<void(const unsigned int,
+                                            const unsigned int)> &action);
+  } // namespace Threads
+} // namespace Ricochet
+
+#endif
