@@ -135,6 +135,23 @@ namespace Ricochet
 
 
   void
+  Threads::for_each_balanced_part(
+    const std::vector<unsigned int>                                   &cuts,
+    const std::vector<double>                                         &work,
+    const double                                                       smallest,
+    const std::function<void(const unsigned int, const unsigned int)> &action)
+  {
+    if (number() == 1 || cuts.size() <= 2 || work.back() < smallest)
+      return action(cuts.front(), cuts.back());
+    const auto parts = balanced_parts(cuts, work);
+    for_each_part(parts.size() - 1, [&](const unsigned int part) {
+      action(parts[part], parts[part + 1]);
+    });
+  }
+
+
+
+  void
   Threads::for_each_range(
     const unsigned int                                                 n,
     const unsigned int                                                 smallest,

@@ -58,8 +58,18 @@ namespace Ricochet
     balanced_parts(const std::vector<unsigned int> &cuts,
                    const std::vector<double>       &work);
 
-    /// Call @p action(begin, end) for parts of the range from 0 to @p n, any of which
-    /// may be long; in one part if there are fewer than @p smallest for each.
+    /// Call @p action(begin, end) for these parts; for the whole range where there is less
+    /// work than @p smallest, which is done before another thread has begun.
+    void
+    for_each_balanced_part(
+      const std::vector<unsigned int> &cuts,
+      const std::vector<double>       &work,
+      const double                     smallest,
+      const std::function<void(const unsigned int, const unsigned int)>
+        &action);
+
+    /// Call @p action(begin, end) for parts of the range from 0 to @p n, which may be cut
+    /// anywhere: none is shorter than @p smallest, unless it is the only one.
     void
     for_each_range(const unsigned int                             n,
                    const unsigned int                             smallest,

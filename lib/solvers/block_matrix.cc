@@ -418,13 +418,10 @@ namespace Ricochet
               to + places->partitioner->locally_owned_size(),
               Number(0));
     // Bodies, each on a thread.
-    if (places->separate.size() <= 2 || n < 1000 || Threads::number() == 1)
-      return sweep_rows(0, n);
-    const auto parts =
-      Threads::balanced_parts(places->separate, places->blocks_before);
-    Threads::for_each_part(parts.size() - 1, [&](const unsigned int part) {
-      sweep_rows(parts[part], parts[part + 1]);
-    });
+    Threads::for_each_balanced_part(places->separate,
+                                    places->blocks_before,
+                                    4000,
+                                    sweep_rows);
   }
 
 

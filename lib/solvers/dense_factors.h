@@ -22,12 +22,6 @@ namespace Ricochet
     void
     reinit(const unsigned int n);
 
-    unsigned int
-    n() const
-    {
-      return size;
-    }
-
     Number &
     operator()(const unsigned int row, const unsigned int column)
     {
@@ -38,7 +32,7 @@ namespace Ricochet
     bool
     factorise();
 
-    /// @param vector right-hand side, becomes the solution: n() numbers.
+    /// @param vector right-hand side, becomes the solution.
     /// @pre factorise() has returned true.
     void
     solve(Number *vector) const;

@@ -228,13 +228,7 @@ namespace Ricochet
   void
   TriangularFactor<Value>::for_each_part(const Action &action) const
   {
-    // Small factors are done before another thread has begun.
-    if (trees.size() <= 2 || values.size() < 20000 || Threads::number() == 1)
-      return action(0u, static_cast<unsigned int>(blocks.size()));
-    const auto parts = Threads::balanced_parts(trees, values_before);
-    Threads::for_each_part(parts.size() - 1, [&](const unsigned int part) {
-      action(parts[part], parts[part + 1]);
-    });
+    Threads::for_each_balanced_part(trees, values_before, 20000, action);
   }
 
 
