@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 
 namespace Ricochet
@@ -98,8 +99,12 @@ namespace Ricochet
 
 
   const std::vector<NewtonSolver::Iteration> &
-  NewtonSolver::solve(const Problem &problem, Vector &solution)
+  NewtonSolver::solve(const Problem &problem,
+                      Vector        &solution,
+                      const bool     line_search_at_once)
   {
+    const unsigned int n_full_steps =
+      line_search_at_once ? 0 : parameters.line_search_after;
     history.clear();
     double norm = evaluate(problem, solution);
     if (!std::isfinite(norm) && problem.safe_guess)
@@ -113,18 +118,31 @@ namespace Ricochet
     };
     problem.accept();
     history.push_back({norm, 0., problem.active_set()});
+    // The best iterate that was left for a worse one. Where the last one is not much
+    // worse, it is as good a place to go on from, and another one.
+    std::optional<unsigned int> best_iteration;
+    const auto                  give_up = [&](const std::string &reason) {
+      end = history.size() - 1;
+      if (best_iteration &&
+          !(.5 * norm <= history[*best_iteration].relative_residual))
+        {
+          copy_values(best, solution);
+          end = *best_iteration;
+        }
+      fail(reason);
+    };
     while (!converged())
       {
         if (!std::isfinite(norm))
-          fail("the state is not finite.");
+          give_up("the state is not finite.");
         if (history.size() > parameters.max_iterations)
-          fail("not converged in " + std::to_string(parameters.max_iterations) +
-               " iterations.");
+          give_up("not converged in " +
+                  std::to_string(parameters.max_iterations) + " iterations.");
 
         // The tangent of the last iteration is good enough while the residual
         // falls fast: factorising it costs much more than an iteration.
         const bool may_reuse = history.size() > 1 &&
-          history.size() <= parameters.line_search_after &&
+          history.size() <= n_full_steps &&
           norm < parameters.reuse_tangent_below *
               history[history.size() - 2].relative_residual;
         // Iterative linear solvers need not be better than the linearisation,
@@ -155,18 +173,26 @@ namespace Ricochet
         };
         while (!std::isfinite(new_norm) && step_length > 1. / 1024.)
           shorten();
-        if (history.size() > parameters.line_search_after)
+        if (history.size() > n_full_steps)
           {
             while (!(new_norm < norm) && step_length > 1. / 64.)
               shorten();
             if (!(new_norm < norm) && std::isfinite(new_norm))
-              fail("no step length makes the residual smaller.");
+              give_up("no step length makes the residual smaller.");
+          }
+        if (!(new_norm < norm) &&
+            !(best_iteration &&
+              history[*best_iteration].relative_residual <= norm))
+          {
+            best_iteration = history.size() - 1;
+            copy_values(solution, best);
           }
         solution.swap(trial);
         norm = new_norm;
         problem.accept();
         history.push_back({norm, step_length, problem.active_set()});
       }
+    end = history.size() - 1;
     return history;
   }
 } // namespace Ricochet

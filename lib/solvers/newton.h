@@ -107,19 +107,41 @@ namespace Ricochet
      * guess is never accepted as it is, unless its residual is exactly zero:
      * there is at least one linear solve.
      *
+     * @param line_search_at_once shorten steps that do not make the residual smaller
+     * from the first one on, and not only after some full ones.
      * @return one entry per residual that was looked at: the number of linear
      * solves plus one.
      * @throws NewtonFailure with the table of all iterations in its text: not
-     * converged in the allowed number of iterations, or not finite.
+     * converged in the allowed number of iterations, or not finite; @p solution is the
+     * last iterate then, or the best one if that has less than half of its residual.
      */
     const std::vector<Iteration> &
-    solve(const Problem &problem, Vector &solution);
+    solve(const Problem &problem,
+          Vector        &solution,
+          const bool     line_search_at_once = false);
 
     /// What the last solve() returned, or did before it failed.
     const std::vector<Iteration> &
     iterations() const
     {
       return history;
+    }
+
+    /// Which of iterations() the last solve() ended with: the last one, but for failures.
+    unsigned int
+    end_iteration() const
+    {
+      return end;
+    }
+
+    /// Whether the last solve(), which failed, made residuals smaller as long as it was
+    /// allowed to, and not just so.
+    bool
+    was_on_its_way() const
+    {
+      return history.size() > parameters.max_iterations &&
+        history.back().relative_residual <
+        .9 * history[history.size() - 2].relative_residual;
     }
 
     /// Whether @p solution solves @p problem, to the same tolerance; if so, it is
@@ -137,7 +159,8 @@ namespace Ricochet
 
     const Parameters       parameters;
     std::vector<Iteration> history;
-    Vector                 residual, update, trial;
+    unsigned int           end = 0;
+    Vector                 residual, update, trial, best;
   };
 } // namespace Ricochet
 

@@ -220,8 +220,8 @@ namespace Ricochet
       [this]() { return body_force_scale + contact_force_scale; },
       [this, sufficient]() { return problem.round_off() + sufficient; },
       nullptr};
-    // A line search may get stuck where points pass from facet to facet. Iterations
-    // cost little here, and full steps lead on.
+    // A line search may get stuck where points pass from facet to facet, and full steps
+    // may lead far away. Iterations cost little here.
     constexpr unsigned int               n_attempts = 8;
     std::vector<NewtonSolver::Iteration> history;
     const auto                           remember = [&]() {
@@ -231,11 +231,11 @@ namespace Ricochet
                      latest.begin() + (history.empty() ? 0 : 1),
                      latest.end());
     };
-    bool is_solved = false;
+    bool is_solved = false, line_search_at_once = false;
     for (unsigned int attempt = 1; !is_solved; ++attempt)
       try
         {
-          newton.solve(condensed, unknowns);
+          newton.solve(condensed, unknowns, line_search_at_once);
           is_solved = true;
           remember();
         }
@@ -246,6 +246,12 @@ namespace Ricochet
               !std::isfinite(newton.iterations().back().relative_residual))
             throw;
           remember();
+          // Iterates behind the one that is gone back to tell nothing.
+          const unsigned int end = newton.end_iteration();
+          if (end + 1 < newton.iterations().size())
+            contact.forget_iterates();
+          // Full steps may lead on, unless they led nowhere.
+          line_search_at_once = end == 0 || newton.was_on_its_way();
         }
 
     Unknowns result = read(unknowns);

@@ -64,7 +64,7 @@ namespace Ricochet
 
     /**
      * Solve with @p newton, from the guess @p solution to @p solution; where it gets
-     * stuck, it begins anew from there a few times.
+     * stuck or lost, it begins anew a few times (NewtonSolver::end_iteration()).
      *
      * @param sufficient a residual (N) that will do, besides what Newton's method
      * tolerates.

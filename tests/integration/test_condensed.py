@@ -136,6 +136,34 @@ subsection Contact balls
 end
 """
 
+# Two disks that are mirror images of each other, so that each node meets a node. Points
+# are at vertices, where full steps of Newton's method go to and fro and shortened ones
+# take their time.
+NODES_BEFORE_NODES = "\n".join(["set Program = ricochet", "set Dimension = 2"] + [f"""
+subsection Body {name}
+  set Shape         = disk
+  set Radius        = 1
+  set Cells         = triangles or tetrahedra
+  set Nodes around  = 270
+  set Nodes         = 6211
+  set Translation   = 0, {1.01 * side}
+  set Velocity      = 0, {-side}
+  set Law           = linear elastic
+  set Density       = 1000
+  set Young modulus = 1e6
+end""" for name, side in (("upper", 1), ("lower", -1))] + ["""
+subsection Contact between
+  set Surface             = upper
+  set Against             = lower
+  set Treatment           = improved normal compliance
+  set Compliance exponent = 3
+end
+subsection Time
+  set Final time = 0.2
+  set Time step  = 1e-3
+end
+"""])
+
 # A ball that falls on another one, which moves and turns: directions of contact turn.
 TURNING = """
 set Program   = ricochet
@@ -271,6 +299,19 @@ class Condensed(ProgramTest):
                     for k in (0, 1))
                 self.assertLessEqual(spent, 2 * passes * (len(one["time"]) - 1))
                 self.assertLess(spent, .6 * spent_before)
+
+    def test_nodes_before_nodes(self):
+        """Newton's method does not give up on contact alone: no stage needs the whole
+        body's."""
+        if is_debug_build():
+            self.skipTest("a fine mesh, and the same code as elsewhere")
+        scene = self.folder / "scene.prm"
+        scene.write_text(NODES_BEFORE_NODES)
+        ledger = self.run_program("ricochet", CORRECTED, self.folder / "out", prm=scene)
+        self.assertLess(largest(ledger["balance_residual"]), 1e-12)
+        self.assertGreater(max(ledger["newton_iterations"]), 30)
+        self.assertLessEqual(self.substitutions(self.folder / "out"),
+                             len(ledger["time"]) - 1 + 2)
 
     def test_directions_that_turn(self):
         """Before curved obstacles that move, too; on two ranks, and resumed."""
