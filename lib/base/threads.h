@@ -41,7 +41,8 @@ namespace Ricochet
     set_number(const unsigned int n_threads);
 
     /// Call @p action(part) for each part < @p n_parts, on several threads.
-    /// @throws what the first part threw that did, after the others have ended.
+    /// @throws what the first part threw that did; where there is more than one thread,
+    /// after the others have ended.
     void
     for_each_part(const unsigned int                             n_parts,
                   const std::function<void(const unsigned int)> &action);

@@ -52,8 +52,8 @@ namespace Ricochet
     {}
 
     /// From here on another problem with the same contact is solved, near the last
-    /// iterate: what former iterates did, such as to come back to where they were,
-    /// tells nothing.
+    /// iterate, or the same one from elsewhere: what former iterates did, such as to come
+    /// back to where they were, tells nothing. Which points were active still counts.
     virtual void
     forget_iterates()
     {}

@@ -352,9 +352,12 @@ namespace Ricochet
                                 const bool              may_update,
                                 const std::vector<Row> &my_excess_rows)
   {
+    // What is at hand may depend on what was solved for before. Then it does not serve in
+    // another stage, which a resumed run may begin with.
+    const bool has_past =
+      small_is_positive ? positive_small.is_updated() : small.is_made_again();
     const bool same = has_change && my_rows == my_last_rows &&
-      my_excess_rows == my_last_excess_rows &&
-      (may_update || !small_is_positive || !positive_small.is_updated());
+      my_excess_rows == my_last_excess_rows && (may_update || !has_past);
     if (Utilities::MPI::min(same ? 1 : 0, communicator) == 1)
       return;
     has_change          = false;

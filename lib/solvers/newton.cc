@@ -117,12 +117,12 @@ namespace Ricochet
                                 : norm == 0.;
     };
     problem.accept();
+    end = 0;
     history.push_back({norm, 0., problem.active_set()});
     // The best iterate that was left for a worse one. Where the last one is not much
     // worse, it is as good a place to go on from, and another one.
     std::optional<unsigned int> best_iteration;
     const auto                  give_up = [&](const std::string &reason) {
-      end = history.size() - 1;
       if (best_iteration &&
           !(.5 * norm <= history[*best_iteration].relative_residual))
         {
@@ -190,9 +190,9 @@ namespace Ricochet
         solution.swap(trial);
         norm = new_norm;
         problem.accept();
+        end = history.size();
         history.push_back({norm, step_length, problem.active_set()});
       }
-    end = history.size() - 1;
     return history;
   }
 } // namespace Ricochet

@@ -109,11 +109,13 @@ namespace Ricochet
      *
      * @param line_search_at_once shorten steps that do not make the residual smaller
      * from the first one on, and not only after some full ones.
-     * @return one entry per residual that was looked at: the number of linear
+     * @return one entry for the guess and each iterate after it: the number of linear
      * solves plus one.
      * @throws NewtonFailure with the table of all iterations in its text: not
-     * converged in the allowed number of iterations, or not finite; @p solution is the
-     * last iterate then, or the best one if that has less than half of its residual.
+     * converged in the allowed number of iterations, no step length that makes the
+     * residual smaller, or not finite; @p solution is the last iterate then, or the best
+     * one if that has less than half of its residual. And what Problem::solve throws;
+     * @p solution is the last iterate then.
      */
     const std::vector<Iteration> &
     solve(const Problem &problem,
@@ -127,19 +129,21 @@ namespace Ricochet
       return history;
     }
 
-    /// Which of iterations() the last solve() ended with: the last one, but for failures.
+    /// Which of iterations() the last solve() ended with: the last one, unless it failed
+    /// and went back to a better one.
     unsigned int
     end_iteration() const
     {
       return end;
     }
 
-    /// Whether the last solve(), which failed, made residuals smaller as long as it was
-    /// allowed to, and not just so.
+    /// Whether the last solve(), which failed, ended because its iterations had run out,
+    /// while its last step still made the residual smaller, and not just so.
     bool
     was_on_its_way() const
     {
       return history.size() > parameters.max_iterations &&
+        end + 1 == history.size() &&
         history.back().relative_residual <
         .9 * history[history.size() - 2].relative_residual;
     }

@@ -225,6 +225,7 @@ namespace Ricochet
   {
     // Small ones take no time.
     constexpr unsigned int fewest_for_single = 256;
+    made_again                               = false;
     is_single = may_be_single && terms.places.size() >= fewest_for_single;
     if (is_single)
       {
@@ -250,6 +251,7 @@ namespace Ricochet
         if (solve_with_refinement(terms, vector))
           return;
         factorise(terms, false);
+        made_again = true;
       }
     factors.solve(vector.data());
   }

@@ -67,12 +67,19 @@ namespace Ricochet
       return is_single;
     }
 
+    /// Whether solve() has made others than factorise() did.
+    bool
+    is_made_again() const
+    {
+      return made_again;
+    }
+
   private:
     /// @return whether refinement has led to a solution.
     bool
     solve_with_refinement(const Terms &terms, dealii::Vector<double> &vector);
 
-    bool                 is_single = false;
+    bool                 is_single = false, made_again = false;
     DenseFactors<double> factors;
     DenseFactors<float>  single_factors;
   };

@@ -128,9 +128,10 @@ namespace Ricochet
     contact.force_change(forces);
     for (unsigned int f = 0; f < change.size(); ++f)
       unknowns.coefficients[f] = forces[f] - unknowns.coefficients[f];
-    if (unknowns.share != 0.)
-      contact_force_scale = system.norm_of_functionals(forces, nullptr, work);
-    unknowns.share = 1. - unknowns.share;
+    contact_force_scale = unknowns.share == 0.
+      ? contact_forces.scale
+      : system.norm_of_functionals(forces, nullptr, work);
+    unknowns.share      = 1. - unknowns.share;
     write(unknowns, result);
   }
 
@@ -187,7 +188,7 @@ namespace Ricochet
 
 
 
-  std::vector<NewtonSolver::Iteration>
+  void
   CondensedStage::solve(NewtonSolver &newton,
                         Vector       &solution,
                         const double  sufficient)
@@ -222,13 +223,13 @@ namespace Ricochet
       nullptr};
     // A line search may get stuck where points pass from facet to facet, and full steps
     // may lead far away. Iterations cost little here.
-    constexpr unsigned int               n_attempts = 8;
-    std::vector<NewtonSolver::Iteration> history;
-    const auto                           remember = [&]() {
-      // Where an attempt begins, the last one ended.
+    constexpr unsigned int n_attempts = 8;
+    const auto             remember   = [&]() {
+      // Where an attempt begins, one before ended.
       const auto &latest = newton.iterations();
       history.insert(history.end(),
-                     latest.begin() + (history.empty() ? 0 : 1),
+                     latest.begin() +
+                       (history.empty() || latest.empty() ? 0 : 1),
                      latest.end());
     };
     bool is_solved = false, line_search_at_once = false;
@@ -241,27 +242,27 @@ namespace Ricochet
         }
       catch (const NewtonFailure &)
         {
+          remember();
           // What fails at once will do so again.
           if (attempt == n_attempts || newton.iterations().size() < 3 ||
               !std::isfinite(newton.iterations().back().relative_residual))
             throw;
-          remember();
           // Iterates behind the one that is gone back to tell nothing.
           const unsigned int end = newton.end_iteration();
           if (end + 1 < newton.iterations().size())
             contact.forget_iterates();
-          // Full steps may lead on, unless they led nowhere.
+          // Full steps may lead on, unless they led nowhere, or shortened ones are about
+          // to arrive.
           line_search_at_once = end == 0 || newton.was_on_its_way();
         }
 
     Unknowns result = read(unknowns);
     // Without a step the guess is the solution, to the last digit.
     if (result.share == 0.)
-      return history;
+      return;
     for (double &coefficient : result.coefficients)
       coefficient /= -result.share;
     system.finish(result.coefficients, work);
     solution.add(-result.share, work);
-    return history;
   }
 } // namespace Ricochet

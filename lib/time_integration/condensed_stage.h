@@ -19,10 +19,11 @@ namespace Ricochet
    *
    *     x = x_g + s (x_0 - x_g) - K^{-1} f z,
    *
-   * and where contact takes rows and puts others there, it goes by what the residual
-   * without contact leaves over along the functionals, f ((1 - s) R(x_g) - f z).
+   * where s = 1 after the first full step; and where contact takes rows and puts others
+   * there, it goes by what the residual without contact leaves over along the functionals,
+   * f ((1 - s) R(x_g) - f z).
    *
-   * where s = 1 after the first full step. So its unknowns are the coefficients z and
+   * So its unknowns are the coefficients z and
    * s: with full steps it makes the same iterates as NewtonSolver with the whole
    * system, but for round-off, and the body is solved for once or twice in all. Where steps
    * have to be shortened, it may fail and the whole system not: norms are the same, but
@@ -68,11 +69,18 @@ namespace Ricochet
      *
      * @param sufficient a residual (N) that will do, besides what Newton's method
      * tolerates.
-     * @return what NewtonSolver::solve() returns, all attempts one behind the other.
      * @throws NewtonFailure; the guess remains.
      */
-    std::vector<NewtonSolver::Iteration>
+    void
     solve(NewtonSolver &newton, Vector &solution, const double sufficient = 0.);
+
+    /// Those of solve(), also where it failed: all attempts one behind the other, without
+    /// the iterate of an earlier one that an attempt begins at.
+    const std::vector<NewtonSolver::Iteration> &
+    iterations() const
+    {
+      return history;
+    }
 
   private:
     /// z and s of this rank, from and to the small vectors of Newton's method.
@@ -122,8 +130,9 @@ namespace Ricochet
     Vector             &open_residual, &work;
     std::vector<double> flight_values;
     // What the former has along the functionals (N), where contact takes rows.
-    std::vector<double> open_excess, excess;
-    std::vector<double> forces;
+    std::vector<double>                  open_excess, excess;
+    std::vector<double>                  forces;
+    std::vector<NewtonSolver::Iteration> history;
     // The tangent of the last linear_solve(), and the active set that it is for.
     std::vector<FunctionalRow>  &change, &excess_change;
     std::optional<std::uint64_t> tangent_active_set;

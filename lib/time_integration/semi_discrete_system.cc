@@ -248,10 +248,24 @@ namespace Ricochet
     if (!std::isfinite(newton_problem.norm(residual)))
       return false;
     CondensedStage condensed = problem.condensed(newton_problem, residual);
-    const auto     history   = condensed.solve(condensed_newton, solution);
-    problem.add_iterations(history.size() - 1);
-    if (newton_observer)
-      newton_observer(history);
+    const auto     report    = [&]() {
+      const auto &iterations = condensed.iterations();
+      if (iterations.empty())
+        return;
+      problem.add_iterations(iterations.size() - 1);
+      if (newton_observer)
+        newton_observer(iterations);
+    };
+    try
+      {
+        condensed.solve(condensed_newton, solution);
+      }
+    catch (const NewtonFailure &)
+      {
+        report();
+        throw;
+      }
+    report();
     return newton.solves(newton_problem, solution);
   }
 
