@@ -23,11 +23,10 @@ namespace Ricochet
    * there, it goes by what the residual without contact leaves over along the functionals,
    * f ((1 - s) R(x_g) - f z).
    *
-   * So its unknowns are the coefficients z and
-   * s: with full steps it makes the same iterates as NewtonSolver with the whole
-   * system, but for round-off, and the body is solved for once or twice in all. Where steps
-   * have to be shortened, it may fail and the whole system not: norms are the same, but
-   * relative to the forces of the body at the guess.
+   * So its unknowns are the coefficients z and s: with full steps it makes the same
+   * iterates as NewtonSolver with the whole system, but for round-off, and the body is
+   * solved for once or twice in all. Where steps have to be shortened, it may fail and the
+   * whole system not: norms are the same, but relative to the forces of the body at the guess.
    */
   class CondensedStage
   {
@@ -130,12 +129,13 @@ namespace Ricochet
     Vector             &open_residual, &work;
     std::vector<double> flight_values;
     // What the former has along the functionals (N), where contact takes rows.
-    std::vector<double>                  open_excess, excess;
-    std::vector<double>                  forces;
-    std::vector<NewtonSolver::Iteration> history;
+    std::vector<double> open_excess, excess;
+    std::vector<double> forces;
     // The tangent of the last linear_solve(), and the active set that it is for.
     std::vector<FunctionalRow>  &change, &excess_change;
     std::optional<std::uint64_t> tangent_active_set;
+    // Of all attempts.
+    std::vector<NewtonSolver::Iteration> history;
   };
 } // namespace Ricochet
 

@@ -306,7 +306,7 @@ namespace Ricochet
   {
     Vector      &solution = new_state.solution;
     KeptTangent &kept     = new_state.tangent;
-    residual              = solution;
+    first_guess           = solution;
     for (;;)
       {
         // Contact may have thrown the body far from free flight, and its tangent there
@@ -330,13 +330,13 @@ namespace Ricochet
               newton_observer(history);
             if (!is_solved && !is_old &&
                 (has_multipliers || !(history.back().relative_residual < 1e-3)))
-              solution = residual;
+              solution = first_guess;
           }
         catch (const NewtonFailure &)
           {
             if (!is_old)
               {
-                solution = residual;
+                solution = first_guess;
                 throw;
               }
           }

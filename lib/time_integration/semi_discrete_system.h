@@ -307,9 +307,9 @@ namespace Ricochet
     mutable Vector            work, constant_part, force;
     CondensedStage::WorkSpace condensed_space;
     // What the equations leave over in prescribed displacements (N), where
-    // Newton's method may begin, and the residual at the guess (N), or the guess itself
-    // where a nonlinear body begins at another place.
-    Vector reaction, safe_guess, residual;
+    // Newton's method may begin, the guess where it begins elsewhere, and the residual at
+    // the guess (N).
+    Vector reaction, safe_guess, first_guess, residual;
     // The one with which the body is condensed now, and its state with the displacements
     // prescribed at the end of its step; in this stage, whether that was done, and how
     // many iterations were made with it.
