@@ -44,6 +44,7 @@ TITLES = {
     "viscosity": "Viscosity",
     "mass": "Mass",
     "kinematics": "Contact kinematics",
+    "promise": "Promises",
     "": "More",
 }
 

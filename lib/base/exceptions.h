@@ -39,6 +39,16 @@ namespace Ricochet
   public:
     using ComputationError::ComputationError;
   };
+
+  /**
+   * Points went through a body or an obstacle in one step without touching it. The time
+   * loop halves the step.
+   */
+  class StepTooLong : public NewtonFailure
+  {
+  public:
+    using NewtonFailure::NewtonFailure;
+  };
 } // namespace Ricochet
 
 #endif

@@ -46,6 +46,8 @@ namespace Ricochet
           command_line.validate_only = true;
         else if (argument == "--print-parameters")
           command_line.print_parameters = true;
+        else if (argument == "--promises")
+          command_line.promises = true;
         else if (argument == "--quiet")
           command_line.quiet = true;
         else if (argument == "--help" || argument == "-h")
@@ -106,7 +108,11 @@ namespace Ricochet
         "output folder\n"
         "  --validate                  check the parameters and stop\n"
         "  --print-parameters          print all parameters with their "
-        "documentation\n"
+        "documentation\n" +
+        (program.promises
+           ? std::string("  --promises                  print what contact "
+                         "treatments promise of the energy\n")
+           : "") +
         "  --quiet                     no lines on the console (log.txt has "
         "them)\n"
         "  --help, --version\n"
@@ -186,7 +192,8 @@ namespace Ricochet
 
 
 
-    void
+    /// @return what is open at the end of the run, see RunFolder::leave_open().
+    std::vector<std::string>
     execute(const int argc, char **argv, const Program &program)
     {
       namespace fs                = std::filesystem;
@@ -194,11 +201,25 @@ namespace Ricochet
 
       const CommandLine command_line = parse_command_line(argc, argv);
       if (command_line.help)
-        return print(help_text(program));
+        {
+          print(help_text(program));
+          return {};
+        }
+      if (command_line.promises)
+        {
+          if (!program.promises)
+            throw InputError("There is no option '--promises' of " +
+                             program.name + "; ricochet has it.");
+          print(program.promises());
+          return {};
+        }
       if (command_line.version)
-        return print(program.name + " of Ricochet " + RICOCHET_VERSION + " (" +
-                     RICOCHET_BUILD_TYPE + "), deal.II " +
-                     DEAL_II_PACKAGE_VERSION + "\n");
+        {
+          print(program.name + " of Ricochet " + RICOCHET_VERSION + " (" +
+                RICOCHET_BUILD_TYPE + "), deal.II " + DEAL_II_PACKAGE_VERSION +
+                "\n");
+          return {};
+        }
 
       dealii::ParameterHandler parameters;
       std::string              program_name = program.name;
@@ -236,8 +257,8 @@ namespace Ricochet
             if (!parameter.allowed.empty())
               allowed +=
                 "#   " + parameter.name + ": " + parameter.allowed + "\n";
-          return print(all_parameters.str() + "\n# What is allowed:\n" +
-                       allowed);
+          print(all_parameters.str() + "\n# What is allowed:\n" + allowed);
+          return {};
         }
 
       program.validate();
@@ -249,7 +270,8 @@ namespace Ricochet
             lines += program.description_of_input(command_line.output_dir);
           for (const std::string &note : notes)
             lines += note + "\n";
-          return print(lines);
+          print(lines);
+          return {};
         }
 
       // Who stops reading the console does not stop the run.
@@ -279,6 +301,7 @@ namespace Ricochet
       for (const std::string &note : notes)
         folder.log(note);
       program.run(folder);
+      return folder.what_is_open();
     }
 
 
@@ -338,7 +361,16 @@ namespace Ricochet
     };
     try
       {
-        execute(argc, argv, program);
+        const std::vector<std::string> open = execute(argc, argv, program);
+        if (!open.empty())
+          {
+            std::string lines;
+            for (const std::string &line : open)
+              lines += (lines.empty() ? "" : "\n") + line;
+            report("the run is complete, but its energy is not what it says.",
+                   lines);
+            return 4;
+          }
       }
     catch (const InputError &error)
       {

@@ -24,6 +24,7 @@ namespace Ricochet
     bool                     overwrite        = false;
     bool                     validate_only    = false;
     bool                     print_parameters = false;
+    bool                     promises         = false;
     bool                     help             = false;
     bool                     version          = false;
     bool                     quiet            = false;
@@ -55,6 +56,8 @@ namespace Ricochet
     /// folder is given (not empty), pictures may be written there.
     std::function<std::string(const std::string &folder)> description_of_input =
       {};
+    /// What `--promises` prints; may be left out.
+    std::function<std::string()> promises = {};
   };
 
   /**
@@ -71,7 +74,8 @@ namespace Ricochet
    * Errors are printed once, by rank 0, without a stack trace.
    *
    * @return the exit code: 0 success, 1 InputError, 2 ComputationError,
-   * 3 anything else (a bug).
+   * 3 anything else (a bug), 4 a complete run whose balance or promise is open, see
+   * RunFolder::leave_open().
    */
   int
   run_program(const int argc, char **argv, const Program &program);

@@ -5,6 +5,7 @@
 #include <base/files.h>
 
 #include <string>
+#include <vector>
 
 namespace Ricochet
 {
@@ -51,6 +52,20 @@ namespace Ricochet
     void
     log(const std::string &line);
 
+    /// The run is complete, but what @p lines say is open: the program ends with code 4.
+    void
+    leave_open(const std::vector<std::string> &lines)
+    {
+      open_lines = lines;
+    }
+
+    /// See leave_open(); empty if nothing is open.
+    const std::vector<std::string> &
+    what_is_open() const
+    {
+      return open_lines;
+    }
+
     /// Path of @p name inside the folder.
     std::string
     file(const std::string &name) const;
@@ -81,7 +96,8 @@ namespace Ricochet
     bool        begun = false;
     GrowingFile log_file;
     // What was logged before begin().
-    std::string early_lines;
+    std::string              early_lines;
+    std::vector<std::string> open_lines;
   };
 } // namespace Ricochet
 

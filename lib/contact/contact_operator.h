@@ -4,6 +4,7 @@
 
 #include <base/types.h>
 #include <contact/contact_report.h>
+#include <contact/energy_promise.h>
 #include <contact/kinematics/contact_kinematics.h>
 #include <solvers/tangent.h>
 #include <solvers/united_pattern.h>
@@ -114,6 +115,18 @@ namespace Ricochet
                   dealii::ExcMessage("This contact is not told in parts."));
       return {};
     }
+
+    /// What contact has made of the energy over the step that ends at the last
+    /// complete_residual(), of each boundary with points; that step is over then. The
+    /// amounts have a meaning where contact acts over a step.
+    ///
+    /// @param begin the solution (m) at the beginning of the step, at @p begin_time (s).
+    /// @param end the same at its end. Collective.
+    virtual ContactSteps
+    end_step(const Vector &begin,
+             const Vector &end,
+             const double  begin_time,
+             const double  end_time) = 0;
 
     /// By how much the force in the residual differs from that of the law, at
     /// the last complete_residual() (N): not zero where the law was linearised
@@ -247,7 +260,18 @@ namespace Ricochet
     : public StageContact
     , public TangentContact
     , public ContactReport
-  {};
+  {
+  public:
+    /// Of all contacts together; set by the table that makes them.
+    EnergyPromise promise;
+
+    /// That of the contact of the points with @p boundary_id.
+    virtual const EnergyPromise &
+    promise_at(const dealii::types::boundary_id /*boundary_id*/) const
+    {
+      return promise;
+    }
+  };
 } // namespace Ricochet
 
 #endif

@@ -3,6 +3,7 @@
 #include <output/part_columns.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace Ricochet
@@ -54,7 +55,7 @@ namespace Ricochet
 
   template <int dim>
   PartColumns<dim>::PartColumns(const Body<dim>                &body,
-                                const SemiDiscreteSystem       &system,
+                                SemiDiscreteSystem             &system,
                                 const bool                      small_strains,
                                 const std::vector<std::string> &names,
                                 std::vector<unsigned int>       given_parts)
@@ -138,6 +139,14 @@ namespace Ricochet
                                    sum.end_raw());
       });
     };
+    if (names.size() > 1)
+      system.works_of_bodies =
+        [this](const Vector &force, const Vector &begin, const Vector &end) {
+          std::vector<double> works;
+          for (unsigned int p = 0; p < names.size(); ++p)
+            works.push_back(work(p, force, begin, end));
+          return works;
+        };
     // One part is all.
     for (unsigned int p = 0; p < names.size() && names.size() > 1; ++p)
       {
@@ -157,15 +166,13 @@ namespace Ricochet
                                                    first_part[p + 1],
                                                  0.);
                         });
-        // The force of a state is that over the step that leads to it.
-        loop.add_sum("contact_work_" + names[p],
-                     "J",
-                     [this, p](const State &begin, const State &end) {
-                       return work(p,
-                                   end.contact_force,
-                                   begin.solution,
-                                   end.solution);
-                     });
+        loop.add_reported_sum("contact_work_" + names[p],
+                              "J",
+                              [p](const StepReport &report) {
+                                return report.works_of_bodies.empty()
+                                  ? std::numeric_limits<double>::quiet_NaN()
+                                  : report.works_of_bodies[p];
+                              });
         add_momenta("_" + names[p], momenta_of_parts[p]);
       }
     add_momenta("", momenta_of_all);

@@ -27,12 +27,13 @@ namespace Ricochet
     /// @param first_part of each body, and the number of all parts; empty where each body
     /// is one. All must outlive the object.
     PartColumns(const Body<dim>                &body,
-                const SemiDiscreteSystem       &system,
+                SemiDiscreteSystem             &system,
                 const bool                      small_strains,
                 const std::vector<std::string> &names,
                 std::vector<unsigned int>       first_part = {});
 
-    /// This object must outlive @p loop.
+    /// This object must outlive @p loop, and be asked for the works of bodies by the system
+    /// from then on.
     void
     add_to(TimeLoop &loop) const;
 
@@ -77,7 +78,7 @@ namespace Ricochet
     static std::vector<Run>
     runs_of(const std::vector<unsigned int> &body_of_unknown);
 
-    const SemiDiscreteSystem       &system;
+    SemiDiscreteSystem             &system;
     const MPI_Comm                  communicator;
     const std::vector<std::string>  names;
     const std::vector<unsigned int> first_part;

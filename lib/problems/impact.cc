@@ -427,7 +427,10 @@ namespace Ricochet
                                  scheme,
                                  contact.pairs.front().is_self,
                                  dim);
-          return make_pair_contact(contact.parameters, body, contact.pairs);
+          return make_pair_contact(contact.parameters,
+                                   scheme,
+                                   body,
+                                   contact.pairs);
         }
       const Material<dim> material = materials_of(setup)[contact.part];
       return make_contact(contact.parameters,

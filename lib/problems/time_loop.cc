@@ -86,6 +86,24 @@ namespace Ricochet
         }
       return list;
     }
+
+    /// The contacts with their promises: of boundaries with one name the weakest.
+    std::vector<EnergyCheck::Contact>
+    checked_contacts(
+      const ContactOperator &contact,
+      const std::vector<std::pair<std::string, std::vector<types::boundary_id>>>
+        &names)
+    {
+      std::vector<EnergyCheck::Contact> list;
+      for (const auto &[name, ids] : names)
+        {
+          EnergyPromise promise = contact.promise_at(ids.front());
+          for (const types::boundary_id id : ids)
+            promise = promise.and_also(contact.promise_at(id));
+          list.push_back({name, promise});
+        }
+      return list;
+    }
   } // namespace
 
 
@@ -104,7 +122,12 @@ namespace Ricochet
     , contact_names(boundaries_by_name(contact_names))
     , units(units)
     , ledger(folder)
+    , check(system.contact.promise,
+            checked_contacts(system.contact, this->contact_names),
+            system.contact.has_moving_obstacles() &&
+              scheme.contact_force_is_of_step())
   {
+    sums.contacts.resize(this->contact_names.size());
     const auto add = [this](const std::string &name,
                             const std::string &unit,
                             const bool         may_be_empty = false) {
@@ -117,6 +140,9 @@ namespace Ricochet
     add("modified_energy",
         "J",
         /* may be empty */ !system.contact.has_modified_energy());
+    add("total_energy",
+        "J",
+        /* may be empty */ !system.contact.has_modified_energy());
     add("external_work", "J");
     add("contact_work", "J");
     add("friction_work", "J");
@@ -127,9 +153,14 @@ namespace Ricochet
     if (system.has_imposed_displacements())
       add("imposed_work", "J");
     add("balance_residual", "1");
+    add("promise_residual",
+        "1",
+        /* may be empty */ !system.contact.has_modified_energy());
+    add("round_off", "J");
     add("newton_iterations", "1");
     add("linear_solves", "1");
     add("step_halvings", "1");
+    add("passing_halvings", "1");
     for (const auto &[name, ids] : this->contact_names)
       {
         const bool may_be_empty = system.contact.gaps_may_be_unknown();
@@ -141,6 +172,14 @@ namespace Ricochet
         if (system.contact.knows_stress_pressure())
           add("stress_pressure_" + name, "Pa");
         add("active_points_" + name, "1");
+        add("passed_points_" + name, "1");
+        if (scheme.contact_force_is_of_step())
+          add("contact_gain_" + name, "J");
+        if (scheme.contact_force_is_of_step() && may_be_empty)
+          {
+            add("dropped_points_" + name, "1");
+            add("entered_points_" + name, "1");
+          }
       }
     if (system.contact.knows_work_of_contacts())
       for (const auto &contact : this->contact_names)
@@ -197,8 +236,7 @@ namespace Ricochet
 
 
   unsigned int
-  TimeLoop::add_own_sum(
-    const std::function<double(const State &, const State &)> &increment)
+  TimeLoop::add_own_sum(const Increment &increment)
   {
     own_sums.push_back(increment);
     sums.own.push_back(0.);
@@ -214,8 +252,28 @@ namespace Ricochet
     const std::string                                         &unit,
     const std::function<double(const State &, const State &)> &increment)
   {
-    const unsigned int k = add_own_sum(increment);
+    const unsigned int k = add_own_sum(
+      [increment](const State &begin, const State &end, const StepReport &) {
+        return increment(begin, end);
+      });
     add_column(name, unit, [this, k](const State &) { return sums.own[k]; });
+  }
+
+
+
+  void
+  TimeLoop::add_reported_sum(
+    const std::string                               &name,
+    const std::string                               &unit,
+    const std::function<double(const StepReport &)> &increment)
+  {
+    const unsigned int k = add_own_sum(
+      [increment](const State &, const State &, const StepReport &report) {
+        return increment(report);
+      });
+    ledger.add_column(name, units.name(unit), /* may be empty */ true);
+    own_columns.push_back(
+      [this, k](const State &) { return std::vector<double>{sums.own[k]}; });
   }
 
 
@@ -226,7 +284,10 @@ namespace Ricochet
     const std::string                                         &unit,
     const std::function<double(const State &, const State &)> &increment)
   {
-    const unsigned int k = add_own_sum(increment);
+    const unsigned int k = add_own_sum(
+      [increment](const State &begin, const State &end, const StepReport &) {
+        return increment(begin, end);
+      });
     add_column(name, unit, [this, k](const State &) { return own_means[k]; });
   }
 
@@ -263,8 +324,23 @@ namespace Ricochet
                                                  new_state.time);
           }
         for (const auto &increment : own_sums)
-          report.own_sums.push_back(increment(old_state, new_state));
+          report.own_sums.push_back(increment(old_state, new_state, report));
+        report.round_off = system.round_off_force() *
+          system.distance(old_state.solution, new_state.solution);
+        // ARKODE has steps of its own.
+        if (!scheme.integrates_by_itself())
+          {
+            report.contact_steps = contact_steps(old_state, new_state);
+            check_passing(old_state,
+                          time_step,
+                          n_halvings_so_far,
+                          report.contact_steps);
+          }
         return report;
+      }
+    catch (const StepTooLong &)
+      {
+        ++sums.n_passing_halvings;
       }
     catch (const NewtonFailure &failure)
       {
@@ -275,8 +351,8 @@ namespace Ricochet
             " cannot be made, after " + std::to_string(n_halvings_so_far) +
             " halvings.\n" + failure.what() +
             "All results up to then are in the output folder.");
+        ++sums.n_halvings;
       }
-    ++sums.n_halvings;
     State      middle;
     StepReport report =
       advance(old_state, .5 * time_step, n_halvings_so_far + 1, middle);
@@ -301,11 +377,16 @@ namespace Ricochet
                                 friction_work,
                                 viscous_dissipation,
                                 numerical_dissipation,
-                                initial_energy,
-                                largest_energy,
                                 static_cast<double>(n_halvings),
+                                static_cast<double>(n_passing_halvings),
                                 obstacle_work,
                                 imposed_work};
+    for (const ContactStep &contact : contacts)
+      list.insert(list.end(),
+                  {contact.made,
+                   static_cast<double>(contact.n_dropped),
+                   static_cast<double>(contact.n_entered),
+                   static_cast<double>(contact.n_passed)});
     list.insert(list.end(), own.begin(), own.end());
     return list;
   }
@@ -313,19 +394,92 @@ namespace Ricochet
 
 
   TimeLoop::Sums
-  TimeLoop::Sums::from_list(const std::vector<double> &list)
+  TimeLoop::Sums::from_list(const std::vector<double> &list,
+                            const unsigned int         n_contacts)
   {
-    return {list.at(0),
-            list.at(1),
-            list.at(2),
-            list.at(3),
-            list.at(4),
-            list.at(5),
-            list.at(6),
-            static_cast<unsigned int>(list.at(7)),
-            list.at(8),
-            list.at(9),
-            {list.begin() + 10, list.end()}};
+    constexpr unsigned int   first = 9, n_of_contact = 4;
+    const unsigned int       first_own = first + n_of_contact * n_contacts;
+    std::vector<ContactStep> contacts(n_contacts);
+    AssertThrow(list.size() >= first_own, ExcInternalError());
+    for (unsigned int k = 0; k < n_contacts; ++k)
+      {
+        const double *values  = &list[first + n_of_contact * k];
+        contacts[k].made      = values[0];
+        contacts[k].n_dropped = static_cast<unsigned int>(values[1]);
+        contacts[k].n_entered = static_cast<unsigned int>(values[2]);
+        contacts[k].n_passed  = static_cast<unsigned int>(values[3]);
+      }
+    return {list[0],
+            list[1],
+            list[2],
+            list[3],
+            list[4],
+            static_cast<unsigned int>(list[5]),
+            static_cast<unsigned int>(list[6]),
+            list[7],
+            list[8],
+            contacts,
+            {list.begin() + first_own, list.end()}};
+  }
+
+
+
+  std::vector<ContactStep>
+  TimeLoop::contact_steps(const State &old_state, const State &new_state) const
+  {
+    const ContactSteps by_boundary = system.contact.end_step(old_state.solution,
+                                                             new_state.solution,
+                                                             old_state.time,
+                                                             new_state.time);
+    std::vector<ContactStep> steps(contact_names.size());
+    for (unsigned int k = 0; k < contact_names.size(); ++k)
+      for (const types::boundary_id id : contact_names[k].second)
+        if (const auto found = by_boundary.find(id); found != by_boundary.end())
+          steps[k].unite(found->second);
+    return steps;
+  }
+
+
+
+  void
+  TimeLoop::check_passing(const State                    &old_state,
+                          const double                    time_step,
+                          const unsigned int              n_halvings_so_far,
+                          const std::vector<ContactStep> &steps) const
+  {
+    for (unsigned int k = 0; k < steps.size(); ++k)
+      {
+        // What the shortest step does not help is counted.
+        if (steps[k].n_passed == 0 ||
+            (n_halvings_so_far == parameters.max_halvings &&
+             parameters.max_halvings > 0))
+          continue;
+        const std::string text =
+          "In the step from t = " + units.text(old_state.time, "s") +
+          " of length " + units.text(time_step, "s") + " " +
+          std::to_string(steps[k].n_passed) +
+          " points go through the contact '" + contact_names[k].first +
+          "' without touching it, one of them at " +
+          place_text(steps[k].place_passed) +
+          " of the undeformed body. Take a smaller Time/Time step, or allow "
+          "Time/Maximum halvings.\n";
+        if (parameters.max_halvings == 0)
+          throw ComputationError(text +
+                                 "All results up to then are in the "
+                                 "output folder.");
+        throw StepTooLong(text);
+      }
+  }
+
+
+
+  std::string
+  TimeLoop::place_text(const Point<3> &place) const
+  {
+    std::string text = "(";
+    for (unsigned int c = 0; c < system.unknowns.dim; ++c)
+      text += (c == 0 ? "" : ", ") + to_text(place[c]);
+    return text + ")";
   }
 
 
@@ -343,17 +497,35 @@ namespace Ricochet
   TimeLoop::add_row(const State      &state,
                     const Energies   &energies,
                     const StepReport &report,
-                    const double      balance_residual)
+                    const double      balance)
   {
+    EnergyCheck::Terms terms;
+    terms.time                  = state.time;
+    terms.kinetic               = energies.kinetic;
+    terms.stored                = energies.stored;
+    terms.potential             = system.contact.has_modified_energy()
+                  ? system.contact.potential(state.solution, state.time)
+                  : std::numeric_limits<double>::quiet_NaN();
+    terms.external_work         = sums.external_work;
+    terms.imposed_work          = sums.imposed_work;
+    terms.obstacle_work         = sums.obstacle_work;
+    terms.contact_work          = sums.contact_work;
+    terms.friction_work         = sums.friction_work;
+    terms.viscous_dissipation   = sums.viscous_dissipation;
+    terms.numerical_dissipation = sums.numerical_dissipation;
+    if (scheme.contact_force_is_of_step())
+      for (const ContactStep &contact : sums.contacts)
+        terms.contact_gains.push_back(contact.made);
+    terms.balance                     = balance;
+    terms.round_off                   = report.round_off;
+    const EnergyCheck::Values checked = check.add(terms);
+
     std::vector<double> row = {state.time,
                                energies.kinetic,
                                energies.stored,
                                energies.total(),
-                               system.contact.has_modified_energy()
-                                 ? energies.total() +
-                                   system.contact.potential(state.solution,
-                                                            state.time)
-                                 : std::numeric_limits<double>::quiet_NaN(),
+                               energies.total() + terms.potential,
+                               checked.total,
                                sums.external_work,
                                sums.contact_work,
                                sums.friction_work,
@@ -364,14 +536,18 @@ namespace Ricochet
     if (system.has_imposed_displacements())
       row.push_back(sums.imposed_work);
     row.insert(row.end(),
-               {balance_residual,
+               {checked.balance_residual,
+                checked.promise_residual,
+                report.round_off,
                 static_cast<double>(report.newton_iterations),
                 static_cast<double>(report.linear_solves),
-                static_cast<double>(sums.n_halvings)});
+                static_cast<double>(sums.n_halvings),
+                static_cast<double>(sums.n_passing_halvings)});
     const auto summaries = system.contact.summary(
       {state.solution, state.contact_force, state.time, &state.contact_shares});
-    for (const auto &entry : contact_names)
+    for (unsigned int k = 0; k < contact_names.size(); ++k)
       {
+        const auto &entry = contact_names[k];
         // All nodes of a small boundary may count as its neighbours'.
         std::optional<ContactSummary> united;
         for (const types::boundary_id id : entry.second)
@@ -392,6 +568,14 @@ namespace Ricochet
         if (system.contact.knows_stress_pressure())
           row.push_back(contact.stress_pressure);
         row.push_back(static_cast<double>(contact.active_points));
+        row.push_back(static_cast<double>(sums.contacts[k].n_passed));
+        if (scheme.contact_force_is_of_step())
+          row.push_back(sums.contacts[k].made);
+        if (scheme.contact_force_is_of_step() &&
+            system.contact.gaps_may_be_unknown())
+          row.insert(row.end(),
+                     {static_cast<double>(sums.contacts[k].n_dropped),
+                      static_cast<double>(sums.contacts[k].n_entered)});
       }
     for (const auto &values : own_columns)
       {
@@ -405,6 +589,78 @@ namespace Ricochet
           " is not finite. All results up to then are "
           "in the output folder.");
     ledger.add_row(row);
+    if (checked.breaks_promise)
+      log_broken_promise(report, state.time);
+  }
+
+
+
+  EnergyCheck::Terms
+  TimeLoop::terms_of(const std::vector<double> &row) const
+  {
+    const auto value = [&](const std::string &name) {
+      for (unsigned int i = 0; i < row.size(); ++i)
+        if (ledger.columns()[i].name == name)
+          return row[i];
+      return 0.;
+    };
+    EnergyCheck::Terms terms;
+    terms.time                  = value("time");
+    terms.kinetic               = value("kinetic_energy");
+    terms.stored                = value("elastic_energy");
+    terms.potential             = value("modified_energy") - value("energy");
+    terms.external_work         = value("external_work");
+    terms.imposed_work          = value("imposed_work");
+    terms.obstacle_work         = value("obstacle_work");
+    terms.contact_work          = value("contact_work");
+    terms.friction_work         = value("friction_work");
+    terms.viscous_dissipation   = value("viscous_dissipation");
+    terms.numerical_dissipation = value("numerical_dissipation");
+    terms.round_off             = value("round_off");
+    if (scheme.contact_force_is_of_step())
+      for (const auto &contact : contact_names)
+        terms.contact_gains.push_back(value("contact_gain_" + contact.first));
+    const double scale = check.scale_with(terms);
+    terms.balance      = value("balance_residual") * (scale > 0. ? scale : 1.);
+    return terms;
+  }
+
+
+
+  void
+  TimeLoop::log_broken_promise(const StepReport &report, const double time)
+  {
+    const EnergyCheck::Contact *contact = check.worst_contact();
+    std::string                 text =
+      "note: the promise is broken at t = " + units.text(time, "s");
+    if (!contact || report.contact_steps.empty())
+      {
+        folder.log(text + ": the total energy is not what it was.");
+        return;
+      }
+    unsigned int k = 0;
+    while (contact_names[k].first != contact->name)
+      ++k;
+    const ContactStep &step = report.contact_steps[k];
+    text += " by the contact '" + contact->name + "', which " +
+      contact->promise.verb() + ": in this step it has made " +
+      units.text(step.made, "J") + ", " + units.text(step.made_at_point, "J") +
+      " of it at the point " + place_text(step.place) +
+      " of the undeformed body";
+    if (step.part < part_names.size())
+      text += " '" + part_names[step.part] + "'";
+    text += ".";
+    if (step.n_entered > 0)
+      text += " Points that came in behind a facet: " +
+        std::to_string(step.n_entered) + ".";
+    if (step.n_dropped > 0)
+      text += " Points that were pressed and face no facet any more: " +
+        std::to_string(step.n_dropped) + ".";
+    folder.log(
+      text +
+      " What may help: a smaller Time/Time step, a finer mesh there, the "
+      "other surface as the first one of the contact, another Treatment (persistent "
+      "contact does no work in any point) or, in 2D, Coupling = mortar.");
   }
 
 
@@ -507,8 +763,8 @@ namespace Ricochet
         positions = system.unknowns.canonical_positions();
         const Checkpoint checkpoint =
           Checkpoint::read(folder, state.solution, *positions);
-        state                   = checkpoint.state;
-        sums                    = Sums::from_list(checkpoint.sums);
+        state = checkpoint.state;
+        sums  = Sums::from_list(checkpoint.sums, contact_names.size());
         const unsigned int step = checkpoint.step;
         if (step > n_steps)
           throw InputError(
@@ -518,6 +774,8 @@ namespace Ricochet
             units.text(parameters.final_time, "s") + ".");
         ledger.resume(checkpoint.ledger);
         AssertThrow(ledger.rows().size() == step + 1, ExcInternalError());
+        for (const auto &row : ledger.rows())
+          check.add(terms_of(row));
         folder.log("resumed after step " + std::to_string(step) +
                    ", t = " + units.text(state.time, "s"));
         // Those of this step may be missing, if the run was killed.
@@ -525,9 +783,7 @@ namespace Ricochet
         return step;
       }
     ledger.start();
-    const Energies energies = energies_of(state);
-    sums.initial_energy     = energies.total();
-    add_row(state, energies, StepReport(), 0.);
+    add_row(state, energies_of(state), StepReport(), 0.);
     write_fields_if_due(state, 0);
     return 0;
   }
@@ -579,6 +835,8 @@ namespace Ricochet
     sums.numerical_dissipation += report.numerical_dissipation;
     sums.obstacle_work += report.obstacle_work;
     sums.imposed_work += report.imposed_work;
+    for (unsigned int k = 0; k < report.contact_steps.size(); ++k)
+      sums.contacts[k].unite(report.contact_steps[k]);
     for (unsigned int k = 0; k < report.own_sums.size(); ++k)
       {
         sums.own[k] += report.own_sums[k];
@@ -590,40 +848,34 @@ namespace Ricochet
     const double residual     = energy - old_energy - report.external_work -
       report.imposed_work + report.contact_work + report.friction_work +
       report.viscous_dissipation + report.numerical_dissipation;
-    // Relative to the initial energy; a body that starts at rest, or is driven, is
-    // measured by the largest energy so far.
-    if (measured_by_largest_energy())
-      sums.largest_energy = std::max(sums.largest_energy, energy);
-    const double scale =
-      measured_by_largest_energy() ? sums.largest_energy : sums.initial_energy;
-    add_row(new_state,
-            energies,
-            report,
-            scale > 0. ? residual / scale : residual);
+    add_row(new_state, energies, report, residual);
   }
 
 
 
   void
-  TimeLoop::conclude(TimerOutput &timer, std::ostringstream &timing_table) const
+  TimeLoop::conclude(TimerOutput &timer, std::ostringstream &timing_table)
   {
-    const unsigned int column        = ledger.column_number("balance_residual");
-    const unsigned int energy_column = ledger.column_number("energy");
-    double             worst = 0., largest_so_far = 0.;
-    for (const auto &row : ledger.rows())
-      {
-        // What begins at rest is measured by the largest energy of the run, and what
-        // loads drive far beyond its first energy by the largest so far.
-        largest_so_far     = std::max(largest_so_far, row[energy_column]);
-        const double scale = measured_by_largest_energy()
-          ? (sums.largest_energy > 0. ? largest_so_far / sums.largest_energy
-                                      : 1.)
-          : sums.initial_energy / largest_so_far;
-        worst              = std::max(worst, scale * std::abs(row[column]));
-      }
-    folder.log(
-      "largest balance residual: " + to_text(worst) +
-      (worst < 1e-9 ? " (closed)" : " - THE ENERGY BALANCE DOES NOT CLOSE"));
+    for (const std::string &line : check.verdict())
+      folder.log(line);
+    for (const auto &[name, ids] : contact_names)
+      for (const auto &[column, text] :
+           {std::pair<std::string, std::string>{
+              "passed_points_",
+              "points that went through it without touching it"},
+            {"dropped_points_",
+             "points that were pressed and then faced no facet"},
+            {"entered_points_", "points that came in behind a facet"}})
+        for (unsigned int i = 0; i < ledger.columns().size(); ++i)
+          if (ledger.columns()[i].name == column + name &&
+              ledger.rows().back()[i] > 0.)
+            folder.log("contact " + name + ": " +
+                       to_text(ledger.rows().back()[i]) + " " + text);
+    if (const unsigned int n = system.n_multigrid_failures())
+      folder.log("note: multigrid did not converge for " + std::to_string(n) +
+                 " linear systems, which were factored instead");
+    if (check.is_open())
+      folder.leave_open(check.verdict());
     if (!parameters.timing)
       return;
     timer.print_summary();

@@ -4,6 +4,7 @@
 
 #include <base/run_folder.h>
 #include <base/units.h>
+#include <output/energy_check.h>
 #include <output/energy_ledger.h>
 #include <time_integration/time_scheme.h>
 
@@ -73,6 +74,14 @@ namespace Ricochet
             const std::function<double(const State &begin, const State &end)>
               &increment);
 
+    /// The same of what the scheme reports of each step, or part of a halved one; a value
+    /// that is not a number leaves the column empty from then on.
+    void
+    add_reported_sum(
+      const std::string                               &name,
+      const std::string                               &unit,
+      const std::function<double(const StepReport &)> &increment);
+
     /// Add a column with the mean over the last step of what @p increment is the
     /// integral of over each step, or each part of a halved one; zero at the start.
     void
@@ -80,6 +89,9 @@ namespace Ricochet
              const std::string &unit,
              const std::function<double(const State &begin, const State &end)>
                &increment);
+
+    /// Names of the bodies, to say on which one a point is; by ContactStep::part.
+    std::vector<std::string> part_names;
 
     /// Called with the state and the number of the step when fields are due.
     std::function<void(const State &, const unsigned int)> write_fields;
@@ -136,11 +148,37 @@ namespace Ricochet
     Energies
     energies_of(const State &state) const;
 
+    /// @param balance what is left of the balance of the step (J).
     void
     add_row(const State      &state,
             const Energies   &energies,
             const StepReport &report,
-            const double      balance_residual);
+            const double      balance);
+
+    /// What the check looks at of a @p row of the ledger, for a run that is resumed.
+    EnergyCheck::Terms
+    terms_of(const std::vector<double> &row) const;
+
+    /// Say in the log which contact has broken its promise in a step, where, and what may
+    /// help.
+    void
+    log_broken_promise(const StepReport &report, const double time);
+
+    /// What the contacts of the ledger have made over the step that was solved last.
+    std::vector<ContactStep>
+    contact_steps(const State &old_state, const State &new_state) const;
+
+    /// "(x, y)"
+    std::string
+    place_text(const dealii::Point<3> &place) const;
+
+    /// Refuse a step in which points go through what they should touch, as long as it may
+    /// be halved. @throws StepTooLong
+    void
+    check_passing(const State                    &old_state,
+                  const double                    time_step,
+                  const unsigned int              n_halvings_so_far,
+                  const std::vector<ContactStep> &steps) const;
 
     /// @param first_step that of this run. @param seconds since then.
     void
@@ -160,27 +198,21 @@ namespace Ricochet
     void
     log_newton_tables();
 
+    using Increment = std::function<
+      double(const State &begin, const State &end, const StepReport &report)>;
+
     /// See add_sum(). @return its number.
     unsigned int
-    add_own_sum(
-      const std::function<double(const State &, const State &)> &increment);
+    add_own_sum(const Increment &increment);
 
     /// Enter a step into sums and ledger. @p energy is that of the state before,
     /// and becomes that of @p new_state (J).
     void
     account(const State &new_state, const StepReport &report, double &energy);
 
-    /// Whether the balance is measured by the largest energy and not by the first.
-    bool
-    measured_by_largest_energy() const
-    {
-      return sums.initial_energy == 0. || system.has_imposed_displacements();
-    }
-
     /// What to say at the end: the balance, and where the time went.
     void
-    conclude(dealii::TimerOutput &timer,
-             std::ostringstream  &timing_table) const;
+    conclude(dealii::TimerOutput &timer, std::ostringstream &timing_table);
 
     const Parameters    parameters;
     RunFolder          &folder;
@@ -193,10 +225,11 @@ namespace Ricochet
     const Units units;
     // Values of the benchmark's own columns, in the order of the ledger.
     std::vector<std::function<std::vector<double>(const State &)>> own_columns;
-    std::vector<std::function<double(const State &, const State &)>> own_sums;
+    std::vector<Increment>                                         own_sums;
     // Of each of them, its mean over the last step.
     std::vector<double> own_means;
     EnergyLedger        ledger;
+    EnergyCheck         check;
 
     /// Sums over the run (J), part of a checkpoint.
     struct Sums
@@ -206,11 +239,13 @@ namespace Ricochet
       double       friction_work         = 0.;
       double       viscous_dissipation   = 0.;
       double       numerical_dissipation = 0.;
-      double       initial_energy        = 0.;
-      double       largest_energy        = 0.;
       unsigned int n_halvings            = 0;
-      double       obstacle_work         = 0.;
-      double       imposed_work          = 0.;
+      /// Those because points went through something.
+      unsigned int n_passing_halvings = 0;
+      double       obstacle_work      = 0.;
+      double       imposed_work       = 0.;
+      /// Of each contact, where the scheme tells.
+      std::vector<ContactStep> contacts = {};
       /// Those of add_sum().
       std::vector<double> own = {};
 
@@ -218,7 +253,7 @@ namespace Ricochet
       to_list() const;
 
       static Sums
-      from_list(const std::vector<double> &list);
+      from_list(const std::vector<double> &list, const unsigned int n_contacts);
     };
     Sums sums;
 

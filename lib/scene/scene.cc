@@ -218,9 +218,10 @@ namespace Ricochet
                                "be of one material.");
         if (touching.obstacles.empty() && degree > 1 &&
             contact.parameters.coupling != "points")
-          throw InputError(contact.section.where +
-                           ": with Mesh/Degree = 2 contact between bodies takes "
-                           "Coupling = points.");
+          throw InputError(
+            contact.section.where +
+            ": with Mesh/Degree = 2 contact between bodies takes "
+            "Coupling = points.");
       }
     ImpactSetup<dim> setup{parts.front().material.template make<dim>()};
     for (const ConditionSection<dim> &condition : conditions)

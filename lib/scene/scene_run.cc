@@ -118,6 +118,69 @@ namespace Ricochet
 
   namespace
   {
+    /// The parts of the body that have these parts of the boundary. Collective.
+    template <int dim>
+    std::set<unsigned int>
+    parts_behind(const Body<dim> &body, const std::set<types::boundary_id> &ids)
+    {
+      std::vector<unsigned int> mine;
+      for (const auto &cell : body.dof_handler().active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary() && ids.count(face->boundary_id()) > 0)
+              mine.push_back(cell->material_id());
+      std::set<unsigned int> parts;
+      for (const auto &list :
+           Utilities::MPI::all_gather(body.communicator, mine))
+        parts.insert(list.begin(), list.end());
+      return parts;
+    }
+
+    /// The unknowns on which the force of a contact on its first surface acts, in
+    /// direction @p c: all of the bodies that have it, as Nitsche's method acts on all
+    /// nodes of the cells behind a surface; only those of the surface where the second
+    /// one is on the same body.
+    template <int dim>
+    IndexSet
+    first_side(const Impact<dim>                  &assembly,
+               const Contact                      &contact,
+               const std::set<types::boundary_id> &ids,
+               const unsigned int                  c)
+    {
+      const Body<dim>             &body = assembly.body;
+      IndexSet                     unknowns(body.owned_indices().size());
+      std::set<types::boundary_id> others;
+      for (const ContactPair &pair : contact.pairs)
+        others.insert(pair.master.begin(), pair.master.end());
+      const std::set<unsigned int> parts       = parts_behind(body, ids),
+                                   other_parts = parts_behind(body, others);
+      const bool is_apart =
+        std::none_of(parts.begin(), parts.end(), [&](const unsigned int part) {
+          return other_parts.count(part) > 0;
+        });
+      if (!is_apart)
+        {
+          for (const auto id : ids)
+            unknowns.add_indices(body.boundary_displacements(id, c) &
+                                 body.owned_indices());
+          return unknowns;
+        }
+      Tensor<1, dim> direction;
+      direction[c]      = 1.;
+      const Vector unit = assembly.uniform(direction);
+      const auto   part_of =
+        body.parts_of_unknowns(std::max<std::size_t>(1, assembly.parts.size()));
+      unsigned int k = 0;
+      for (const auto i : body.owned_indices())
+        {
+          if (k < part_of.size() && parts.count(part_of[k]) > 0 &&
+              unit(i) != 0.)
+            unknowns.add_index(i);
+          ++k;
+        }
+      return unknowns;
+    }
+
     /// The columns resultant_x_CONTACT, ...: the force on the first surface of each contact,
     /// pressure and friction together (N); of a surface with itself there is none. @p
     /// assembly must outlive @p loop.
@@ -145,11 +208,8 @@ namespace Ricochet
                   ids.insert(pair.slave.begin(), pair.slave.end());
               if (ids.empty())
                 continue;
-              IndexSet nodes(assembly.body.owned_indices().size());
-              for (const auto id : ids)
-                nodes.add_indices(assembly.body.boundary_displacements(id, c) &
-                                  assembly.body.owned_indices());
-              const std::string name = column_name(contact.name);
+              const IndexSet    nodes = first_side(assembly, contact, ids, c);
+              const std::string name  = column_name(contact.name);
               if (resultants.empty() || resultants.back().name != name)
                 resultants.push_back({name, {}});
               resultants.back().forces.emplace_back(k, nodes);
@@ -274,6 +334,8 @@ namespace Ricochet
     loop.write_fields = [&](const State &state, const unsigned int step) {
       fields.write(state, step);
     };
+    for (const Part<dim> &part : assembly.parts)
+      loop.part_names.push_back(part.name);
     loop.run(initial_state);
     folder.log("pictures: ricochet-plot " + folder.file("") +
                (impact.time.fields_every > 0 ? " --fields" : ""));

@@ -360,10 +360,6 @@ namespace Ricochet
         if (n_iterations < 0)
           n_iterations = go();
       }
-    if (n_iterations < 0)
-      throw NewtonFailure(
-        "Multigrid does not converge. A thin body takes Linear solver/Type = direct "
-        "or, against obstacles only, corrected.\n");
-    return true;
+    return n_iterations >= 0;
   }
 } // namespace Ricochet

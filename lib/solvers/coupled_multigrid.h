@@ -46,7 +46,7 @@ namespace Ricochet
     ~CoupledMultigrid() override;
 
     /// @return true.
-    /// @throws NewtonFailure when it does not converge.
+    /// @return false when it does not converge.
     bool
     solve(const Tangent &tangent,
           const Vector  &right_hand_side,

@@ -92,6 +92,10 @@ namespace Ricochet
     if (condenses_only)
       ways.push_back(std::make_unique<KrylovSolver>(factorisations, contact));
 
+    // Memory of a factorisation in 3D grows faster than the body does.
+    constexpr std::size_t largest_factorised = 200000;
+    const bool            may_fall_back =
+      parameters.type == "automatic" && n_unknowns < largest_factorised;
     if (type == "multigrid" && contact.couplings_change)
       ways.push_back(std::make_unique<CoupledMultigrid>(coarse_space()));
     else if (type == "multigrid")
@@ -99,7 +103,10 @@ namespace Ricochet
                                                        linear_body,
                                                        clamped,
                                                        coarse_space()));
-    else
+    if (type == "multigrid" && may_fall_back)
+      ways.push_back(
+        std::make_unique<DirectSolver>(factorisations, parameters.n_kept));
+    if (type != "multigrid")
       {
         // Where GMRES gives up, a factorisation with pivots will do.
         if (type == "corrected" && linear_body)
@@ -188,7 +195,10 @@ namespace Ricochet
   LinearSolver::description() const
   {
     if (type == "multigrid")
-      return "multigrid";
+      return n_taken_over == 0 ? "multigrid"
+                               : "multigrid; where it did not converge, " +
+          factorisations.name(false) + " in " + std::to_string(n_taken_over) +
+          " solutions";
     const std::string name = factorisations.name(type == "corrected");
     if (condenses_only)
       return factorisations.name(true) +
@@ -210,16 +220,24 @@ namespace Ricochet
                       const bool     may_reuse,
                       const double   tolerance)
   {
-    // After a way that failed, the next one begins anew.
+    // After a way that failed, the next one begins anew. Multigrid that did not converge
+    // is not tried again in its stage.
     bool reuse = may_reuse;
-    for (const auto &way : ways)
-      if (way->takes(tangent))
+    for (unsigned int w = 0; w < ways.size(); ++w)
+      if (ways[w]->takes(tangent) && !(multigrid_failed && w == 0))
         {
-          if (way->solve(tangent, right_hand_side, solution, reuse, tolerance))
-            return;
+          if (ways[w]
+                ->solve(tangent, right_hand_side, solution, reuse, tolerance))
+            {
+              multigrid_failed = type == "multigrid" && w > 0;
+              n_taken_over += multigrid_failed;
+              return;
+            }
           reuse = false;
         }
-    AssertThrow(false, ExcMessage("No way to solve."));
+    throw NewtonFailure(
+      "Multigrid does not converge. A thin body takes Linear solver/Type = direct "
+      "or, against obstacles only, corrected.\n");
   }
 
 
@@ -259,6 +277,7 @@ namespace Ricochet
   void
   LinearSolver::begin_stage()
   {
+    multigrid_failed = false;
     for (const auto &way : ways)
       way->begin_stage();
   }

@@ -33,7 +33,9 @@ namespace Ricochet
    * worth it; "direct" takes over where that fails.
    *
    * "multigrid" solves each system iteratively, for bodies in three dimensions
-   * whose factorisation takes too long or too much memory.
+   * whose factorisation takes too long or too much memory. Chosen by "automatic", it
+   * leaves systems of less than 200000 unknowns for which it does not converge to a
+   * factorisation.
    */
   class LinearSolver
   {
@@ -143,6 +145,13 @@ namespace Ricochet
     double
     back_substitution_seconds() const;
 
+    /// Number of solutions that a factorisation has made as multigrid did not converge.
+    unsigned int
+    n_multigrid_failures() const
+    {
+      return n_taken_over;
+    }
+
     /// What is used, in words: "CHOLMOD, corrected for contact".
     std::string
     description() const;
@@ -158,6 +167,9 @@ namespace Ricochet
     bool condenses_only = false;
     // The ways to solve, one after the other until one succeeds.
     std::vector<std::unique_ptr<TangentSolver>> ways;
+    // In this stage; how often something else has taken over.
+    bool         multigrid_failed = false;
+    unsigned int n_taken_over     = 0;
   };
 } // namespace Ricochet
 

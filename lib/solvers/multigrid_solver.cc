@@ -167,10 +167,6 @@ namespace Ricochet
         if (n_iterations < 0)
           n_iterations = iterate();
       }
-    if (n_iterations < 0)
-      throw NewtonFailure(
-        "Multigrid does not converge. A thin body takes Linear solver/Type = direct "
-        "or, against obstacles only, corrected.\n");
-    return true;
+    return n_iterations >= 0;
   }
 } // namespace Ricochet

@@ -26,7 +26,7 @@ namespace Ricochet
                     CoarseSpace             coarse_space);
 
     /// @return true.
-    /// @throws NewtonFailure when it does not converge.
+    /// @return false when it does not converge.
     bool
     solve(const Tangent &tangent,
           const Vector  &right_hand_side,

@@ -28,6 +28,12 @@ namespace Ricochet
          const double        time_step,
          State              &new_state) override;
 
+    bool
+    integrates_by_itself() const override
+    {
+      return true;
+    }
+
   private:
     const double relative_tolerance, absolute_tolerance;
   };

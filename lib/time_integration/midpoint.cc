@@ -58,6 +58,10 @@ namespace Ricochet
         ? system.contact.friction_dissipation()
         : *friction_force * work;
     report.contact_work = new_state.contact_force * work - report.friction_work;
+    if (system.works_of_bodies)
+      report.works_of_bodies = system.works_of_bodies(new_state.contact_force,
+                                                      old_state.solution,
+                                                      new_state.solution);
     report.viscous_dissipation =
       system.bulk.viscous_dissipation(old_state.solution,
                                       new_state.solution,

@@ -91,6 +91,7 @@ namespace Ricochet
         condensed.solve(condensed_newton,
                         solution,
                         rest_of_contact * norm * newton_problem.scale());
+        problem.hold_clamped(solution);
       }
   }
 } // namespace Ricochet

@@ -266,6 +266,7 @@ namespace Ricochet
         throw;
       }
     report();
+    problem.hold_clamped(solution);
     return newton.solves(newton_problem, solution);
   }
 
@@ -466,6 +467,13 @@ namespace Ricochet
       new_state.tangent.count(n_iterations_with_tangent);
     else
       new_state.tangent.forget();
+    // A support that moves would do work that is in no balance.
+    for (const auto i : clamped_list)
+      {
+        (void)i;
+        Assert(solution(i) == safe_guess(i), ExcInternalError());
+      }
+    stage_round_off = newton_problem.round_off();
     copy_values(contact.contact_force(), new_state.contact_force);
     take_shares(new_state);
     return problem.n_iterations();
@@ -506,6 +514,16 @@ namespace Ricochet
       new_state.velocity(i) = new_state.acceleration(i) = 0.;
     new_state.velocity.compress(VectorOperation::insert);
     new_state.acceleration.compress(VectorOperation::insert);
+  }
+
+  double
+  SemiDiscreteSystem::distance(const Vector &from, const Vector &to) const
+  {
+    const unsigned int n =
+      to.locally_owned_size() - unknowns.multipliers.n_elements();
+    return std::sqrt(Utilities::MPI::sum(
+      (entries(to).head(n) - entries(from).head(n)).squaredNorm(),
+      mass.get_mpi_communicator()));
   }
 
   double

@@ -172,6 +172,14 @@ namespace Ricochet
       return reaction;
     }
 
+    /// Force (N) that round-off alone could leave in the equations of the last
+    /// solve_stage(), see NewtonSolver::Problem::round_off.
+    double
+    round_off_force() const
+    {
+      return stage_round_off;
+    }
+
     /// The work (J) of the load that depends on where the body is, over the step between
     /// two states; 0 without.
     double
@@ -222,6 +230,13 @@ namespace Ricochet
       return linear_solver.description();
     }
 
+    /// See LinearSolver.
+    unsigned int
+    n_multigrid_failures() const
+    {
+      return linear_solver.n_multigrid_failures();
+    }
+
     /// Number of factorisations made so far.
     unsigned int
     n_factorisations() const
@@ -247,6 +262,17 @@ namespace Ricochet
 
     Shares
     shares() const;
+
+    /// The l2 norm of the displacements from one solution to another one (m).
+    double
+    distance(const Vector &from, const Vector &to) const;
+
+    /// What each of several bodies does against a contact force (N) between two solutions
+    /// (J); empty if nobody asks.
+    std::function<std::vector<double>(const Vector &force,
+                                      const Vector &begin,
+                                      const Vector &end)>
+      works_of_bodies;
 
     /// Called after each stage with Newton's table: residuals, step lengths,
     /// active sets.
@@ -301,6 +327,7 @@ namespace Ricochet
     // Made when it is first needed.
     std::optional<MassSolver> mass_solver;
     double                    residual_seconds = 0., tangent_seconds = 0.;
+    double                    stage_round_off = 0.;
     /// On any rank.
     const bool has_multipliers;
     // Work space, so that nothing is allocated in a time step.

@@ -282,6 +282,9 @@ namespace Ricochet
                               update,
                               reuse,
                               tolerance);
+    // Iterative solvers leave something of their tolerance in clamped unknowns, too,
+    // which no residual would ever show.
+    set_clamped_to_zero(parts.clamped, update);
   }
 
   double
@@ -299,6 +302,13 @@ namespace Ricochet
     entries(parts.work) =
       entries(result).cwiseProduct(entries(parts.contact.row_scaling()));
     return l2_norm(parts.work);
+  }
+
+  void
+  StageProblem::hold_clamped(Vector &iterate) const
+  {
+    for (const auto i : parts.clamped)
+      iterate(i) = safe_guess(i);
   }
 
   void

@@ -99,6 +99,11 @@ namespace Ricochet
                 const TangentPoint &kept,
                 TangentRegion      &region);
 
+    /// Give the clamped unknowns of an iterate their prescribed values again, from which
+    /// solvers may leave by their tolerance, and which no residual would show.
+    void
+    hold_clamped(Vector &iterate) const;
+
     /// Make the rows of a residual those of forces, whatever the equations of
     /// multipliers are; and the other way round.
     void

@@ -30,6 +30,9 @@ namespace Ricochet
     double imposed_work = 0.;
     /// Work that the body does against the normal contact force (J).
     double contact_work = 0.;
+    /// What each body does against contact forces, friction included, see
+    /// SemiDiscreteSystem::works_of_bodies (J); empty if the scheme does not tell.
+    std::vector<double> works_of_bodies = {};
     /// Work against friction (J); never negative.
     double friction_work = 0.;
     /// What viscosity takes (J); never negative.
@@ -40,6 +43,12 @@ namespace Ricochet
     /// (J): no term of the balance, but a part of minus the contact work. The
     /// time loop adds it.
     double obstacle_work = 0.;
+    /// Round-off (J) in the balance: the force that round-off leaves in the equations,
+    /// times the displacement of the step. The time loop adds it.
+    double round_off = 0.;
+    /// What contact has made, in the order of the time loop's contacts, of schemes whose
+    /// contact acts over a step. The time loop adds it.
+    std::vector<ContactStep> contact_steps = {};
     /// Sums that a program asked the time loop for.
     std::vector<double> own_sums          = {};
     unsigned int        newton_iterations = 0;
@@ -82,6 +91,13 @@ namespace Ricochet
          const State        &old_state,
          const double        time_step,
          State              &new_state) = 0;
+
+    /// Whether a step is many steps of another integrator, without stages.
+    virtual bool
+    integrates_by_itself() const
+    {
+      return false;
+    }
 
     /// Whether the contact force of a state acts over the whole step that leads
     /// to it, and not at its end.

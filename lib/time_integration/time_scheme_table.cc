@@ -89,6 +89,16 @@ namespace Ricochet
     own_sums.resize(std::max(own_sums.size(), other.own_sums.size()), 0.);
     for (unsigned int k = 0; k < other.own_sums.size(); ++k)
       own_sums[k] += other.own_sums[k];
+    works_of_bodies.resize(std::max(works_of_bodies.size(),
+                                    other.works_of_bodies.size()),
+                           0.);
+    for (unsigned int k = 0; k < other.works_of_bodies.size(); ++k)
+      works_of_bodies[k] += other.works_of_bodies[k];
+    round_off += other.round_off;
+    contact_steps.resize(
+      std::max(contact_steps.size(), other.contact_steps.size()));
+    for (unsigned int k = 0; k < other.contact_steps.size(); ++k)
+      contact_steps[k].unite(other.contact_steps[k]);
     contact_work += other.contact_work;
     friction_work += other.friction_work;
     viscous_dissipation += other.viscous_dissipation;

@@ -17,7 +17,15 @@ needed by all; pandas by `Run.energy`, VTK by fields, matplotlib by what draws, 
 is used.
 """
 
-from .errors import BadParameterFile, Failed, NotARun, ProgramError, Refused, RicochetError
+from .errors import (
+    BadParameterFile,
+    Failed,
+    NotARun,
+    OpenRun,
+    ProgramError,
+    Refused,
+    RicochetError,
+)
 from .measures import ContactMeasures, Summary
 from .programs import Outcome, find_program, parameters_of, run, sweep
 from .results import FieldFile, Run
@@ -29,6 +37,7 @@ __all__ = [
     "Failed",
     "FieldFile",
     "NotARun",
+    "OpenRun",
     "Outcome",
     "ProgramError",
     "Refused",

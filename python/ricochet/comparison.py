@@ -50,7 +50,10 @@ class Method:
         """Why some run of it did not end well, in one sentence; empty if all did."""
         errors = [outcome.error for outcome in self.outcomes if outcome.error]
         if not errors:
-            return ""
+            open_runs = [run for run in self.runs if run.is_open]
+            if not open_runs:
+                return ""
+            return f"{len(open_runs)} of {len(self.outcomes)} runs: {open_runs[0].open_lines[0]}"
         count = (
             ""
             if len(errors) == len(self.outcomes)
@@ -137,6 +140,11 @@ def quantities(comparison: Comparison) -> list[Quantity]:
         Quantity("largest force", unit("contact_force_"), each(force)),
         Quantity("largest penetration", unit("penetration_"), each(penetration)),
         Quantity("contact lasts", unit("time"), each(lambda run: measures.duration(run.table))),
+        Quantity(
+            "largest promise residual",
+            "",
+            each(lambda run: measures.largest_promise_residual(run.table)),
+        ),
         Quantity("Newton iterations", "", each(lambda run: run.summary().newton_iterations)),
         Quantity("ms per step", "", each(ms)),
     ]

@@ -39,6 +39,10 @@ class Failed(ProgramError):
     """The computation failed, or the disk did (any other exit code)."""
 
 
+class OpenRun(UserWarning):
+    """A run is complete, but its balance or a promise of its contact is open (exit code 4)."""
+
+
 def first_sentence(text: str) -> str:
     """The first sentence of what a program says, without the line that names it.
 

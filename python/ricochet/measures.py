@@ -73,15 +73,23 @@ def change_of_energy(table: Table, column: str = "energy") -> Array:
 
 
 def largest_balance_residual(table: Table) -> float:
-    """By how much the energy balance of a step fails to close at most, over `energy_scale`."""
+    """By how much the energy balance of a step fails to close at most.
+
+    It is measured by the largest sum so far of the absolute values of energies and works.
+    """
     if "balance_residual" not in table:
         return float("nan")
-    residual = np.abs(table["balance_residual"])
-    if begins_at_rest(table):
-        # The column measures by the largest energy up to its row.
-        energy = np.maximum.accumulate(table["energy"])
-        residual = residual * energy / (energy[-1] or 1.0)
-    return float(np.nanmax(residual))
+    return float(np.nanmax(np.abs(table["balance_residual"])))
+
+
+def largest_promise_residual(table: Table) -> float:
+    """How far the total energy is from what contact promises at most, measured as the balance.
+
+    Where nothing is promised, by how much it has risen; not a number without a potential.
+    """
+    if "promise_residual" not in table or np.isnan(table["promise_residual"]).all():
+        return float("nan")
+    return float(np.nanmax(table["promise_residual"]))
 
 
 def energy_lost(table: Table) -> float:
@@ -267,6 +275,8 @@ class Summary:
     step_halvings: int
     #: See `measures.largest_balance_residual`.
     largest_balance_residual: float
+    #: See `measures.largest_promise_residual`.
+    largest_promise_residual: float
     #: More of each contact.
     contacts: dict[str, ContactMeasures]
     units: dict[str, str]
@@ -292,6 +302,7 @@ class Summary:
             f"{'contact lasts':<26} {self.contact_duration:.6g} {time}",
             f"{'Newton iterations':<26} {self.newton_iterations}, {self.step_halvings} halvings",
             f"{'largest balance residual':<26} {self.largest_balance_residual:.3g}",
+            f"{'largest promise residual':<26} {self.largest_promise_residual:.3g}",
         ]
         return "\n".join(lines)
 
@@ -337,6 +348,7 @@ def summarise(table: Table, log: str = "", turns: bool = True) -> Summary:
         # This column counts from the start.
         step_halvings=int(column("step_halvings").max()),
         largest_balance_residual=largest_balance_residual(table),
+        largest_promise_residual=largest_promise_residual(table),
         contacts=each,
         units=table.units,
         energy_scale="largest" if begins_at_rest(table) else "first",

@@ -12,12 +12,13 @@ import shutil
 import subprocess
 import tempfile
 import time
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from . import prm
-from .errors import BadParameterFile, Failed, ProgramError, Refused, RicochetError
+from .errors import BadParameterFile, Failed, OpenRun, ProgramError, Refused, RicochetError
 from .results import Run
 
 #: Where the programs of a checkout are built.
@@ -25,6 +26,9 @@ BUILD = pathlib.Path(__file__).resolve().parents[2] / "build" / "release"
 
 #: The environment of a run that shares the cores with others: it takes one.
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
+
+#: The exit code of a run that is complete, but whose energy is not what it says.
+OPEN = 4
 
 PathLike = str | os.PathLike[str]
 Overrides = Mapping[str, object]
@@ -92,7 +96,7 @@ def _check(name: str, exit_code: int, text: str) -> None:
     # mpirun has this exit code too, for reasons of its own.
     if exit_code == 1 and "the input is not valid." in text:
         raise Refused(name, exit_code, text)
-    if exit_code != 0:
+    if exit_code not in (0, OPEN):
         raise Failed(name, exit_code, text)
 
 
@@ -138,6 +142,10 @@ def run(
         Refused: the program refused its input.
         Failed: the computation failed.
         RicochetError: the program is missing or cannot be started.
+
+    Warns:
+        OpenRun: the balance of energy does not close, or a promise is broken; `is_open` of the
+            run says so too.
     """
     program = find_program(program_or_path, programs)
     folder = (
@@ -158,6 +166,8 @@ def run(
     _check(program.name, exit_code, text)
     result = Run(folder)
     result.wall_seconds = seconds
+    if exit_code == OPEN:
+        warnings.warn(f"{folder}: {'; '.join(result.open_lines)}", OpenRun, stacklevel=2)
     return result
 
 

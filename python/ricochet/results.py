@@ -151,6 +151,17 @@ class Run:
             return ""
 
     @property
+    def open_lines(self) -> list[str]:
+        """What log.txt says of an energy balance that does not close or a broken promise."""
+        marks = ("THE ENERGY BALANCE DOES NOT CLOSE", "THE PROMISE IS BROKEN")
+        return [line for line in self.log.splitlines() if line.endswith(marks)]
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the balance of energy does not close, or a promise of contact is broken."""
+        return bool(self.open_lines)
+
+    @property
     def seconds_in_steps(self) -> float | None:
         """The time spent in the steps (s), without start and output, if log.txt has it."""
         match = re.search(r"^\| steps +\| +\d+ \| +([0-9.e+-]+)s", self.log, re.MULTILINE)

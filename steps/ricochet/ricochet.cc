@@ -145,5 +145,6 @@ main(int argc, char **argv)
      },
      [&](const std::string &folder) {
        return scene.description_of_input(folder);
-     }});
+     },
+     promises_as_table});
 }

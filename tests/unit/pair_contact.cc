@@ -339,7 +339,8 @@ BOOST_AUTO_TEST_CASE(cost_of_couplings)
       contact.complete_residual(old, residual);
       Matrix of_bodies, matrix;
       of_bodies.reinit(body.sparsity_pattern());
-      impact.system.mass_matrix().add_to(4. / (time_step * time_step), of_bodies);
+      impact.system.mass_matrix().add_to(4. / (time_step * time_step),
+                                         of_bodies);
       impact.bulk->add_tangent(1., old, of_bodies);
       UnitedPattern united;
       united.update(body.sparsity_pattern(), *contact.couplings());

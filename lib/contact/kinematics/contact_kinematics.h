@@ -2,6 +2,7 @@
 #ifndef ricochet_contact_kinematics_contact_kinematics_h
 #define ricochet_contact_kinematics_contact_kinematics_h
 
+#include <contact/energy_promise.h>
 #include <contact/kinematics/point_evaluator.h>
 
 #include <memory>
@@ -137,6 +138,17 @@ namespace Ricochet
     {
       return displacement;
     }
+
+    /// Count in @p steps the points that go through an obstacle from @p begin to @p end
+    /// (m), at @p begin_time and @p end_time (s), and are in front of it at both: no
+    /// plane can be gone through.
+    virtual void
+    add_passing(const Vector & /*begin*/,
+                const Vector & /*end*/,
+                const double /*begin_time*/,
+                const double /*end_time*/,
+                ContactSteps & /*steps*/)
+    {}
 
     /// The gap in the middle of the step, if the mean velocity of the step
     /// before goes on (B (3.7)); to be called after begin_step().

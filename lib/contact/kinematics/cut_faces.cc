@@ -272,8 +272,15 @@ namespace Ricochet
                     part.begin + (part.end - part.begin) * rule.point(q)[0];
                   const Point<dim> x =
                     slave.ends[0] + along * (slave.ends[1] - slave.ends[0]);
-                  const auto [gap, along_master] =
-                    before(x, slave.outward, *part.master);
+                  // The distance to the line of the master is linear in the
+                  // displacement; that along the normal of a curved slave is not.
+                  const Tensor<1, dim> normal = part.master->outward;
+                  const Tensor<1, dim> to_x   = x - part.master->ends[0];
+                  const Tensor<1, dim> of_master =
+                    part.master->ends[1] - part.master->ends[0];
+                  const double gap = to_x * normal;
+                  const double along_master =
+                    to_x * of_master / of_master.norm_square();
                   ContactPoint point;
                   point.weight =
                     rule.weight(q) * (part.end - part.begin) * slave.length();
@@ -281,11 +288,10 @@ namespace Ricochet
                   point.cell_diameter =
                     std::min(cell->diameter(), part.master->cell->diameter());
                   point.boundary_id        = cell->face(f)->boundary_id();
-                  point.obstacle_normal    = -in_space(slave.outward);
+                  point.obstacle_normal    = in_space(normal);
                   point.reference_position = in_space<dim>(x);
                   point.obstacle =
-                    half_space_at_rest<dim>(x + gap * slave.outward,
-                                            -slave.outward);
+                    half_space_at_rest<dim>(x - gap * normal, normal);
                   point.begin = points.index.size();
                   // The displacement of the slave less that of the master.
                   const auto add = [&](const Face<dim> &face,

@@ -16,22 +16,27 @@ namespace Ricochet
   /**
    * Quadrature points between two linear elastic bodies, for treatments that
    * integrate over the faces of the contact boundary: each face of the slave is cut
-   * where facets of the master end before it, seen along its normal n, and what is
+   * where facets of the master end that face it, seen along its normal, and what is
    * left has quadrature points of its own. On them everything is a polynomial, so
    * that a uniform pressure passes exactly between meshes that do not match.
    *
-   * The point x of the slave meets the point x + gap n of the master; both are those
+   * With the outward normal n of the facet of the master, the point x of the slave meets
+   * the point x - gap n of the line of that facet; both are those
    * of the undeformed bodies and stay the same, as small displacements have it. So
    * the gap is an affine function of the unknowns of both,
    *
-   *     gap = initial gap - n . (u_slave - u_master),
+   *     gap = initial gap + n . (u_slave - u_master),
    *
-   * and all that holds before a plane at rest holds here: laws, time schemes,
+   * and exactly the distance from a flat master that does not turn, whatever the shape of
+   * the slave. (Along the normal of a curved slave it is not: a distance between inclined
+   * lines is no linear function of the approach.) So
+   * all that holds against a plane at rest holds here: laws, time schemes,
    * energies. The sum of the forces and that of their moments about the undeformed
    * positions are zero, since both points are on one normal; but friction across a gap
    * that has closed makes a couple, traction times initial gap, which nothing takes.
    *
-   * The stress pressure is the mean of both sides' -n . sigma n, weighted by the
+   * The stress pressure is the mean of both sides' -n . sigma n, n being the slave's
+   * normal there, weighted by the
    * modulus lambda + 2 mu of the other one: a soft body next to a stiff one is what
    * tells the pressure (Burman and Zunino, SIAM J. Numer. Anal. 44, 2006, with moduli
    * for diffusivities). h_T is the smaller one of both sides.

@@ -95,10 +95,12 @@ namespace Ricochet
         const double    along  = ((b[0] - a[0]) * (x[0][0] - a[0]) +
                               (b[1] - a[1]) * (x[0][1] - a[1])) /
           length;
-        // Edges of bodies of the same size may meet, and what is pressed into a facet
-        // that turns is not off its end for that.
+        // An open end that were a knife would let the border nodes of equal blocks go
+        // when they bulge, and take them back once they are deeper than they overhang,
+        // with the whole potential of that depth: so half a facet. What is pressed into
+        // a facet that turns is not off its end for that.
         const double gap       = gap_before(x, chain, facet);
-        const double tolerance = 1e-6 * length + std::max(0., -gap);
+        const double tolerance = .5 * length + std::max(0., -gap);
         if ((!own.previous && along < -tolerance) ||
             (!own.next && along > length + tolerance))
           return true;

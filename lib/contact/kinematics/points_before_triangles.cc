@@ -187,9 +187,9 @@ namespace Ricochet
       std::sqrt(std::max(0., away.norm_square() - gap * gap));
     const double size =
       std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    // Edges of bodies of the same size may meet, and what is pressed into a facet that
-    // turns is not off its end for that.
-    if (beside > 1e-6 * size + std::max(0., -gap))
+    // Half a facet beyond an open edge, as in 2D (PairBeforeChains::is_off()); what is
+    // pressed into a facet that turns is not off its end for that.
+    if (beside > .5 * size + std::max(0., -gap))
       for (unsigned int e = 0; e < 3; ++e)
         if (!master.facets[f].neighbours[e] && shares[(e + 2) % 3] == 0.)
           return true;

@@ -2,6 +2,7 @@
 #include <contact/kinematics/rigid_obstacles.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace Ricochet
@@ -125,6 +126,83 @@ namespace Ricochet
     geometry.relative_way         = rows.relative_way;
     geometry.relative_way_derivative = rows.relative_way_derivative;
     evaluator.set_rows(p, rows.direction, rows.gap_gradient);
+  }
+
+
+
+  namespace
+  {
+    /// Whether the straight path from @p begin to @p end leads through the shape, in at
+    /// one side and out at another one; a chord of what it slides along is not meant.
+    bool
+    leads_through(const ObstacleShape &shape,
+                  const Tensor<1, 3>  &begin,
+                  const Tensor<1, 3>  &end)
+    {
+      const Tensor<1, 3> path   = end - begin;
+      const double       length = path.norm();
+      // Gaps are distances: there is no way in and out on less than both of them.
+      const double begin_gap = shape.gap(begin), end_gap = shape.gap(end);
+      if (!(begin_gap >= 0. && end_gap >= 0. && length > begin_gap + end_gap))
+        return false;
+      const double shortest = length / 256.;
+      double       along = 0., entry = 0., depth = 0.;
+      bool         is_in = false;
+      while (along < length)
+        {
+          const double gap = shape.gap(begin + (along / length) * path);
+          if (gap < 0. && !is_in)
+            entry = along;
+          if (is_in && gap >= 0. && depth > .25 * (along - entry))
+            return true;
+          if (gap >= 0.)
+            depth = 0.;
+          is_in = gap < 0.;
+          depth = std::max(depth, -gap);
+          along += std::max(std::abs(gap), shortest);
+        }
+      return is_in && depth > .25 * (length - entry);
+    }
+  } // namespace
+
+
+
+  void
+  RigidObstacles::add_passing(const Vector &begin,
+                              const Vector &end,
+                              const double  begin_time,
+                              const double  end_time,
+                              ContactSteps &passing)
+  {
+    std::vector<Placement> begin_placements, end_placements;
+    for (const RigidObstacle *obstacle : obstacles)
+      {
+        const RigidObstacle::Step step = obstacle->step(begin_time, end_time);
+        begin_placements.push_back(step.begin);
+        end_placements.push_back(step.end);
+      }
+    std::vector<Tensor<1, 3>> from, to;
+    evaluator.evaluate_displacement(begin, from);
+    evaluator.evaluate_displacement(end, to);
+    for (unsigned int p = 0; p < points().size(); ++p)
+      {
+        const ContactPoint &point = points()[p];
+        const unsigned int  i     = obstacle_of_point[p];
+        if (obstacles[i]->shape().is_plane())
+          continue;
+        // As the obstacle sees it.
+        const Tensor<1, 3> old_x = begin_placements[i].pull_back(
+                             point.reference_position + from[p]),
+                           new_x = end_placements[i].pull_back(
+                             point.reference_position + to[p]);
+        // What moves less than a part of its cell does not pass.
+        if ((new_x - old_x).norm() < .05 * point.cell_diameter ||
+            !leads_through(obstacles[i]->shape(), old_x, new_x))
+          continue;
+        ContactStep &step = passing[point.boundary_id];
+        step.place_passed = dealii::Point<3>(point.reference_position);
+        ++step.n_passed;
+      }
   }
 
 

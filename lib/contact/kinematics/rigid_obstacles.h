@@ -44,6 +44,13 @@ namespace Ricochet
     displace(const std::vector<dealii::Tensor<1, 3>> &displacements,
              std::vector<ContactPointState<>>        &states) override;
 
+    void
+    add_passing(const Vector &begin,
+                const Vector &end,
+                const double  begin_time,
+                const double  end_time,
+                ContactSteps &steps) override;
+
     double
     predicted_gap(const unsigned int p) const override;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <contact/kinematics/surface_pair.h>
+#include <contact/surfaces/closest_point.h>
 #include <contact/surfaces/facet_search.h>
 
 #include <algorithm>
@@ -37,7 +38,13 @@ namespace Ricochet
         if (is_own)
           own_facets.push_back(f);
       }
-    own_groups = groups_of_neighbours(slave, own_facets);
+    own_groups         = groups_of_neighbours(slave, own_facets);
+    smallest_thickness = std::numeric_limits<double>::infinity();
+    for (const auto &facet : master.facets)
+      smallest_thickness =
+        std::min({smallest_thickness,
+                  facet.cell_height,
+                  std::pow(facet.measure, 1. / std::max(1, dim - 1))});
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       {
         known.push_back(patches.is_own(patch));
@@ -354,6 +361,132 @@ namespace Ricochet
     find(from.master, to.master, longest[1]);
     Utilities::MPI::max(longest, communicator, longest);
     return longest[0] + longest[1];
+  }
+
+
+
+  template <int dim>
+  dealii::Point<3>
+  SurfacePair<dim>::reference_place(const unsigned int p) const
+  {
+    dealii::Point<3> place;
+    for (const auto &[node, weight] : own_points[p].nodes)
+      for (unsigned int c = 0; c < dim; ++c)
+        place[c] += weight * slave.nodes[node].reference_position[c];
+    return place;
+  }
+
+
+
+  template <int dim>
+  bool
+  SurfacePair<dim>::crosses(const unsigned int p,
+                            const unsigned int f,
+                            const Positions   &begin,
+                            const Positions   &end) const
+  {
+    const Point &point = own_points[p];
+    const auto  &nodes = master.facets[f].nodes;
+    if (is_self)
+      for (const unsigned int of_point : point.facets)
+        for (const unsigned int a : slave.facets[of_point].nodes)
+          for (const unsigned int b : nodes)
+            if (a == b)
+              return false;
+    const auto gap_at = [&](const Positions &x, const Position &y) {
+      const Position normal = facet_normal<dim>(master, x.master, f);
+      double         gap = 0., square = 0.;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          gap += normal[c] * (y[c] - x.master[nodes[0]][c]);
+          square += normal[c] * normal[c];
+        }
+      return gap / std::sqrt(square);
+    };
+    const Position y0 = position_of(point, begin.slave),
+                   y1 = position_of(point, end.slave);
+    const double gap0 = gap_at(begin, y0), gap1 = gap_at(end, y1);
+    if (!(gap0 > 0. && gap1 < 0.))
+      return false;
+    const Position own = normal_of(point, end.slave),
+                   its = facet_normal<dim>(master, end.master, f);
+    double product     = 0.;
+    for (unsigned int c = 0; c < dim; ++c)
+      product += own[c] * its[c];
+    if (product >= 0.)
+      return false;
+    // Where both are at that time, on straight paths.
+    const double when = gap0 / (gap0 - gap1);
+    const auto   at   = [&](const Position &a, const Position &b) {
+      Tensor<1, 3> x;
+      for (unsigned int c = 0; c < dim; ++c)
+        x[c] = a[c] + when * (b[c] - a[c]);
+      return x;
+    };
+    const Tensor<1, 3>        y = at(y0, y1);
+    std::vector<Tensor<1, 3>> corners;
+    for (const unsigned int node : nodes)
+      corners.push_back(at(begin.master[node], end.master[node]));
+    // In 2D and 1D a triangle without area.
+    const auto         shares = closest_in_triangle(y,
+                                            corners.front(),
+                                            corners[dim > 1 ? 1 : 0],
+                                            corners.back());
+    const Tensor<1, 3> away   = y - shares[0] * corners.front() -
+      shares[1] * corners[dim > 1 ? 1 : 0] - shares[2] * corners.back();
+    return away.norm() < 1e-3 * smallest_thickness;
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  SurfacePair<dim>::crossing_points(const Vector &begin, const Vector &end)
+  {
+    // What moves by less than a quarter of the smallest facet and the thinnest cell is
+    // seen by the search at its end.
+    const auto *from     = begin.trilinos_vector()[0],
+               *to       = end.trilinos_vector()[0];
+    double       longest = 0.;
+    const double n       = end.locally_owned_size();
+    for (unsigned int i = 0; i < n; ++i)
+      longest = std::max(longest, std::abs(to[i] - from[i]));
+    if (Utilities::MPI::max(longest, communicator) < .25 * smallest_thickness)
+      return {};
+    const std::vector<Gaps> gaps_of_step = gaps;
+    Positions               x0, x1;
+    read(begin, x0);
+    read(end, x1);
+    gaps = gaps_of_step;
+    // How far a facet can be from where it is at the end.
+    double farthest = 0.;
+    for (unsigned int n = 0; n < x0.master.size(); ++n)
+      for (unsigned int c = 0; c < dim; ++c)
+        if (const double change = std::abs(x1.master[n][c] - x0.master[n][c]);
+            change > farthest)
+          farthest = change;
+    const FacetSearch<dim>    search(master, x1.master, near_facets);
+    std::vector<unsigned int> list;
+    for (unsigned int p = 0; p < own_points.size(); ++p)
+      {
+        if (!own_points[p].can_touch)
+          continue;
+        const Position y0 = position_of(own_points[p], x0.slave),
+                       y1 = position_of(own_points[p], x1.slave);
+        Position lower = y0, upper = y0;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            lower[c] = std::min(y0[c], y1[c]) - farthest;
+            upper[c] = std::max(y0[c], y1[c]) + farthest;
+          }
+        for (const unsigned int f : search.near(lower, upper))
+          if (crosses(p, f, x0, x1))
+            {
+              list.push_back(p);
+              break;
+            }
+      }
+    return list;
   }
 
 

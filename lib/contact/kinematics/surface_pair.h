@@ -134,6 +134,23 @@ namespace Ricochet
       return own_points;
     }
 
+    /// The points that cross a facet of the master from its front to its back on the
+    /// straight paths from @p begin to @p end (m): by themselves that is no contact lost.
+    /// None where nothing moves as far as the bodies are thick. Collective.
+    std::vector<unsigned int>
+    crossing_points(const Vector &begin, const Vector &end);
+
+    /// Where the point @p p is in the undeformed body (m); zeros beyond dim.
+    dealii::Point<3>
+    reference_place(const unsigned int p) const;
+
+    /// The part of the body that the point @p p is on.
+    unsigned int
+    part_of(const unsigned int p) const
+    {
+      return slave.facets[own_points[p].facets.front()].part;
+    }
+
     /// Whether this rank knows where facet @p f of the master is: its own, and those of
     /// patches that have come near its points.
     bool
@@ -380,8 +397,17 @@ namespace Ricochet
                   const Positions *start = nullptr,
                   const double     time  = 1.) const;
 
+    /// Whether the point @p p crosses the facet @p f, of which it is no part.
+    bool
+    crosses(const unsigned int p,
+            const unsigned int f,
+            const Positions   &begin,
+            const Positions   &end) const;
+
     const dealii::IndexSet owned;
     FacetPatches<dim>      patches;
+    /// No facet of the master is smaller, and no cell behind one is thinner (m).
+    double smallest_thickness = 0.;
     /// Facets of the slave with a node or cell of this rank, in groups.
     std::vector<std::vector<unsigned int>> own_groups;
     /// For each patch those that points may walk to from it.

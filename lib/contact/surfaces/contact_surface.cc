@@ -38,8 +38,8 @@ namespace Ricochet
 
       std::array<double, dim> middle, normal;
       std::vector<End>        ends;
-      double                  measure = 0., cell_diameter = 0.;
-      unsigned int            boundary_id = 0, part = 0;
+      double       measure = 0., cell_diameter = 0., cell_height = 0.;
+      unsigned int boundary_id = 0, part = 0;
       /// The rank that it comes from.
       unsigned int owner = 0;
 
@@ -49,7 +49,7 @@ namespace Ricochet
       {
         // clang-format off
         archive & middle & normal & ends & measure & cell_diameter
-                & boundary_id & part;
+                & cell_height & boundary_id & part;
         // clang-format on
       }
 
@@ -253,19 +253,22 @@ namespace Ricochet
                 turn_around<dim>(corners,
                                  nodes.positions,
                                  face_values.normal_vector(0));
-                const auto parts = parts_of_face<dim>(corners, nodes);
+                const auto parts        = parts_of_face<dim>(corners, nodes);
+                double     face_measure = 0.;
+                for (const unsigned int q :
+                     face_values.quadrature_point_indices())
+                  face_measure += face_values.JxW(q);
                 for (const std::vector<unsigned int> &part : parts)
                   {
                     Message<dim> message;
                     message.cell_diameter = cell->diameter();
+                    message.cell_height   = cell->measure() / face_measure;
                     message.boundary_id   = face->boundary_id();
                     message.part          = cell->material_id();
                     if (parts.size() == 1)
                       {
-                        for (const unsigned int q :
-                             face_values.quadrature_point_indices())
-                          message.measure += face_values.JxW(q);
-                        message.middle = to_array<dim>(face->center());
+                        message.measure = face_measure;
+                        message.middle  = to_array<dim>(face->center());
                         message.normal = to_array(face_values.normal_vector(0));
                       }
                     else
@@ -362,6 +365,7 @@ namespace Ricochet
         facet.owner         = message.owner;
         facet.measure       = message.measure;
         facet.cell_diameter = message.cell_diameter;
+        facet.cell_height   = message.cell_height;
         if (own.size() == dim)
           {
             std::copy(own.begin(), own.end(), facet.nodes.begin());

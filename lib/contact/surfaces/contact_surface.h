@@ -62,6 +62,8 @@ namespace Ricochet
       double measure = 1.;
       /// Of the cell behind it (m).
       double cell_diameter = 0.;
+      /// Volume over face of that cell, no more than the thickness of the body there (m).
+      double cell_height = 0.;
       /// In the plane, the facets before and behind it, at node 0 and node 1; none at
       /// an open end.
       std::optional<unsigned int> previous, next;

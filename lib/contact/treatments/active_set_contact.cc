@@ -72,6 +72,32 @@ namespace Ricochet
 
 
 
+  ContactSteps
+  ActiveSetContact::end_step(const Vector &begin,
+                             const Vector &end,
+                             const double  begin_time,
+                             const double  end_time)
+  {
+    ContactSteps steps;
+    kinematics->add_passing(begin, end, begin_time, end_time, steps);
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      {
+        const ContactPoint  &point    = evaluator.contact_points()[p];
+        const PointGeometry &geometry = kinematics->geometry(p);
+        // The reaction is pressure times the direction, whose product with the
+        // displacement increment is that of the gap.
+        steps[point.boundary_id].add_point(
+          nodes[p].status == Status::open
+            ? 0.
+            : (nodes[p].reaction * geometry.normal) /
+              geometry.direction_length * (state[p].gap - old_state[p].gap),
+          dealii::Point<3>(point.reference_position));
+      }
+    return reduce_steps(steps, evaluator.communicator);
+  }
+
+
+
   void
   ActiveSetContact::accept_iterate()
   {

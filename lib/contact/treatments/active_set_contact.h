@@ -72,6 +72,12 @@ namespace Ricochet
     void
     complete_residual(const Vector &solution, Vector &residual) override;
 
+    ContactSteps
+    end_step(const Vector &begin,
+             const Vector &end,
+             const double  begin_time,
+             const double  end_time) override;
+
     void
     accept_iterate() override;
 

@@ -21,6 +21,9 @@ namespace Ricochet
       for (const auto &contact : contacts)
         if (contact->takes_rows() == takes_rows)
           in_order.push_back(contact.get());
+    promise = contacts.front()->promise;
+    for (const auto &contact : contacts)
+      promise = promise.and_also(contact->promise);
     force   = 0.;
     scaling = 1.;
     for (const ContactOperator *contact : in_order)
@@ -169,6 +172,22 @@ namespace Ricochet
     for (const ContactOperator *contact : in_order)
       sum += contact->friction_dissipation();
     return sum;
+  }
+
+
+
+  ContactSteps
+  ContactSum::end_step(const Vector &begin,
+                       const Vector &end,
+                       const double  begin_time,
+                       const double  end_time)
+  {
+    ContactSteps steps;
+    for (unsigned int k = 0; k < contacts.size(); ++k)
+      for (const auto &[id, step] :
+           contacts[k]->end_step(begin, end, begin_time, end_time))
+        steps[id_of(k, id)] = step;
+    return steps;
   }
 
 

@@ -71,6 +71,19 @@ namespace Ricochet
     double
     friction_dissipation() const override;
 
+    ContactSteps
+    end_step(const Vector &begin,
+             const Vector &end,
+             const double  begin_time,
+             const double  end_time) override;
+
+    const EnergyPromise &
+    promise_at(const dealii::types::boundary_id boundary_id) const override
+    {
+      return contacts[boundary_id >> 24]->promise_at(boundary_id &
+                                                     ((1U << 24) - 1));
+    }
+
     double
     linearisation_error() const override;
 

@@ -58,8 +58,9 @@ namespace Ricochet
 
     /**
      * Give the values that are zero: what enters the solution is ten times as stiff as
-     * the layer of cells at the surface, what steers Newton's method as stiff as the
-     * body, friction as stiff as waves in it. So results do not depend on units.
+     * the layer of cells at the surface, which cannot widen and so has the wave modulus;
+     * what steers Newton's method is as stiff as the body, friction as stiff as waves in
+     * it. So results do not depend on units.
      */
     void
     set_missing(const Scales &scales);
@@ -118,6 +119,18 @@ namespace Ricochet
                          const bool               is_self = false,
                          const unsigned int       dim     = 2);
 
+  /// The promise of the treatment in a time scheme; against obstacles, on cut faces, and
+  /// between bodies.
+  /// @param mortar_dim the dimension of bodies that are coupled by mortar; 0 for others.
+  EnergyPromise
+  energy_promise(const ContactParameters &parameters,
+                 const SchemeTraits      &scheme,
+                 const unsigned int       mortar_dim = 0);
+
+  /// The promises of all treatments as a table in Markdown, for the documentation.
+  std::string
+  promises_as_table();
+
   /// Whether the treatment is a constraint in nodes: an active set or multipliers, of
   /// which a node can follow one only.
   bool
@@ -144,6 +157,7 @@ namespace Ricochet
   template <int dim>
   std::unique_ptr<PairContact<dim>>
   make_pair_contact(const ContactParameters        &parameters,
+                    const SchemeTraits             &scheme,
                     const Body<dim>                &body,
                     const std::vector<ContactPair> &pairs);
 

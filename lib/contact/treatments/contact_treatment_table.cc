@@ -39,7 +39,27 @@ namespace Ricochet
         make_midpoint_law = {};
       /// What an active set imposes.
       ClosingCondition condition = ClosingCondition::signorini;
+      /// The promise over the steps of the midpoint scheme.
+      EnergyPromise promise = {};
     };
+
+    using Promise = EnergyPromise::Kind;
+
+    const EnergyPromise keeps_by_quotient = {
+      Promise::keeps,
+      "the pressure is the quotient of potential and gap increment, so that its work is "
+      "the change of the potential"};
+    const EnergyPromise keeps_by_no_work = {
+      Promise::keeps,
+      "pressure times gap increment is zero in each point, so that contact does no work"};
+    const EnergyPromise falls_by_convexity = {
+      Promise::never_gains,
+      "the force is the slope, at the end of the step, of a potential that is convex in "
+      "the gap: the potential grows by no more than the work"};
+    const EnergyPromise falls_by_complementarity = {
+      Promise::never_gains,
+      "where there is pressure the gap is zero at the end of the step, so that its "
+      "increment is not positive"};
 
     template <typename Law>
     std::unique_ptr<ContactLaw>
@@ -83,7 +103,11 @@ namespace Ricochet
              NitscheTwoPoint{p.nitsche_gamma_0,
                              p.nitsche_theta,
                              NitscheTwoPoint::Evaluation::end_of_step});
-         }},
+         },
+         {},
+         {Promise::never_gains,
+          "the part of the potential that is convex is taken at the end of the step, the "
+          "quadratic rest in its middle"}},
         {"Nitsche-hybrid",
          NitscheTwoPoint::traits(),
          [](const P &p) {
@@ -91,52 +115,91 @@ namespace Ricochet
              NitscheTwoPoint{p.nitsche_gamma_0,
                              p.nitsche_theta,
                              NitscheTwoPoint::Evaluation::hybrid});
-         }},
+         },
+         {},
+         {},
+         {Promise::never_gains,
+          "each of its two means grows by no more than its work where it is taken (paper "
+          "C, theorem on (38))"}},
         {"penalty",
          Penalty::traits(),
-         [](const P &p) { return pointwise(Penalty{p.penalty_epsilon_0}); }},
+         [](const P &p) { return pointwise(Penalty{p.penalty_epsilon_0}); },
+         {},
+         {},
+         falls_by_convexity},
         {"proximal augmented Lagrangian",
          ProximalAugmentedLagrangian::traits(),
          [](const P &p) {
            return pointwise(ProximalAugmentedLagrangian{p.augmentation});
-         }},
+         },
+         {},
+         {},
+         {Promise::never_gains,
+          "the potential, at its largest over the multipliers, is convex in the gaps, and "
+          "the force is its slope at the end of the step"}},
         {"Signorini multipliers",
          SignoriniMultiplier::traits(),
          [](const P &p) {
            return pointwise(SignoriniMultiplier{p.augmentation});
-         }},
-        {"Signorini active set", active_set_traits(false), {}},
+         },
+         {},
+         {},
+         falls_by_complementarity},
+        {"Signorini active set",
+         active_set_traits(false),
+         {},
+         {},
+         ClosingCondition::signorini,
+         falls_by_complementarity},
         {"standard normal compliance",
          StandardNormalCompliance::traits(),
          [](const P &p) {
            return pointwise(StandardNormalCompliance{compliance(p)});
-         }},
+         },
+         {},
+         {},
+         falls_by_convexity},
         {"standard normal compliance at midpoint",
          MidpointNormalCompliance::traits(),
          [](const P &p) {
            return pointwise(MidpointNormalCompliance{{compliance(p)}});
-         }},
+         },
+         {},
+         {},
+         {Promise::none,
+          "the pressure of the mean gap is neither a quotient nor a slope of the "
+          "potential, and its work can be any"}},
         {"improved normal compliance",
          ImprovedNormalCompliance::traits(),
          [](const P &p) {
            return pointwise(ImprovedNormalCompliance{{compliance(p)}});
-         }},
+         },
+         {},
+         {},
+         keeps_by_quotient},
         {"Hauret-Le Tallec",
          HauretLeTallec::traits(),
          [](const P &p) {
            return pointwise(HauretLeTallec{
              {CompliancePotential{p.compliance_coefficient, 2.}}});
-         }},
+         },
+         {},
+         {},
+         keeps_by_quotient},
         {"persistent contact",
          active_set_traits(true),
          {},
          {},
-         ClosingCondition::persistent},
+         ClosingCondition::persistent,
+         keeps_by_no_work},
         {"Ayyad-Barboteu two-step",
          active_set_traits(true),
          {},
          {},
-         ClosingCondition::two_step}};
+         ClosingCondition::two_step,
+         {Promise::keeps,
+          "in the second pass pressure times gap increment is zero in each point, and the "
+          "first one leaves no trace"}}};
       return treatments;
     }
 
@@ -166,6 +229,68 @@ namespace Ricochet
         parameters.nitsche_theta == 1.;
     }
   } // namespace
+
+
+
+  EnergyPromise
+  energy_promise(const ContactParameters &parameters,
+                 const SchemeTraits      &scheme,
+                 const unsigned int       mortar_dim)
+  {
+    const ContactLawTraits traits = find(parameters).traits;
+    if (!scheme.contact_over_step)
+      return {
+        Promise::none,
+        "the time scheme " + scheme.name +
+          " takes contact forces at instants, and the mean of two of them is no "
+          "change of a potential over its step"};
+    if (!has_modified_energy(parameters))
+      return {Promise::none,
+              "with theta = " + to_text(parameters.nitsche_theta) +
+                " Nitsche's method has no potential"};
+    if (mortar_dim == 3 && traits.has_potential)
+      return {
+        Promise::none,
+        "in 3D gaps of mortar are means over pieces that are cut anew in each "
+        "step, so that the potential jumps in between"};
+    return find(parameters).promise;
+  }
+
+
+
+  std::string
+  promises_as_table()
+  {
+    std::string text = "| treatment | promise | because |\n|---|---|---|\n";
+    const auto  add  = [&](const std::string   &name,
+                         const EnergyPromise &promise) {
+      text +=
+        "| " + name + " | " + promise.verb() + " | " + promise.reason + " |\n";
+    };
+    const SchemeTraits midpoint = scheme_traits("midpoint");
+    for (const Treatment &treatment : table())
+      {
+        ContactParameters parameters;
+        parameters.treatment = treatment.name;
+        add(treatment.name, energy_promise(parameters, midpoint));
+        if (!treatment.traits.uses_stress)
+          continue;
+        parameters.nitsche_theta = -1.;
+        add(treatment.name + ", theta = -1",
+            energy_promise(parameters, midpoint));
+        parameters.nitsche_theta = 0.;
+        add(treatment.name + ", theta = 0",
+            energy_promise(parameters, midpoint));
+      }
+    ContactParameters parameters;
+    parameters.treatment = "penalty";
+    add("any law with a potential on 3D mortar",
+        energy_promise(parameters, midpoint, 3));
+    for (const SchemeTraits &scheme : all_scheme_traits())
+      if (!scheme.contact_over_step)
+        add("any with " + scheme.name, energy_promise(parameters, scheme));
+    return text;
+  }
 
 
 
@@ -436,22 +561,28 @@ namespace Ricochet
   template <int dim>
   std::unique_ptr<PairContact<dim>>
   make_pair_contact(const ContactParameters        &parameters,
+                    const SchemeTraits             &scheme,
                     const Body<dim>                &body,
                     const std::vector<ContactPair> &pairs)
   {
     const Treatment &treatment = find(parameters);
-    return std::make_unique<PairContact<dim>>(
+    auto             contact   = std::make_unique<PairContact<dim>>(
       body,
       pairs,
       PairMethod{parameters.coupling == "mortar" ? PairCoupling::mortar
-                   : parameters.coupling == "dual mortar"
-                   ? PairCoupling::dual_mortar
-                   : PairCoupling::points,
+                                 : parameters.coupling == "dual mortar"
+                                 ? PairCoupling::dual_mortar
+                                 : PairCoupling::points,
                  treatment.make_law ? treatment.make_law(parameters) : nullptr,
                  treatment.condition,
                  parameters.augmentation,
                  {parameters.friction_coefficient,
-                  parameters.tangential_compliance}});
+                                parameters.tangential_compliance}});
+    contact->promise =
+      energy_promise(parameters,
+                     scheme,
+                     parameters.coupling == "points" ? 0 : dim);
+    return contact;
   }
 
 
@@ -567,7 +698,7 @@ namespace Ricochet
           }
         check_nitsche_bound(parameters, largest);
       }
-    return std::make_unique<CutFaceContact>(
+    auto contact = std::make_unique<CutFaceContact>(
       body,
       make_law(parameters, scheme),
       cut_faces.points,
@@ -576,6 +707,8 @@ namespace Ricochet
                       parameters.tangential_compliance},
       parameters.augmentation,
       has_modified_energy(parameters));
+    contact->promise = energy_promise(parameters, scheme);
+    return contact;
   }
 
 
@@ -602,23 +735,27 @@ namespace Ricochet
       : stress_points;
     if (!stress)
       stress_points = ContactPoints();
+    std::unique_ptr<ContactOperator> contact;
     if (!treatment.make_law)
-      return std::make_unique<ActiveSetContact>(
+      contact =
+        std::make_unique<ActiveSetContact>(body,
+                                           std::move(points),
+                                           std::move(stress_points),
+                                           treatment.condition,
+                                           parameters.augmentation,
+                                           parameters.friction_coefficient);
+    else
+      contact = std::make_unique<PointwiseContact>(
         body,
+        make_law(parameters, scheme),
         std::move(points),
         std::move(stress_points),
-        treatment.condition,
+        CoulombFriction{parameters.friction_coefficient,
+                        parameters.tangential_compliance},
         parameters.augmentation,
-        parameters.friction_coefficient);
-    return std::make_unique<PointwiseContact>(
-      body,
-      make_law(parameters, scheme),
-      std::move(points),
-      std::move(stress_points),
-      CoulombFriction{parameters.friction_coefficient,
-                      parameters.tangential_compliance},
-      parameters.augmentation,
-      has_modified_energy(parameters));
+        has_modified_energy(parameters));
+    contact->promise = energy_promise(parameters, scheme);
+    return contact;
   }
 
 
@@ -664,10 +801,10 @@ namespace Ricochet
     const double h = scales.cell_diameter;
     set(nitsche_gamma_0,
         20. * scales.degree * scales.degree * scales.wave_modulus);
-    set(penalty_epsilon_0, .1 / scales.young_modulus);
+    set(penalty_epsilon_0, .1 / scales.wave_modulus);
     set(augmentation, scales.young_modulus);
     set(compliance_coefficient,
-        10. * scales.young_modulus / std::pow(h, compliance_exponent - 1.));
+        10. * scales.wave_modulus / std::pow(h, compliance_exponent - 1.));
     set(tangential_compliance,
         std::sqrt(scales.young_modulus * scales.density));
   }
@@ -765,14 +902,17 @@ namespace Ricochet
 
   template std::unique_ptr<PairContact<1>>
   make_pair_contact(const ContactParameters &,
+                    const SchemeTraits &,
                     const Body<1> &,
                     const std::vector<ContactPair> &);
   template std::unique_ptr<PairContact<2>>
   make_pair_contact(const ContactParameters &,
+                    const SchemeTraits &,
                     const Body<2> &,
                     const std::vector<ContactPair> &);
   template std::unique_ptr<PairContact<3>>
   make_pair_contact(const ContactParameters &,
+                    const SchemeTraits &,
                     const Body<3> &,
                     const std::vector<ContactPair> &);
   template std::unique_ptr<ContactOperator>

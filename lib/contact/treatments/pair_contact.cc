@@ -731,6 +731,78 @@ namespace Ricochet
 
 
   template <int dim>
+  ContactSteps
+  PairContact<dim>::end_step(const Vector &begin,
+                             const Vector &end,
+                             const double /*begin_time*/,
+                             const double end_time)
+  {
+    // The search at the end of the step is that at the beginning of the next one: a
+    // point that faces another facet there, or none, has another potential there.
+    struct Before
+    {
+      double made = 0., gap = 0.;
+      bool   is_pressed = false, is_before_facet = false;
+    };
+    std::vector<Before> before;
+    for (const PointState &state : states)
+      {
+        const Pair        &pair = pair_of(state);
+        const unsigned int p    = state.point;
+        Before            &own  = before.emplace_back();
+        own.is_before_facet     = pair.is_before_facet(p);
+        if (!own.is_before_facet)
+          continue;
+        own.gap        = pair.new_gap(p);
+        own.is_pressed = state.candidate &&
+          (method.law ? state.pressure > 0.
+                      : state.pressure > stiffness(state) * pair.round_off(p));
+        own.made = -potential_of(state, state.old_state);
+        if (state.candidate && state.pressure != 0.)
+          own.made += point_of(state).weight * state.pressure *
+            pair.rows(p).gap_increment;
+      }
+    std::vector<std::vector<bool>> crosses;
+    for (const auto &pair : pairs)
+      {
+        crosses.emplace_back(pair->points().size(), false);
+        for (const unsigned int p : pair->crossing_points(begin, end))
+          crosses.back()[p] = true;
+      }
+    begin_instant(end, end_time);
+    ContactSteps steps;
+    for (unsigned int s = 0; s < states.size(); ++s)
+      {
+        const PointState &state = states[s];
+        const Before     &own   = before[s];
+        // What is behind a facet by more than round-off.
+        const double depth = 1e-6 * point_of(state).cell_diameter;
+        ContactStep &step  = steps[point_of(state).boundary_id];
+        step.add_point(
+          own.made + (state.candidate ? potential_of(state, state.state) : 0.),
+          pair_of(state).reference_place(state.point),
+          pair_of(state).part_of(state.point));
+        if (pair_of(state).is_other_side(state.point))
+          continue;
+        // It has crossed a facet, no pressure has held it, and at the end it is out of
+        // reach.
+        if (crosses[state.pair][state.point] && !own.is_pressed &&
+            !state.candidate)
+          {
+            ++step.n_passed;
+            step.place_passed = pair_of(state).reference_place(state.point);
+          }
+        step.n_dropped += own.is_pressed && !state.candidate &&
+          (!method.law || own.gap < -depth);
+        step.n_entered += state.candidate && state.state.gap < -depth &&
+          !own.is_pressed && !(own.is_before_facet && own.gap < 0.);
+      }
+    return reduce_steps(steps, communicator);
+  }
+
+
+
+  template <int dim>
   double
   PairContact<dim>::linearisation_error() const
   {
@@ -1242,8 +1314,7 @@ namespace Ricochet
     double sum = 0.;
     for (const PointState &state : states)
       if (state.candidate)
-        sum += point_of(state).weight *
-          method.law->potential(state.state, point_of(state).cell_diameter);
+        sum += potential_of(state, state.state);
     return Utilities::MPI::sum(sum, communicator);
   }
 

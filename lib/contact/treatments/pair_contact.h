@@ -109,6 +109,12 @@ namespace Ricochet
     ContactWork
     contact_work(const dealii::types::boundary_id boundary_id) const override;
 
+    ContactSteps
+    end_step(const Vector &begin,
+             const Vector &end,
+             const double  begin_time,
+             const double  end_time) override;
+
     double
     linearisation_error() const override;
 
@@ -361,6 +367,15 @@ namespace Ricochet
 
     void
     clear_multipliers(Vector &vector) const;
+
+    /// Energy stored at a state of a point (J); none by a constraint.
+    double
+    potential_of(const PointState &state, const ContactPointState<> &at) const
+    {
+      return method.law ? point_of(state).weight *
+          method.law->potential(at, point_of(state).cell_diameter)
+                        : 0.;
+    }
 
     /// Begin an instant at @p solution.
     void

@@ -23,6 +23,34 @@ namespace Ricochet
 
 
 
+  ContactSteps
+  PointwiseContact::end_step(const Vector &begin,
+                             const Vector &end,
+                             const double  begin_time,
+                             const double  end_time)
+  {
+    ContactSteps steps;
+    kinematics->add_passing(begin, end, begin_time, end_time, steps);
+    for (unsigned int p = 0; p < state.size(); ++p)
+      {
+        const ContactPoint &point = evaluator.contact_points()[p];
+        const double        h     = point.cell_diameter;
+        // The increment of the gap is the difference of gaps, see ContactKinematics.
+        const double work =
+          point_force[p].gap * (state[p].gap - old_state[p].gap) +
+          point_force[p].stress_pressure *
+            (state[p].stress_pressure - old_state[p].stress_pressure);
+        steps[point.boundary_id].add_point(
+          point.weight *
+            (law->potential(state[p], h) - law->potential(old_state[p], h) -
+             work),
+          dealii::Point<3>(point.reference_position));
+      }
+    return reduce_steps(steps, evaluator.communicator);
+  }
+
+
+
   void
   PointwiseContact::accept_iterate()
   {

@@ -66,6 +66,12 @@ namespace Ricochet
                             evaluator.coefficients());
     }
 
+    ContactSteps
+    end_step(const Vector &begin,
+             const Vector &end,
+             const double  begin_time,
+             const double  end_time) override;
+
     void
     accept_iterate() override;
 

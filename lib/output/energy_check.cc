@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/parameter_file.h>
+#include <output/energy_check.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Ricochet
+{
+  EnergyCheck::EnergyCheck(const EnergyPromise        &promise,
+                           const std::vector<Contact> &contacts,
+                           const bool                  obstacles_move)
+    : promise(promise)
+    , contacts(contacts)
+    , obstacles_move(obstacles_move)
+    , least_gains(contacts.size(), 0.)
+    , deviations(contacts.size(), 0.)
+  {}
+
+
+
+  double
+  EnergyCheck::scale_with(const Terms &terms) const
+  {
+    double sum = 0.;
+    for (const double term : {terms.kinetic,
+                              terms.stored,
+                              terms.potential,
+                              terms.external_work,
+                              terms.imposed_work,
+                              terms.obstacle_work,
+                              terms.contact_work,
+                              terms.friction_work,
+                              terms.viscous_dissipation,
+                              terms.numerical_dissipation})
+      if (!std::isnan(term))
+        sum += std::abs(term);
+    return std::max(scale, sum);
+  }
+
+
+
+  double
+  EnergyCheck::deviation(const EnergyPromise::Kind kind,
+                         const double              amount,
+                         double                   &least)
+  {
+    least = std::min(least, amount);
+    // Of what keeps, the least value is not above the first one, which is 0.
+    return kind == EnergyPromise::Kind::keeps
+      ? std::max(amount - least, -amount)
+      : amount - least;
+  }
+
+
+
+  EnergyCheck::Values
+  EnergyCheck::add(const Terms &terms)
+  {
+    using Kind = EnergyPromise::Kind;
+    scale      = scale_with(terms);
+    round_off += terms.round_off;
+    const auto relative = [&](const double amount) {
+      return scale > 0. ? amount / scale : amount;
+    };
+    Values values;
+    values.balance_residual = relative(terms.balance);
+    if (std::abs(values.balance_residual) >= std::abs(worst_balance))
+      {
+        worst_balance           = values.balance_residual;
+        worst_balance_round_off = relative(terms.round_off);
+      }
+    if (!(std::abs(terms.balance) <= bound * scale + terms.round_off))
+      balance_closes = false;
+
+    if (!has_begun)
+      first_potential = terms.potential;
+    // The work of moving obstacles is what is left of minus the contact work, after what
+    // the treatment has stored and made.
+    double made = 0.;
+    for (const double gain : terms.contact_gains)
+      made += gain;
+    const double contact = obstacles_move
+      ? first_potential + terms.contact_work + made
+      : terms.potential - terms.obstacle_work;
+    values.total         = terms.kinetic + terms.stored + contact -
+      terms.external_work - terms.imposed_work + terms.friction_work +
+      terms.viscous_dissipation + terms.numerical_dissipation;
+    if (!has_begun)
+      first_total = values.total;
+    has_begun = true;
+
+    bool   is_promised = false;
+    double largest     = 0.;
+    for (unsigned int k = 0; k < terms.contact_gains.size(); ++k)
+      {
+        deviations[k] = deviation(contacts[k].promise.kind,
+                                  terms.contact_gains[k],
+                                  least_gains[k]);
+        if (contacts[k].promise.kind == Kind::none)
+          continue;
+        is_promised = true;
+        largest     = std::max(largest, deviations[k]);
+      }
+    // Friction and viscosity only take.
+    most_friction  = std::max(most_friction, terms.friction_work);
+    most_viscosity = std::max(most_viscosity, terms.viscous_dissipation);
+    if (std::isnan(values.total))
+      return values;
+    has_total = true;
+    const double of_total =
+      deviation(promise.kind, values.total - first_total, least_total);
+    if (promise.kind != Kind::none)
+      {
+        is_promised = true;
+        largest     = std::max(largest, of_total);
+      }
+    if (is_promised)
+      largest = std::max({largest,
+                          most_friction - terms.friction_work,
+                          most_viscosity - terms.viscous_dissipation});
+    else
+      largest = of_total;
+    values.promise_residual = relative(largest);
+    if (values.promise_residual >= worst_promise)
+      {
+        worst_promise         = values.promise_residual;
+        time_of_worst_promise = terms.time;
+      }
+    const bool is_broken =
+      is_promised && !(largest <= bound * scale + round_off);
+    values.breaks_promise = is_broken && !promise_is_broken;
+    promise_is_broken     = promise_is_broken || is_broken;
+    return values;
+  }
+
+
+
+  const EnergyCheck::Contact *
+  EnergyCheck::worst_contact() const
+  {
+    const Contact *worst   = nullptr;
+    double         largest = 0.;
+    for (unsigned int k = 0; k < contacts.size(); ++k)
+      if (deviations[k] > largest)
+        {
+          largest = deviations[k];
+          worst   = &contacts[k];
+        }
+    return worst;
+  }
+
+
+
+  std::vector<std::string>
+  EnergyCheck::verdict() const
+  {
+    std::string balance =
+      "largest balance residual: " + to_text(std::abs(worst_balance));
+    if (!balance_closes)
+      balance += " - THE ENERGY BALANCE DOES NOT CLOSE";
+    else if (std::abs(worst_balance) > bound)
+      balance += " (closed: round-off in forces times displacements is " +
+        to_text(worst_balance_round_off) + ")";
+    else
+      balance += " (closed)";
+    if (!has_total)
+      return {balance,
+              "total energy: nothing is promised, as " + promise.reason};
+    std::string total = "total energy: ";
+    if (promise.kind == EnergyPromise::Kind::none)
+      total += "nothing is promised, as " + promise.reason + "; ";
+    else
+      total += promise.verb() + "; ";
+    total += (promise.kind == EnergyPromise::Kind::keeps ? "largest change "
+                                                         : "largest rise ") +
+      to_text(worst_promise);
+    if (promise_is_broken)
+      total += " - THE PROMISE IS BROKEN";
+    else if (promise.kind != EnergyPromise::Kind::none)
+      total += " (kept)";
+    return {balance, total};
+  }
+} // namespace Ricochet

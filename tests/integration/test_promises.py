@@ -1,0 +1,304 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What contact treatments promise of the energy: kept where nodes meet nodes and ends meet
+ends, and a broken promise, a dropped point and a body that was gone through are told."""
+
+from common import *
+
+# Rows of equal blocks, whose nodes and ends meet, with gravity from the start.
+BLOCKS = """
+set Program   = ricochet
+set Dimension = {dim}
+{bodies}
+{contacts}
+{more}
+subsection Time
+  set Final time = {end}
+  set Time step  = {step}
+end
+subsection Output
+  set Fields every = 0
+  set Log every    = 0
+end
+"""
+
+BLOCK = """
+subsection Body {name}
+  set Shape         = {shape}
+  set Size          = {size}
+  set Cells along   = {cells}
+  set Translation   = {place}
+  set Velocity      = {velocity}
+  set Law           = neo-Hookean
+  set Young modulus = {young}
+  set Density       = 1000
+end
+"""
+
+CONTACT = """
+subsection Contact {name}
+  set Surface   = {first}
+  set Against   = {second}
+  set Treatment = {treatment}
+end
+"""
+
+FOOT = """
+subsection Condition foot
+  set Boundary = {boundary}
+  set Kind     = fixed
+end
+"""
+
+GRAVITY = """
+subsection Start
+  set Gravity = {gravity}
+end
+"""
+
+
+def block(name, place, velocity="0, 0", size="1, 1", cells="2, 2", young="1e6"):
+    return BLOCK.format(name=name, place=place, velocity=velocity, size=size, cells=cells,
+                        young=young, shape="rectangle" if size.count(",") == 1 else "block")
+
+
+class Promises(ProgramTest):
+
+    def scene(self, bodies, contacts, more="", dim=2, end=1., step=4e-3):
+        file = self.folder / "scene.prm"
+        file.write_text(BLOCKS.format(dim=dim, bodies="".join(bodies),
+                                      contacts="".join(contacts), more=more, end=end,
+                                      step=step))
+        return file
+
+    def run_scene(self, file, code=0, parameters=()):
+        found, out, err = self.attempt("ricochet", parameters, prm=file,
+                                       options=["--overwrite"])
+        self.assertEqual(found, code, msg=out + err)
+        return Ledger(self.folder / "run"), err
+
+    def contact(self, treatment, first="upper: lower", second="lower: upper", name="joint"):
+        return CONTACT.format(name=name, first=first, second=second, treatment=treatment)
+
+    def test_stacks_of_equal_blocks(self):
+        """Three equal blocks on each other gained 231 kJ as their border nodes were let go
+        and taken back; a treatment must keep 1e-9 of its largest energy, about 2e4 J."""
+        bodies = [block(f"b{k}", f"0, {.5 * k}", size="1, 0.5", cells="4, 2")
+                  for k in range(3)]
+        for treatment in ("improved normal compliance", "standard normal compliance",
+                          "Signorini active set"):
+            with self.subTest(treatment=treatment):
+                contacts = [self.contact(treatment, f"b{k}: lower", f"b{k - 1}: upper",
+                                         f"c{k}") for k in (1, 2)]
+                file = self.scene(bodies, contacts, FOOT.format(boundary="b0: lower") +
+                                  GRAVITY.format(gravity="0, -9.81"), end=.4)
+                ledger, _ = self.run_scene(file)
+                self.assertLess(max(ledger["promise_residual"]), 1e-9)
+                self.assertGreater(max(ledger["contact_force_c1"]), 100.)
+
+    def test_cubes_that_meet_face_to_face(self):
+        """They went apart with 1097 of 1000 J; by hand it is 1000 J at most. Nodes that
+        meet nodes still change 2e-6 of it, and the run says so."""
+        size, cells = "1, 1, 1", "3, 3, 3"
+        bodies = [block("a", "0, 0, 0", "1, 0, 0", size, cells),
+                  block("b", "1.01, 0, 0", "-1, 0, 0", size, cells)]
+        contacts = [self.contact("improved normal compliance", "a: right", "b: left")]
+        file = self.scene(bodies, contacts, dim=3, end=.12, step=2e-3)
+        code, out, err = self.attempt("ricochet", prm=file)
+        ledger = Ledger(self.folder / "run")
+        residual = max(ledger["promise_residual"])
+        self.assertLess(residual, 1e-5)
+        self.assertEqual(code, 4 if residual > 1e-9 else 0, msg=out + err)
+        self.assertAlmostEqual(ledger["energy"][0], 1000., places=6)
+        self.assertLess(max(ledger["energy"]), 1000.1)
+        self.assertLess(ledger["momentum_x_a"][-1], 0.)
+
+    def test_a_broken_promise_is_told(self):
+        """A disk that is shot at the outside of a ring from within comes in behind its
+        facets, with a potential that nobody has paid for."""
+        file = self.folder / "wrong_side.prm"
+        file.write_text("""
+set Program   = ricochet
+set Dimension = 2
+subsection Body ring
+  set Shape        = ring
+  set Radius       = 1
+  set Inner radius = 0.9
+  set Nodes around = 64
+  set Nodes across = 3
+  set Law           = neo-Hookean
+  set Young modulus = 1e6
+  set Density       = 1000
+end
+subsection Body disk
+  set Shape        = disk
+  set Radius       = 0.3
+  set Nodes around = 32
+  set Velocity     = 3, 0
+  set Law           = neo-Hookean
+  set Young modulus = 1e6
+  set Density       = 1000
+end
+subsection Contact wrong side
+  set Surface   = disk
+  set Against   = ring: outer
+  set Treatment = improved normal compliance
+end
+subsection Time
+  set Final time = 0.29
+  set Time step  = 5e-3
+end
+subsection Output
+  set Fields every = 0
+end
+""")
+        ledger, err = self.run_scene(file, code=4)
+        self.assertIn("THE PROMISE IS BROKEN", err)
+        self.assertLess(max(map(abs, ledger["balance_residual"])), 1e-9)
+        log = (self.folder / "run" / "log.txt").read_text()
+        self.assertRegex(log, r"note: the promise is broken at t = \S+ s by the contact "
+                              r"'wrong_side', which keeps: in this step it has made \S+ J.*"
+                              r"undeformed body 'disk'.*behind a facet: \d+")
+        self.assertGreater(ledger["entered_points_wrong_side"][-1], 0.)
+        # All that the total gains is of this contact.
+        gain = ledger["contact_gain_wrong_side"][-1]
+        self.assertAlmostEqual(gain / (ledger["total_energy"][-1] -
+                                       ledger["total_energy"][0]), 1., places=6)
+
+    def test_what_is_dropped_is_counted(self):
+        """A block slides off the end of another one: its nodes are let go while pressed."""
+        bodies = [block("lower", "0, 0", size="1, 0.25", cells="4, 1"),
+                  block("upper", "0.5, 0.25", "2, 0", size="0.5, 0.25", cells="2, 1")]
+        file = self.scene(bodies, [self.contact("penalty")],
+                          FOOT.format(boundary="lower: lower") +
+                          GRAVITY.format(gravity="0, -9.81"), end=.2)
+        ledger, _ = self.run_scene(file)
+        self.assertGreater(ledger["dropped_points_joint"][-1], 0.)
+        self.assertLess(max(ledger["promise_residual"]), 1e-9)
+
+    def test_nothing_is_gone_through(self):
+        """A fast block and a thin plate: a step of 50 ms leads through it, and in its
+        middle the block is still in front, so that nothing is pressed."""
+        bodies = [block("plate", "-1, -0.1", size="2, 0.1", cells="20, 2", young="1e7"),
+                  block("block", "-0.1, 0.3", "0, -10", "0.2, 0.2", "4, 4", "1e7")]
+        contacts = [self.contact("persistent contact", "block: lower", "plate: upper",
+                                 "hit")]
+        file = self.scene(bodies, contacts, FOOT.format(boundary="plate: left, right"),
+                          end=.1, step=5e-2)
+        ledger, _ = self.run_scene(file)
+        self.assertGreater(ledger["passing_halvings"][-1], 0.)
+        self.assertEqual(ledger["passed_points_hit"][-1], 0.)
+        # -400 kg m/s before.
+        self.assertGreater(ledger["momentum_y_block"][-1], -100.)
+        _, err = self.run_scene(file, 2, ["Time/Maximum halvings=0"])
+        self.assertIn("go through the contact 'hit' without touching it", err)
+
+    def test_no_post_is_gone_through(self):
+        """The same before a thin rigid post, at rest and on its way to the block."""
+        post = """
+subsection Obstacle post
+  set Shape       = circle
+  set Radius      = 0.02
+  set Centre      = {centre}
+  set Translation = {motion}
+end
+subsection Contact hit
+  set Surface   = block
+  set Against   = post
+  set Treatment = penalty
+end
+"""
+        for velocity, motion in (("0, -10", "0; 0"), ("0, 0", "0; 10*t")):
+            with self.subTest(motion=motion):
+                file = self.scene([block("block", "-0.1, 0.1", velocity, "0.2, 0.2", "4, 4",
+                                         "1e7")], [],
+                                  post.format(centre="0, 0", motion=motion),
+                                  end=.1, step=5e-2)
+                ledger, _ = self.run_scene(file,
+                                           parameters=["Time/Maximum halvings=8"])
+                self.assertGreater(ledger["passing_halvings"][-1], 0.)
+                self.assertEqual(ledger["passed_points_hit"][-1], 0.)
+
+    def test_held_boundaries_stay_where_they_are(self):
+        """Iterative solvers left their tolerance in clamped unknowns: a rubber ring (nu =
+        0.4995) on its hub did 0.5 % of its energy as work that was in no balance."""
+        file = self.folder / "roller.prm"
+        file.write_text("""
+set Program   = ricochet
+set Dimension = 2
+set Units     = mm, t, s
+subsection Body roller
+  set Shape        = ring
+  set Radius       = 40
+  set Inner radius = 20
+  set Nodes around = 128
+  set Nodes across = 9
+  set Translation  = 0, 40
+  set Law           = neo-Hookean
+  set Young modulus = 1.4
+  set Poisson ratio = 0.4995
+  set Density       = 1.2e-9
+  set Viscosity     = Curnier
+  set Viscosity eta = 1e-3
+end
+subsection Obstacle floor
+  set Shape       = half space
+  set Translation = 0; 4*(1-cos(pi*t/0.1))/2
+end
+subsection Contact floor
+  set Surface   = roller: outer
+  set Against   = floor
+  set Treatment = improved normal compliance
+end
+subsection Condition hub
+  set Boundary = roller: inner
+  set Kind     = fixed
+end
+subsection Probe hub
+  set Body  = roller
+  set Point = 20, 40
+end
+subsection Time
+  set Final time = 4e-3
+  set Time step  = 1e-3
+end
+subsection Output
+  set Fields every = 0
+end
+""")
+        ledger, _ = self.run_scene(file)
+        self.assertLess(max(map(abs, ledger["balance_residual"])), 1e-7)
+        for axis in "xy":
+            self.assertEqual(set(ledger[f"hub_displacement_{axis}"]), {0.})
+
+    def test_work_of_bodies_is_that_of_the_scheme(self):
+        """Two linear blocks on cut faces: with each scheme what the bodies give to each
+        other is the work of contact, and the resultant on the first one is that of the
+        law, with what Nitsche's method does behind the surface."""
+        bodies = [block("lower", "0, 0").replace("neo-Hookean", "linear elastic"),
+                  block("upper", "0, 1.001", "0, -1",
+                        cells="3, 3").replace("neo-Hookean", "linear elastic")]
+        contact = self.contact("Nitsche").replace("end", "  set Coupling = cut faces\nend")
+        file = self.scene(bodies, [contact], FOOT.format(boundary="lower: lower"), end=.03,
+                          step=1e-3)
+        for scheme in ("Crank-Nicolson", "TR-BDF2", "midpoint"):
+            with self.subTest(scheme=scheme):
+                ledger, _ = self.run_scene(file, parameters=[f"Time/Scheme={scheme}"])
+                work = ledger["contact_work"][-1]
+                largest = max(map(abs, ledger["contact_work"]))
+                self.assertGreater(largest, 1.)
+                both = (ledger["contact_work_lower"][-1] +
+                        ledger["contact_work_upper"][-1])
+                self.assertLess(abs(both - work) / largest, 1e-10)
+                # Newton: the force on the upper block is the rate of its momentum.
+                n = max(range(len(ledger["time"])),
+                        key=lambda k: ledger["contact_force_joint"][k])
+                self.assertGreater(ledger["resultant_y_joint"][n], 0.)
+                if scheme == "midpoint":
+                    impulse = sum(ledger["resultant_y_joint"]) * 1e-3
+                    change = (ledger["momentum_y_upper"][-1] -
+                              ledger["momentum_y_upper"][0])
+                    self.assertLess(abs(impulse - change) / abs(change), 1e-9)
+
+
+if __name__ == "__main__":
+    main()
