@@ -2,11 +2,13 @@
 """Runs of the programs: what to run, running it once, reading what it wrote."""
 
 import concurrent.futures
+import functools
 import hashlib
 import json
 import os
 import threading
 import time
+import tomllib
 from dataclasses import dataclass
 
 import ricochet
@@ -114,6 +116,34 @@ def _is_finished(run, fingerprint):
     return stamp == {**fingerprint, "size": size}
 
 
+@functools.cache
+def _known_open():
+    """The runs whose promises are known to be broken: residual and reason of each."""
+    return tomllib.loads((CHECKOUT / "figures" / "open_runs.toml").read_text(encoding="utf-8"))
+
+
+def _check_promise(run, is_open):
+    """An open balance or promise is one that is listed, with its residual and its reason.
+
+    Raises:
+        RicochetError: it is not listed, or has another residual, or is listed and not open.
+    """
+    known = _known_open().get(run.name)
+    if known is None and is_open:
+        raise RicochetError(
+            f"The run {run.name} is open: {'; '.join(run.results.open_lines)}. Mend it, or list "
+            "it in figures/open_runs.toml with its residual and the reason."
+        )
+    if known is None:
+        return
+    residual = run.results.summary().largest_promise_residual
+    if not is_open or not known["residual"] / 3 <= residual <= 3 * known["residual"]:
+        raise RicochetError(
+            f"The run {run.name} has the promise residual {residual:.2g}, and is listed in "
+            f"figures/open_runs.toml with {known['residual']:.2g}."
+        )
+
+
 def _execute(run, build_dir, fingerprint):
     """Run the program; afterwards, and only if all went well, write the stamp."""
     run.folder.mkdir(parents=True, exist_ok=True)
@@ -122,7 +152,8 @@ def _execute(run, build_dir, fingerprint):
     # The runs share the cores among them: a run of its own takes one.
     exit_code, text = programs.execute(run.command(build_dir), CHECKOUT)
     table = run.folder / run.table
-    if exit_code != 0 or not table.is_file():
+    _check_promise(run, exit_code == programs.OPEN)
+    if exit_code not in (0, programs.OPEN) or not table.is_file():
         raise RicochetError(
             f"The run {run.name} failed (exit code {exit_code}):\n"
             f"  {' '.join(run.command(build_dir))}\n{text.strip()[-2000:]}"

@@ -92,6 +92,12 @@ namespace Ricochet
       return bulk->strain_round_off();
     }
 
+    double
+    energy_round_off() const override
+    {
+      return bulk->energy_round_off();
+    }
+
     bool
     is_linear() const override
     {

@@ -98,6 +98,14 @@ namespace Ricochet
       return 0.;
     }
 
+    /// Round-off (J) in a stored energy that is a small difference of large terms, as that
+    /// of small strains from invariants near to those of a body at rest.
+    virtual double
+    energy_round_off() const
+    {
+      return 0.;
+    }
+
     /// Whether the tangents are the same for all states, so that
     /// factorisations can be kept.
     virtual bool

@@ -201,7 +201,7 @@ namespace Ricochet
 
     // A strain is known to a rounding error of 1, so the ends of a cell to one of its
     // diameter.
-    double              square = 0.;
+    double              square = 0., energy_square = 0.;
     std::vector<double> diameter(body.owned_indices().n_elements(), 0.);
     for (const Cell &cell : cells)
       for (const int row : cell.owned)
@@ -217,10 +217,19 @@ namespace Ricochet
         double sum = 0.;
         for (int j = 0; j < n_entries; ++j)
           sum += std::abs(values[j]);
-        square += sum * sum * diameter[row] * diameter[row];
+        const double force = sum * diameter[row];
+        square += force * force;
+        // Stored in what belongs to the node, if all terms were as large as Young's
+        // modulus; a row has some eight times that.
+        const double energy = .125 * force * diameter[row];
+        energy_square += energy * energy;
       }
-    round_off = std::numeric_limits<double>::epsilon() *
-      std::sqrt(Utilities::MPI::sum(square, communicator));
+    const auto total = [&](const double sum_of_squares) {
+      return std::numeric_limits<double>::epsilon() *
+        std::sqrt(Utilities::MPI::sum(sum_of_squares, communicator));
+    };
+    round_off    = total(square);
+    energy_error = total(energy_square);
   }
 
 

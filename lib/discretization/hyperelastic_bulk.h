@@ -83,6 +83,12 @@ namespace Ricochet
       return round_off;
     }
 
+    double
+    energy_round_off() const override
+    {
+      return energy_error;
+    }
+
     bool
     is_linear() const override
     {
@@ -203,7 +209,7 @@ namespace Ricochet
 
     const std::vector<Material<dim>> materials;
     const MPI_Comm                   communicator;
-    double                           scale = 0., round_off = 0.;
+    double                           scale = 0., round_off = 0., energy_error = 0.;
     unsigned int                     n_batches = 0;
     unsigned int                     n_points  = 0;
     unsigned int                     n_nodes   = 0;

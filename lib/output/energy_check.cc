@@ -68,9 +68,13 @@ namespace Ricochet
     if (std::abs(values.balance_residual) >= std::abs(worst_balance))
       {
         worst_balance           = values.balance_residual;
-        worst_balance_round_off = relative(terms.round_off);
+        worst_balance_round_off = relative(terms.round_off + last_round_off);
       }
-    if (!(std::abs(terms.balance) <= bound * scale + terms.round_off))
+    // What the equations of a step leave over, schemes with accelerations take into the
+    // next one.
+    const double floor = terms.round_off + last_round_off;
+    last_round_off     = terms.round_off;
+    if (!(std::abs(terms.balance) <= bound * scale + floor))
       balance_closes = false;
 
     if (!has_begun)
@@ -115,6 +119,13 @@ namespace Ricochet
         is_promised = true;
         largest     = std::max(largest, of_total);
       }
+    // Against what is at rest, contacts have made what their potential has more than the
+    // work of their forces: the same from the points and from the equations.
+    if (is_promised && !obstacles_move && !terms.contact_gains.empty())
+      largest =
+        std::max(largest,
+                 std::abs(made - (terms.potential - first_potential -
+                                  terms.contact_work)));
     if (is_promised)
       largest = std::max({largest,
                           most_friction - terms.friction_work,

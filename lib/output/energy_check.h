@@ -109,8 +109,8 @@ namespace Ricochet
     double              least_total = 0.;
     std::vector<double> least_gains, deviations;
     double              most_friction = 0., most_viscosity = 0.;
-    // Sum of the round-off of all steps (J).
-    double round_off = 0.;
+    // Of all steps together, and of the last one (J).
+    double round_off = 0., last_round_off = 0.;
     // The largest ones so far, and when.
     double worst_balance = 0., worst_balance_round_off = 0.;
     double worst_promise = 0., time_of_worst_promise = 0.;

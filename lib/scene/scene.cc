@@ -510,8 +510,10 @@ namespace Ricochet
           for (const auto &surface :
                surfaces.find(contact.against, contact.name_of("Against")))
             add_partners(surface);
-        ContactParameters::Scales scales{std::numeric_limits<double>::max(),
-                                         0.,
+        // Where no modulus is finite, nothing that follows from it is.
+        constexpr double          largest = std::numeric_limits<double>::max();
+        ContactParameters::Scales scales{largest,
+                                         largest,
                                          0.,
                                          sum / n,
                                          degree};

@@ -51,7 +51,18 @@ RING = ["Mesh/Nodes around=64", "Mesh/Nodes across=4", "Start/Initial gap=0.155"
 
 NO_FIELDS = ["Output/Fields every=0", "Output/Log every=0"]
 
+# Columns that are round-off by themselves, and counts that can differ by one where a
+# residual sits at the tolerance.
+NOISE = ("newton_iterations", "linear_solves", "balance_residual", "promise_residual",
+         "round_off")
+
 arguments = None
+
+
+def is_part_of_energy(name):
+    """Whether a column may be the round-off of energies: what is kept, and what contact
+    that keeps has made."""
+    return name == "total_energy" or name.startswith("contact_gain_")
 
 
 def program_path(program):
@@ -101,15 +112,23 @@ class ProgramTest(unittest.TestCase):
                                 cwd=ROOT)
         return result.returncode, result.stdout, result.stderr
 
-    def run_program(self, program, parameters=(), folder=None, **kwargs):
+    def run_program(self, program, parameters=(), folder=None, promise_off_by=None,
+                    **kwargs):
         """Run, insist on success, return the ledger. Whatever another test case
-        has left in the folder is overwritten."""
+        has left in the folder is overwritten. A promise that is known to be broken is
+        so by promise_off_by, within a factor of three."""
         folder = folder or self.folder / "run"
         if "--resume" not in kwargs.get("options", ()):
             kwargs["options"] = [*kwargs.get("options", ()), "--overwrite"]
         code, out, err = self.attempt(program, parameters, folder, **kwargs)
-        self.assertEqual(code, 0, msg=f"{program} {parameters}\n{out}\n{err}")
-        return Ledger(folder)
+        self.assertEqual(code, 4 if promise_off_by else 0,
+                         msg=f"{program} {parameters}\n{out}\n{err}")
+        ledger = Ledger(folder)
+        if promise_off_by:
+            residual = max(ledger["promise_residual"])
+            self.assertLess(residual, 3. * promise_off_by)
+            self.assertGreater(residual, promise_off_by / 3.)
+        return ledger
 
     def copy_of_shared_run(self, program, parameters):
         """A copy, in the folder "run" of this test, of a run that is made once for all

@@ -97,12 +97,12 @@ class ObstaclesAtRest(ProgramTest):
 class FoldingStrip(ProgramTest):
     """A strip that falls on its end buckles and touches itself, and the ground."""
 
-    def fall(self, treatment, *parameters):
+    def fall(self, treatment, *parameters, promise_off_by=None):
         return self.run_program(
             "obstacle_course",
             NO_FIELDS + ["Time/Final time=0.2",
                          f"Contact/Treatment={treatment}", *parameters],
-            prm=FILES / "folding_strip.prm")
+            prm=FILES / "folding_strip.prm", promise_off_by=promise_off_by)
 
     def test_balance_and_depth(self):
         for treatment in ("persistent contact", "Signorini active set"):
@@ -150,13 +150,16 @@ class FoldingStrip(ProgramTest):
     def test_shares_of_both_contacts(self):
         """What presses a node is the strip or the ground, here a plate that rises. The
         strip touches itself while it flies: nothing of that is the plate's."""
-        for treatment, parameters in (
-                ("persistent contact", []),
-                ("Signorini active set", []),
-                ("improved normal compliance", ["Contact/Compliance coefficient=1e9"])):
+        for treatment, parameters, promise_off_by in (
+                ("persistent contact", [], None),
+                ("Signorini active set", [], None),
+                # Two nodes are let go in a fold while they are pressed, and what they
+                # stored is lost.
+                ("improved normal compliance", ["Contact/Compliance coefficient=1e9"],
+                 2.7e-4)):
             with self.subTest(treatment):
                 ledger = self.fall(treatment, "Obstacle/Translation=0; 0.5*t",
-                                   *parameters)
+                                   *parameters, promise_off_by=promise_off_by)
                 self.assertLess(max(map(abs, ledger["balance_residual"])), 1e-10)
                 n_in_flight = 0
                 for k, of_plate in enumerate(ledger["contact_force_obstacle"]):

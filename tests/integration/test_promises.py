@@ -2,7 +2,12 @@
 """What contact treatments promise of the energy: kept where nodes meet nodes and ends meet
 ends, and a broken promise, a dropped point and a body that was gone through are told."""
 
+import sys
+import warnings
+
 from common import *
+
+sys.path.insert(0, str(ROOT / "python"))
 
 # Rows of equal blocks, whose nodes and ends meet, with gravity from the start.
 BLOCKS = """
@@ -159,10 +164,37 @@ end
                               r"'wrong_side', which keeps: in this step it has made \S+ J.*"
                               r"undeformed body 'disk'.*behind a facet: \d+")
         self.assertGreater(ledger["entered_points_wrong_side"][-1], 0.)
+        self.check_python_package(file)
         # All that the total gains is of this contact.
         gain = ledger["contact_gain_wrong_side"][-1]
         self.assertAlmostEqual(gain / (ledger["total_energy"][-1] -
                                        ledger["total_energy"][0]), 1., places=6)
+
+    def check_python_package(self, file):
+        try:
+            import ricochet
+        except ImportError:
+            return
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            run = ricochet.run(program_path("ricochet"), file,
+                               output=self.folder / "package")
+        self.assertTrue(run.is_open)
+        self.assertEqual([w.category for w in caught if w.category is ricochet.OpenRun],
+                         [ricochet.OpenRun])
+        self.assertGreater(run.summary().largest_promise_residual, 1e-3)
+
+    def test_the_documentation_has_the_table(self):
+        code, out, _ = self.attempt_without_folder("--promises")
+        self.assertEqual(code, 0)
+        page = (ROOT / "doc" / "methods" / "promises.md").read_text()
+        self.assertIn(out, page)
+        self.assertIn("| improved normal compliance | keeps |", out)
+
+    def attempt_without_folder(self, *words):
+        result = subprocess.run([program_path("ricochet"), *words], capture_output=True,
+                                text=True, timeout=60)
+        return result.returncode, result.stdout, result.stderr
 
     def test_what_is_dropped_is_counted(self):
         """A block slides off the end of another one: its nodes are let go while pressed."""
@@ -269,6 +301,17 @@ end
         self.assertLess(max(map(abs, ledger["balance_residual"])), 1e-7)
         for axis in "xy":
             self.assertEqual(set(ledger[f"hub_displacement_{axis}"]), {0.})
+
+    def test_a_wrong_stored_energy_is_noticed(self):
+        """With schemes of instants the work of the body's forces is integrated by itself:
+        the balance closes only if the stored energy belongs to them."""
+        for scheme in ("Crank-Nicolson", "TR-BDF2"):
+            with self.subTest(scheme=scheme):
+                ledger = self.run_program("hyperelastic_ring", RING + NO_FIELDS + [
+                    "Contact/Treatment=penalty", "Time/Final time=0.3",
+                    "Time/Mass=consistent", f"Time/Scheme={scheme}"])
+                self.assertGreater(max(ledger["elastic_energy"]), .05 * ledger["energy"][0])
+                self.assertLess(max(map(abs, ledger["balance_residual"])), 1e-9)
 
     def test_work_of_bodies_is_that_of_the_scheme(self):
         """Two linear blocks on cut faces: with each scheme what the bodies give to each

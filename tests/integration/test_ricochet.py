@@ -655,8 +655,9 @@ end
         self.scene(scene(steps=1))
         text = (self.folder / "scene" / "parameters.prm").read_text()
         log = (self.folder / "scene" / "log.txt").read_text()
-        self.assertIn("Contact brick at wall/Compliance coefficient = 1697", log)
-        self.assertRegex(text, r"set Compliance coefficient = 1697\d+\.\d+")
+        # Ten times (1 - nu) E / ((1 + nu) (1 - 2 nu)) over a cell: 1.346 times 1.697e8 Pa/m.
+        self.assertIn("Contact brick at wall/Compliance coefficient = 2284", log)
+        self.assertRegex(text, r"set Compliance coefficient = 2284\d+\.\d+")
 
 
 class BadScenes(Refusal):

@@ -148,7 +148,7 @@ BOOST_AUTO_TEST_CASE(round_off_does_not_open_a_balance)
   terms.round_off          = 6e-8;
   check.add(terms);
   BOOST_TEST(!check.is_open());
-  terms.balance = 1e-7;
+  terms.balance = 2e-7;
   check.add(terms);
   BOOST_TEST(check.is_open());
   BOOST_TEST(check.verdict().front().find("DOES NOT CLOSE") !=

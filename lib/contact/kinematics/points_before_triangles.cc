@@ -382,17 +382,18 @@ namespace Ricochet
     const unsigned int closest = walk(p, old, step.normal, x[0], facets);
     if (closest == old)
       return old;
-    // Where both gaps are the same but for so little that the energy does not notice,
-    // round-off would choose.
+    // Where both gaps are the same but for round-off, that would choose. The search at
+    // the beginning of the next step knows no such margin: what it is in gaps is an error
+    // of the energy.
     const auto   old_x  = corners(p, old, closest, old_positions);
     const auto   new_x  = corners(p, old, closest, now);
     const double change = Passing::difference(new_x);
-    if (std::abs(change) < 1e-10 * size)
+    if (std::abs(change) < 1e-13 * size)
       return old;
     const auto edge   = shared_edge(old, closest);
     const bool passes = edge
       ? Passing::past_edge(old_x, *edge) <= 1e-9 * size &&
-        Passing::past_edge(new_x, *edge) > 1e-8 * size
+        Passing::past_edge(new_x, *edge) > 1e-11 * size
       : Passing::difference(old_x) * change <= 0.;
     return passes ? closest : old;
   }

@@ -58,8 +58,8 @@ namespace Ricochet
       "the gap: the potential grows by no more than the work"};
     const EnergyPromise falls_by_complementarity = {
       Promise::never_gains,
-      "where there is pressure the gap is zero at the end of the step, so that its "
-      "increment is not positive"};
+      "where there is pressure the gap is zero at the end of the step, and was not "
+      "negative at its beginning, so that its increment is not positive"};
 
     template <typename Law>
     std::unique_ptr<ContactLaw>
@@ -238,6 +238,10 @@ namespace Ricochet
                  const unsigned int       mortar_dim)
   {
     const ContactLawTraits traits = find(parameters).traits;
+    if (scheme.needs_potential)
+      return {Promise::none,
+              "the time scheme " + scheme.name +
+                " keeps the total energy to its tolerance only"};
     if (!scheme.contact_over_step)
       return {
         Promise::none,
