@@ -137,8 +137,8 @@ def closed_streams(case, program):
     result = case.execute(words)
     if "2>" in close:
         # Nothing can be said; the exit code and the files must be right.
-        if result.code not in (0, 1, 2) or result.timed_out:
-            case.finding("exit code other than 0, 1, 2 with closed streams",
+        if result.code not in (0, 1, 2, 4) or result.timed_out:
+            case.finding("exit code other than 0, 1, 2, 4 with closed streams",
                          f"exit code {result.code}")
         case.codes.append(result.code)
     else:

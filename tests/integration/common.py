@@ -141,11 +141,13 @@ class ProgramTest(unittest.TestCase):
         shutil.copytree(cls.shared_run, self.folder / "run")
 
     def run_many(self, cases):
-        """Run (name, program, parameters) on two cores; yield (name, ledger)."""
+        """Run (name, program, parameters) on two cores; yield (name, ledger). A fourth
+        entry is promise_off_by of run_program()."""
         def run(numbered):
-            number, (name, program, parameters) = numbered
+            number, (name, program, parameters, *promise_off_by) = numbered
             return name, self.run_program(program, parameters,
-                                          self.folder / f"case-{number}")
+                                          self.folder / f"case-{number}",
+                                          *promise_off_by)
         with ThreadPoolExecutor(max_workers=2) as pool:
             yield from pool.map(run, enumerate(cases))
 

@@ -43,8 +43,7 @@ class CollidingSpheres(ProgramTest):
         if treatment in KEEP_MODIFIED_ENERGY:
             kept = [e + w for e, w in
                     zip(ledger["modified_energy"], ledger["friction_work"])]
-            # But for a node at the rim that turns until it faces its facet no longer
-            # (in one of the runs).
+            # But for the node at the rim.
             self.assertLess(largest([e - scale for e in kept]), 1e-4 * scale)
             self.assertLess(sorted(abs(b - a) for a, b in zip(kept, kept[1:]))[-2],
                             1e-9 * scale)
@@ -60,7 +59,10 @@ class CollidingSpheres(ProgramTest):
                   COARSE + OBLIQUE + NO_FIELDS + friction +
                   [f"Contact/Treatment={treatment}"] +
                   (["Contact/Compliance coefficient=1e7"]
-                   if treatment in COMPLIANT else []))
+                   if treatment in COMPLIANT else []),
+                  # A node at the rim turns until it faces its facet no longer, and what
+                  # it stored is lost.
+                  2.7e-5 if treatment == "Hauret-Le Tallec" and not friction else None)
                  for treatment in KEPT + PENALTIES
                  for friction in ([], FRICTION)
                  if not (treatment == "penalty" and friction)]

@@ -29,7 +29,7 @@ subsection Body ball
   set Shape = disk
   set Radius = 0.5
   set Nodes around = 16
-  set Translation = 0, 0.01
+  set Translation = 0.02, 0.01
   set Velocity = 0, -3
 end
 subsection Body brick

@@ -3,6 +3,7 @@
 materials, conditions, ranks, restart, and what is refused."""
 
 import math
+import unittest.mock
 
 from common import *
 from test_bad_input import Refusal
@@ -580,7 +581,11 @@ subsection Time
   set Final time = 0.2
 end
 """
-        ledger = self.scene(scene, "Contact middle/Augmentation=1e6")
+        # Which points go to and fro is decided by round-off, and with it whether one step
+        # is halved: with the kernels that OpenBLAS has for newer processors it is. The
+        # counts below are those of a kernel that all processors have.
+        with unittest.mock.patch.dict(os.environ, {"OPENBLAS_CORETYPE": "Nehalem"}):
+            ledger = self.scene(scene, "Contact middle/Augmentation=1e6")
         self.assertLess(sum(ledger["newton_iterations"]), 600)
         self.assertLess(largest(ledger["balance_residual"]), 1e-12)
         # Points that stay bring gaps of their own, which are small against that of the
