@@ -209,10 +209,10 @@ namespace Ricochet
 
     const std::vector<Material<dim>> materials;
     const MPI_Comm                   communicator;
-    double                           scale = 0., round_off = 0., energy_error = 0.;
-    unsigned int                     n_batches = 0;
-    unsigned int                     n_points  = 0;
-    unsigned int                     n_nodes   = 0;
+    double       scale = 0., round_off = 0., energy_error = 0.;
+    unsigned int n_batches = 0;
+    unsigned int n_points  = 0;
+    unsigned int n_nodes   = 0;
     // By cell.
     std::vector<dealii::Point<dim>> cell_centers;
     // By batch: the part, and the cells; the last batch of a part may have some twice,

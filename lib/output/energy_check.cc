@@ -122,10 +122,10 @@ namespace Ricochet
     // Against what is at rest, contacts have made what their potential has more than the
     // work of their forces: the same from the points and from the equations.
     if (is_promised && !obstacles_move && !terms.contact_gains.empty())
-      largest =
-        std::max(largest,
-                 std::abs(made - (terms.potential - first_potential -
-                                  terms.contact_work)));
+      largest = std::max(largest,
+                         std::abs(made -
+                                  (terms.potential - first_potential -
+                                   terms.contact_work)));
     if (is_promised)
       largest = std::max({largest,
                           most_friction - terms.friction_work,
@@ -171,7 +171,7 @@ namespace Ricochet
     if (!balance_closes)
       balance += " - THE ENERGY BALANCE DOES NOT CLOSE";
     else if (std::abs(worst_balance) > bound)
-      balance += " (closed: round-off in forces times displacements is " +
+      balance += " (closed: round-off alone may leave " +
         to_text(worst_balance_round_off) + ")";
     else
       balance += " (closed)";

@@ -500,9 +500,9 @@ namespace Ricochet
                     const StepReport &report,
                     const double      balance)
   {
-    const double modified = system.contact.has_modified_energy()
-      ? energies.total() + system.contact.potential(state.solution, state.time)
-      : std::numeric_limits<double>::quiet_NaN();
+    const double       modified = system.contact.has_modified_energy()
+            ? energies.total() + system.contact.potential(state.solution, state.time)
+            : std::numeric_limits<double>::quiet_NaN();
     EnergyCheck::Terms terms;
     terms.time    = state.time;
     terms.kinetic = energies.kinetic;

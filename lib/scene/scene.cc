@@ -512,11 +512,7 @@ namespace Ricochet
             add_partners(surface);
         // Where no modulus is finite, nothing that follows from it is.
         constexpr double          largest = std::numeric_limits<double>::max();
-        ContactParameters::Scales scales{largest,
-                                         largest,
-                                         0.,
-                                         sum / n,
-                                         degree};
+        ContactParameters::Scales scales{largest, largest, 0., sum / n, degree};
         for (const unsigned int p : partners)
           {
             const LinearElastic elastic = parts[p].material.at_small_strains();
