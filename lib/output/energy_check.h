@@ -14,8 +14,8 @@ namespace Ricochet
    * The check, in each row of the ledger, of what a run says of its energy: that the
    * balance of each step closes, and that contact treatments do to the total energy what
    * they promise (see EnergyPromise). Both are measured by the largest sum so far of the
-   * absolute values of energies and works, and may be off by #bound of it, and by what
-   * the arithmetic leaves.
+   * absolute values of energies and works, with a floor: what the arithmetic alone may
+   * leave, over #bound. So #bound is that of both, and round-off never opens a run.
    *
    * The rows are all that it looks at, so that a resumed run begins with those that
    * there are.
@@ -54,7 +54,7 @@ namespace Ricochet
     {
       /// J; not a number without a potential.
       double total = std::numeric_limits<double>::quiet_NaN();
-      /// Over the scale, what is left of the balance; how far the total is from what is
+      /// Over what they are measured by, what is left of the balance; how far the total is from what is
       /// promised or, if nothing is, by how much it has risen above its least value.
       double balance_residual = 0.,
              promise_residual = std::numeric_limits<double>::quiet_NaN();
@@ -73,7 +73,8 @@ namespace Ricochet
     Values
     add(const Terms &terms);
 
-    /// The scale of a row with these terms: that of the largest of all rows (J).
+    /// What the balance of the next row is measured by, with these terms: the largest sum
+    /// of all rows, and the floor of the arithmetic (J).
     double
     scale_with(const Terms &terms) const;
 
@@ -112,7 +113,7 @@ namespace Ricochet
     // Of all steps together, and of the last one (J).
     double round_off = 0., last_round_off = 0.;
     // The largest ones so far, and when.
-    double worst_balance = 0., worst_balance_round_off = 0.;
+    double worst_balance = 0.;
     double worst_promise = 0., time_of_worst_promise = 0.;
     bool   balance_closes = true, promise_is_broken = false;
     bool   has_total = false;
