@@ -443,21 +443,15 @@ namespace Ricochet
   std::vector<unsigned int>
   SurfacePair<dim>::crossing_points(const Vector &begin, const Vector &end)
   {
-    // What moves by less than a quarter of the smallest facet and the thinnest cell is
-    // seen by the search at its end.
-    const auto *from     = begin.trilinos_vector()[0],
-               *to       = end.trilinos_vector()[0];
-    double       longest = 0.;
-    const double n       = end.locally_owned_size();
-    for (unsigned int i = 0; i < n; ++i)
-      longest = std::max(longest, std::abs(to[i] - from[i]));
-    if (Utilities::MPI::max(longest, communicator) < .25 * smallest_thickness)
-      return {};
     const std::vector<Gaps> gaps_of_step = gaps;
     Positions               x0, x1;
     read(begin, x0);
     read(end, x1);
     gaps = gaps_of_step;
+    // What moves by less than a quarter of the smallest facet and the thinnest cell is
+    // seen by the search at its end.
+    if (longest_way(x0, x1) < .25 * smallest_thickness)
+      return {};
     // How far a facet can be from where it is at the end.
     double farthest = 0.;
     for (unsigned int n = 0; n < x0.master.size(); ++n)
