@@ -141,12 +141,10 @@ namespace Ricochet
                           most_viscosity - terms.viscous_dissipation});
     else
       largest = of_total;
-    values.promise_residual = relative(largest, scale + round_off / bound);
-    if (values.promise_residual >= worst_promise)
-      {
-        worst_promise         = values.promise_residual;
-        time_of_worst_promise = terms.time;
-      }
+    // Without a promise there is no bound that round-off might exceed.
+    values.promise_residual =
+      relative(largest, is_promised ? scale + round_off / bound : scale);
+    worst_promise         = std::max(worst_promise, values.promise_residual);
     const bool is_broken  = is_promised && !(values.promise_residual <= bound);
     values.breaks_promise = is_broken && !promise_is_broken;
     promise_is_broken     = promise_is_broken || is_broken;

@@ -54,8 +54,8 @@ namespace Ricochet
     {
       /// J; not a number without a potential.
       double total = std::numeric_limits<double>::quiet_NaN();
-      /// Over what they are measured by, what is left of the balance; how far the total is from what is
-      /// promised or, if nothing is, by how much it has risen above its least value.
+      /// Over what they are measured by: what is left of the balance; how far the total
+      /// is from what is promised or, if nothing is, its rise above its least value.
       double balance_residual = 0.,
              promise_residual = std::numeric_limits<double>::quiet_NaN();
       /// Whether this row is the first one that breaks the promise.
@@ -112,9 +112,8 @@ namespace Ricochet
     double              most_friction = 0., most_viscosity = 0.;
     // Of all steps together, and of the last one (J).
     double round_off = 0., last_round_off = 0.;
-    // The largest ones so far, and when.
-    double worst_balance = 0.;
-    double worst_promise = 0., time_of_worst_promise = 0.;
+    // The largest residuals so far.
+    double worst_balance = 0., worst_promise = 0.;
     bool   balance_closes = true, promise_is_broken = false;
     bool   has_total = false;
   };
