@@ -6,6 +6,42 @@
 
 namespace Ricochet
 {
+  namespace
+  {
+    /// Give the constraints of @p matrix, its rows that have an entry zero in the
+    /// diagonal, a compliance that is small beside that of the body. Constraints may be
+    /// redundant, as those of two held nodes at one place are: their multipliers are not
+    /// unique, and with the compliance that pair is found which is closest to the last
+    /// one. The equations stay as they are, so that this costs nothing but digits of the
+    /// tangent. @return whether there are constraints. Collective.
+    bool
+    soften_constraints(Matrix &matrix)
+    {
+      constexpr double relative_compliance = 1e-8;
+      double           stiffest            = 0.;
+      for (const auto row : matrix.locally_owned_range_indices())
+        stiffest = std::max(stiffest, std::abs(matrix.diag_element(row)));
+      stiffest = Utilities::MPI::max(stiffest, matrix.get_mpi_communicator());
+      unsigned int n_softened = 0;
+      for (const auto row : matrix.locally_owned_range_indices())
+        if (matrix.diag_element(row) == 0.)
+          {
+            double square = 0.;
+            for (auto entry = matrix.begin(row); entry != matrix.end(row);
+                 ++entry)
+              square += entry->value() * entry->value();
+            if (square == 0.)
+              continue;
+            matrix.set(row, row, -relative_compliance * square / stiffest);
+            ++n_softened;
+          }
+      matrix.compress(VectorOperation::insert);
+      return Utilities::MPI::max(n_softened, matrix.get_mpi_communicator()) > 0;
+    }
+  } // namespace
+
+
+
   void
   DirectSolver::factorise(const Tangent &tangent,
                           const bool     keep_pivots,
@@ -22,12 +58,15 @@ namespace Ricochet
       entry.factorisation = factorisations.make(false);
     const Stopwatch stopwatch(spent.factorising);
     ++spent.n_factorisations;
-    if (!entry.factorisation->factorise(entry.matrix, keep_pivots))
+    if (!entry.factorisation->factorise(entry.matrix, keep_pivots) &&
+        !(soften_constraints(entry.matrix) &&
+          (entry.factorisation = factorisations.make(false))
+            ->factorise(entry.matrix, false)))
       {
         entry.factorisation.reset();
         throw NewtonFailure(
           "The tangent matrix cannot be factored: it is singular. Is the "
-          "body held, or does it have inertia?");
+          "body held, or does it have inertia?\n");
       }
   }
 

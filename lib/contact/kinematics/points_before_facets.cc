@@ -46,15 +46,12 @@ namespace Ricochet
             point.cell_diameter = slave.facets[f].cell_diameter;
             point.boundary_id   = slave.facets[f].boundary_id;
             point.multipliers.fill(numbers::invalid_dof_index);
-            point.can_touch = false;
             if constexpr (dim == 1)
               point.nodes = {{slave.facets[f].nodes[0], 1.}};
             else
               point.nodes = {{slave.facets[f].nodes[0], 1. - rule.point(q)[0]},
                              {slave.facets[f].nodes[1], rule.point(q)[0]}};
-            for (const auto &node : point.nodes)
-              point.can_touch =
-                point.can_touch || !slave.nodes[node.first].is_held;
+            point.can_touch = this->may_touch(point);
             own_points.push_back(point);
           }
   }

@@ -102,7 +102,6 @@ namespace Ricochet
             point.cell_diameter = facet.cell_diameter;
             point.boundary_id   = facet.boundary_id;
             point.multipliers.fill(numbers::invalid_dof_index);
-            point.can_touch           = false;
             const auto  &xi           = rule.point(q);
             const double at_corner[3] = {1. - xi[0] - xi[1], xi[0], xi[1]};
             std::map<unsigned int, double> weight;
@@ -115,9 +114,7 @@ namespace Ricochet
                                        });
               }
             point.nodes.assign(weight.begin(), weight.end());
-            for (const auto &node : point.nodes)
-              point.can_touch =
-                point.can_touch || !slave.nodes[node.first].is_held;
+            point.can_touch = this->may_touch(point);
             own_points.push_back(point);
           }
       }

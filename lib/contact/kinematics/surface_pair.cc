@@ -60,6 +60,14 @@ namespace Ricochet
         "The contact '" + pair.name +
         "' has a boundary that is slave and master. A surface that "
         "may touch itself has to be said to do so.");
+    for (const auto &node : master.nodes)
+      master_moves = master_moves || !node.is_held;
+    if (!master_moves &&
+        std::all_of(slave.nodes.begin(),
+                    slave.nodes.end(),
+                    [](const auto &node) { return node.is_held; }))
+      throw InputError("The contact '" + pair.name +
+                       "' can do nothing: all nodes of its surfaces are held.");
     if (is_self)
       return;
     bool some_face = false;
@@ -145,9 +153,23 @@ namespace Ricochet
         {
           all[n].nodes       = {{n, 1.}};
           all[n].multipliers = slave.nodes[n].multipliers;
-          all[n].can_touch   = !slave.nodes[n].is_held;
+          all[n].can_touch   = may_touch(all[n]);
           own_points.push_back(all[n]);
         }
+  }
+
+
+
+  template <int dim>
+  bool
+  SurfacePair<dim>::may_touch(const Point &point) const
+  {
+    return master_moves ||
+      std::any_of(point.nodes.begin(),
+                  point.nodes.end(),
+                  [&](const auto &node) {
+                    return !slave.nodes[node.first].is_held;
+                  });
   }
 
 

@@ -58,7 +58,7 @@ namespace Ricochet
       dealii::types::boundary_id boundary_id   = 0;
       /// Multipliers of the node; invalid ones in quadrature points.
       std::array<Index, dim> multipliers;
-      /// Held nodes carry no contact.
+      /// See may_touch().
       bool can_touch = true;
     };
 
@@ -369,6 +369,11 @@ namespace Ricochet
     Position
     position_of(const Point &point, const std::vector<Position> &slave_x) const;
 
+    /// Whether the gap of @p point is not constant: that of held nodes in front of a
+    /// surface that is held as a whole is, and no pressure could change it.
+    bool
+    may_touch(const Point &point) const;
+
     const bool is_self;
     /// See leave_out_slip().
     bool                needs_slip = true;
@@ -406,6 +411,8 @@ namespace Ricochet
 
     const dealii::IndexSet owned;
     FacetPatches<dim>      patches;
+    /// Whether a node of the master is not held.
+    bool master_moves = false;
     /// No facet of the master is smaller, and no cell behind one is thinner (m).
     double smallest_thickness = 0.;
     /// Facets of the slave with a node or cell of this rank, in groups.
