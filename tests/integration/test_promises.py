@@ -302,6 +302,35 @@ end
         for axis in "xy":
             self.assertEqual(set(ledger[f"hub_displacement_{axis}"]), {0.})
 
+    def test_held_first_surfaces_touch(self):
+        """A block fell through a floor that is held as a whole and is the first surface of
+        the contact. It comes back with 1000 of 1000 J, whichever points the treatment
+        has; two nodes at one place between the pieces are one constraint twice."""
+        bodies = [block("block", "-0.5, 0.01", "0, -1", cells="3, 3"),
+                  block("ice", "-1, -0.5", size="1, 0.5", cells="4, 2"),
+                  block("tar", "0, -0.5", size="1, 0.5", cells="4, 2")]
+        held = FOOT.format(boundary="ice; tar")
+        floor = "ice: upper; tar: upper"
+        for treatment, coupling in (("Signorini active set", "points"),
+                                    ("persistent contact", "points"),
+                                    ("persistent contact", "mortar"),
+                                    ("Hauret-Le Tallec", "points")):
+            with self.subTest(treatment=treatment, coupling=coupling):
+                file = self.scene(bodies, [self.contact(treatment, floor, "block: lower")],
+                                  held, end=.12, step=4e-3)
+                ledger, _ = self.run_scene(
+                    file, parameters=(f"Contact joint/Coupling={coupling}",))
+                self.assertLess(max(ledger["promise_residual"]), 1e-9)
+                self.assertAlmostEqual(ledger["momentum_y_block"][0], -1000., places=6)
+                self.assertGreater(ledger["momentum_y_block"][-1], 300.)
+        held = FOOT.format(boundary="ice; tar; block")
+        file = self.scene(bodies, [self.contact("persistent contact", floor,
+                                                "block: lower")], held)
+        code, _, err = self.attempt("ricochet", prm=file, options=["--overwrite"])
+        self.assertEqual(code, 1, msg=err)
+        self.assertIn("The contact 'joint' can do nothing: all nodes of its surfaces are held",
+                      err)
+
     def test_a_wrong_stored_energy_is_noticed(self):
         """With schemes of instants the work of the body's forces is integrated by itself:
         the balance closes only if the stored energy belongs to them."""
