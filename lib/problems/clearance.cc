@@ -217,6 +217,30 @@ namespace Ricochet
         }
       return std::abs(angle) > 2. * numbers::PI ? distance : -distance;
     }
+
+
+
+    /// Where a body with this @p facet is looked for in others: in its nodes, in its
+    /// middle, as edges may cross with all nodes outside, and a little behind that, as
+    /// bodies at the same place have all their boundary in common.
+    template <int dim>
+    std::array<Point<dim>, dim + 2>
+    places_of(const ContactSurface<dim>                 &surface,
+              const typename ContactSurface<dim>::Facet &facet)
+    {
+      // A tenth of its height is inside of a cell that is skewed, too.
+      constexpr double                depth = .1;
+      std::array<Point<dim>, dim + 2> places;
+      Point<dim>                      middle;
+      for (unsigned int v = 0; v < dim; ++v)
+        {
+          places[v] = surface.nodes[facet.nodes[v]].reference_position;
+          middle += places[v] / static_cast<double>(dim);
+        }
+      places[dim]     = middle;
+      places[dim + 1] = middle - depth * facet.cell_height * facet.normal;
+      return places;
+    }
   } // namespace
 
 
@@ -251,22 +275,19 @@ namespace Ricochet
       for (const Facet &facet : surface.facets)
         if (pair.slave.count(facet.boundary_id) > 0 ||
             pair.master.count(facet.boundary_id) > 0)
-          for (const unsigned int node : facet.nodes)
+          for (const Point<dim> &x : places_of(surface, facet))
             for (const auto &[part, boundary] : boundary_of_part)
               {
-                if (part == facet.part)
+                if (part == facet.part || !box_of_part.at(part).point_inside(x))
                   continue;
-                const Point<dim> &x = surface.nodes[node].reference_position;
-                if (!box_of_part.at(part).point_inside(x))
-                  continue;
-                // Nodes may touch; a little is round-off.
+                // Surfaces may touch; a little is round-off.
                 const double depth = depth_inside(x, surface, boundary);
                 if (!(depth > 1e-6 * facet.cell_diameter))
                   continue;
                 std::string text;
                 for (unsigned int c = 0; c < dim; ++c)
                   text += (c == 0 ? "" : ", ") + to_text(x[c]);
-                throw InputError("At the start bodies overlap: the node at (" +
+                throw InputError("At the start bodies overlap: the point (" +
                                  text + ") m of the contact '" + pair.name +
                                  "' is " + to_text(depth) +
                                  " m inside another one. Move one of them "

@@ -32,8 +32,9 @@ namespace Ricochet
                   const bool         only_what_may_touch = false);
 
   /**
-   * No node of a surface of the @p pairs is within a cell of another body: parts do
-   * not overlap before any displacement; they may touch.
+   * No facet of a surface of the @p pairs has a node or its middle within another
+   * body, or a cell behind it: parts do not overlap before any displacement; they may
+   * touch.
    *
    * @throws InputError. Collective.
    */

@@ -2,12 +2,15 @@
 #include <base/exceptions.h>
 #include <base/units.h>
 #include <contact/obstacles/obstacle_shape.h>
+#include <contact/surfaces/closest_point.h>
 #include <problems/impact.h>
 #include <output/obstacle_surfaces.h>
 #include <scene/scene.h>
 
 #include <deal.II/grid/grid_out.h>
 #include <deal.II/grid/grid_tools.h>
+
+#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,8 +47,117 @@ namespace Ricochet
         lines.push_back("note: " + material.first.where +
                         ": nothing is made of the material '" +
                         material.first.name + "'.");
+    for (const PartOfScene &part : parts)
+      {
+        const MaterialParameters &material = part.material;
+        const BodySection<dim>   &body     = bodies[part.body];
+        const LinearElastic       small    = material.at_small_strains();
+        const double              poisson_ratio =
+          .5 * small.lambda / (small.lambda + small.mu);
+        // In plane stress the thickness gives way.
+        if (degree == 1 && poisson_ratio >= .49 &&
+            (dim == 3 || material.plane_state == "plane strain"))
+          lines.push_back(
+            "note: " + body.section.where + ": the body '" + part.name +
+            "' hardly changes its volume (its Poisson's ratio is " +
+            to_text(poisson_ratio) +
+            "), and cells of degree 1 are much too stiff for that (locking). "
+            "Mesh/Degree = 2 helps.");
+        // The strain of a rotation by 0.1 is 0.5 %.
+        const double angle = body.spin.norm() * impact.time.final_time;
+        if (material.law == "linear elastic" && angle > .1)
+          lines.push_back(
+            "note: " + body.section.where + ": the body '" + part.name +
+            "' turns by " + to_text(angle) +
+            " rad if nothing stops it, and a linear elastic body that turns "
+            "swells, as its strains are those of small rotations. Other laws "
+            "know no such bound.");
+      }
+    for (const ContactSection &contact : contacts)
+      for (const auto &[name, value] : contact.parameters.used_values())
+        if (name == "Tangential compliance")
+          lines.push_back(
+            "note: " + contact.section.where + ": friction of the treatment '" +
+            contact.parameters.treatment +
+            "' is regularised: what sticks creeps, with its tangential "
+            "traction over Tangential compliance (" +
+            to_text(value) +
+            " in the units of this file). Stick is exact with Signorini active "
+            "set, persistent contact and Ayyad-Barboteu two-step.");
     return lines;
   }
+
+
+
+  namespace
+  {
+    /// Faces of a mesh, of which the nearest one is looked for.
+    template <int dim>
+    class FacesAtRest
+    {
+    public:
+      /// A quadrilateral is four triangles, which meet in its middle, as in contact.
+      template <typename Face>
+      void
+      add(const Face &face)
+      {
+        const unsigned int n = face->n_vertices();
+        for (unsigned int v = 0; v < (n == 4 ? 4 : 1); ++v)
+          {
+            constexpr unsigned int  around[4] = {0, 1, 3, 2};
+            std::vector<Point<dim>> corners;
+            if (n == 4)
+              corners = {face->vertex(around[v]),
+                         face->vertex(around[(v + 1) % 4]),
+                         face->center()};
+            else
+              for (const unsigned int w : face->vertex_indices())
+                corners.push_back(face->vertex(w));
+            boxes.emplace_back(BoundingBox<dim>(corners), facets.size());
+            // An edge is a triangle without area.
+            facets.push_back({{in_space<dim>(corners[0]),
+                               in_space<dim>(corners[1]),
+                               in_space<dim>(corners.back())}});
+          }
+      }
+
+      /// Once all have been added.
+      void
+      sort()
+      {
+        tree = pack_rtree(boxes);
+      }
+
+      /// Of the nearest face from @p x, if it is nearer than @p largest; else that (m).
+      double
+      distance(const Point<dim> &x, const double largest) const
+      {
+        namespace index    = boost::geometry::index;
+        const auto from    = in_space<dim>(x);
+        double     nearest = largest;
+        for (auto box = tree.qbegin(
+               index::nearest(x, static_cast<unsigned int>(boxes.size())));
+             box != tree.qend();
+             ++box)
+          {
+            if (boost::geometry::distance(x, box->first) > nearest)
+              break;
+            const auto &[a, b, c] = facets[box->second];
+            const auto shares     = closest_in_triangle(from, a, b, c);
+            nearest               = std::min(
+              nearest,
+              (shares[0] * a + shares[1] * b + shares[2] * c - from).norm());
+          }
+        return nearest;
+      }
+
+    private:
+      using Box = std::pair<BoundingBox<dim>, std::size_t>;
+      std::vector<Box>                         boxes;
+      std::vector<std::array<Tensor<1, 3>, 3>> facets;
+      RTree<Box>                               tree;
+    };
+  } // namespace
 
 
 
@@ -57,7 +169,7 @@ namespace Ricochet
     double         smallest = std::numeric_limits<double>::infinity();
     if (touching.is_self)
       return smallest;
-    const auto for_each_vertex =
+    const auto for_each_face =
       [&](const std::vector<SurfaceNames::Surface> &list, const auto &action) {
         for (const auto &surface : list)
           for (const auto &cell :
@@ -65,8 +177,7 @@ namespace Ricochet
             for (const auto &face : cell->face_iterators())
               if (face->at_boundary() &&
                   surface.ids.count(face->boundary_id()) > 0)
-                for (const unsigned int v : face->vertex_indices())
-                  action(face->vertex(v), surface.body);
+                action(face);
       };
     if (!touching.obstacles.empty())
       {
@@ -74,27 +185,32 @@ namespace Ricochet
           {
             const auto obstacle =
               obstacles[i].second.make(impact.time.final_time);
-            for_each_vertex(touching.slave,
-                            [&](const Point<dim> &x, const unsigned int) {
-                              smallest =
-                                std::min(smallest,
-                                         obstacle->gap(in_space<dim>(x), 0.));
-                            });
+            for_each_face(touching.slave, [&](const auto &face) {
+              for (const unsigned int v : face->vertex_indices())
+                smallest =
+                  std::min(smallest,
+                           obstacle->gap(in_space<dim>(face->vertex(v)), 0.));
+            });
           }
         return smallest;
       }
-    // The distance of nodes: of facets it is a little less.
-    std::vector<Point<dim>> slaves;
-    for_each_vertex(touching.slave,
-                    [&](const Point<dim> &x, const unsigned int) {
-                      slaves.push_back(x);
-                    });
-    for_each_vertex(surfaces.find(contact.against, contact.name_of("Against")),
-                    [&](const Point<dim> &y, const unsigned int) {
-                      for (const Point<dim> &x : slaves)
-                        smallest = std::min(smallest, x.distance_square(y));
-                    });
-    return std::sqrt(smallest);
+    // Of the vertices of each surface from the facets of the other one; two edges in 3D
+    // may be nearer.
+    const std::array<std::vector<SurfaceNames::Surface>, 2> sides = {
+      {touching.slave,
+       surfaces.find(contact.against, contact.name_of("Against"))}};
+    for (const unsigned int side : {0, 1})
+      {
+        FacesAtRest<dim> faces;
+        for_each_face(sides[side], [&](const auto &face) { faces.add(face); });
+        faces.sort();
+        for_each_face(sides[1 - side], [&](const auto &face) {
+          for (const unsigned int v : face->vertex_indices())
+            smallest =
+              std::min(smallest, faces.distance(face->vertex(v), smallest));
+        });
+      }
+    return smallest;
   }
 
 

@@ -557,7 +557,7 @@ class BadBodies(ProgramTest):
 
     def test_overlap_at_the_start(self):
         self.refuse("colliding_disks",
-                    ["At the start bodies overlap: the node at (",
+                    ["At the start bodies overlap: the point (",
                      "of the contact 'disks'", "Move one of them away"],
                     "Disks/Distance=1.9")
 

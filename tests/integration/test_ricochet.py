@@ -815,6 +815,48 @@ end
         self.refuse("overlaps with the obstacle of the contact 'ball on floor'",
                     program="ricochet", prm=self.write(text))
 
+    def two_rectangles(self, sizes, places, cells=("3, 1", "3, 1"), more=("", "")):
+        """A scene of two bodies that may touch everywhere."""
+        text = "set Program = ricochet\nset Dimension = 2\n"
+        for name, size, place, along, own in zip("ab", sizes, places, cells, more):
+            text += (f"subsection Body {name}\n  set Shape = rectangle\n"
+                     f"  set Size = {size}\n  set Cells along = {along}\n"
+                     f"  set Translation = {place}\n{own}end\n")
+        return self.write(text + "subsection Contact touch\n  set Surface = a\n"
+                          "  set Against = b\nend\n")
+
+    def validate(self, file):
+        return subprocess.run([program_path("ricochet"), str(file), "--validate"],
+                              capture_output=True, text=True, cwd=ROOT)
+
+    def test_overlaps_that_no_node_shows(self):
+        """Bodies that cross, one body twice, and one that is smaller by 1e-9 began with the
+        energy of their overlap."""
+        self.refused_at_once()
+        for sizes, places, cells in (
+                (("3, 0.3", "0.3, 3"), ("-1.5, -0.15", "-0.15, -1.5"), ("3, 1", "1, 3")),
+                (("3, 0.3", "3, 0.3"), ("0, 0", "0, 0"), ("3, 1", "3, 1")),
+                (("3, 0.3", "2.999999998, 0.299999998"), ("0, 0", "1e-9, 1e-9"),
+                 ("3, 1", "3, 1"))):
+            with self.subTest(sizes=sizes):
+                result = self.validate(self.two_rectangles(sizes, places, cells))
+                self.assertEqual(result.returncode, 1, msg=result.stdout)
+                self.assertIn("At the start bodies overlap", result.stderr)
+
+    def test_gap_and_notes_at_the_start(self):
+        """The gap is that of facets, whose nodes are 1 m apart; cells that lock and a linear
+        elastic body that turns are named."""
+        self.refused_at_once()
+        lock = "  set Law = linear elastic\n  set Poisson ratio = 0.4995\n" \
+               "  set Plane state = plane strain\n"
+        turn = "  set Law = linear elastic\n  set Spin = 2\n"
+        result = self.validate(self.two_rectangles(
+            ("2, 1", "2, 1"), ("0, 0", "1, 1.0012"), ("1, 1", "1, 1"), (lock, turn)))
+        self.assertEqual(result.returncode, 0, msg=result.stderr)
+        for text in ("gap at the start 0.0012", "cells of degree 1 are much too stiff",
+                     "turns by 2 rad if nothing stops it"):
+            self.assertIn(text, result.stdout)
+
     def test_validate(self):
         self.refused_at_once()
         file = self.write(scene(steps=1))
