@@ -21,7 +21,11 @@ install_packages()
   [ -z "$missing" ] && return
   echo "Installing:$missing"
   local as_root=""
-  [ "$(id -u)" -eq 0 ] || as_root="sudo"
+  if [ "$(id -u)" -ne 0 ]; then
+    as_root="sudo"
+    command -v sudo >/dev/null ||
+      { echo "Installing them needs root, and there is no sudo." >&2; exit 1; }
+  fi
   $as_root apt-get update -qq
   $as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends $missing >/dev/null
@@ -44,10 +48,10 @@ configure()
   # A new folder is for a build from scratch; one that exists keeps its options.
   [ -e "$folder/CMakeCache.txt" ] || set -- "$@" -DRICOCHET_UNITY=ON
   # Debian's interpreter is the one that sees Debian's matplotlib and h5py.
+  mkdir -p "$folder"
   cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE="$type" "$@" \
-    -DPython3_EXECUTABLE=/usr/bin/python3 >"/tmp/ricochet-cmake-$$.log" ||
-    { cat "/tmp/ricochet-cmake-$$.log"; exit 1; }
-  rm -f "/tmp/ricochet-cmake-$$.log"
+    -DPython3_EXECUTABLE=/usr/bin/python3 >"$folder/configure.log" ||
+    { cat "$folder/configure.log"; exit 1; }
 }
 
 # build NAME [OPTION...]: configure and build.

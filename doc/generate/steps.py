@@ -118,6 +118,7 @@ def _own_text(step: Step) -> tuple[str, str]:
     content = path.read_text(encoding="utf-8")
     content = re.sub(r"\A<!--.*?-->\s*(# [^\n]*\n)?", "", content, flags=re.DOTALL)
     content = text.with_includes(content, step.page)
+    content = text.with_pictures(content, step.page, path.parent.name)
     before, heading, exercises = content.partition("## Exercises\n")
     return (
         text.headings_from(before.strip(), 3),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/child_process.h>
 #include <base/exceptions.h>
+#include <base/read_only_thread.h>
 
 #include <algorithm>
 #include <array>
@@ -124,6 +125,12 @@ namespace Ricochet
     while (waitpid(child, &status, 0) < 0 && errno == EINTR)
       ;
 
+    if (WIFSIGNALED(status) && WTERMSIG(status) == forbidden_call)
+      throw InputError(
+        who +
+        " was to start a program, or to write or remove a file, which a script of "
+        "geometry may not do here. If you trust it, run it by itself and name the "
+        "mesh that it makes.");
     if (WIFSIGNALED(status))
       throw InputError(who + " crashed (" + strsignal(WTERMSIG(status)) + ").");
     switch (WEXITSTATUS(status))

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <cctype>
 #include <iostream>
 
 namespace Ricochet
@@ -29,6 +30,18 @@ namespace Ricochet
         }
       return false;
     }
+    /// Whether random numbers are asked for: rand() or rand_seed().
+    bool
+    is_random(const std::string &text)
+    {
+      for (std::size_t i = text.find("rand"); i != std::string::npos;
+           i             = text.find("rand", i + 1))
+        if (i == 0 ||
+            (!std::isalnum(static_cast<unsigned char>(text[i - 1])) &&
+             text[i - 1] != '_'))
+          return true;
+      return false;
+    }
   } // namespace
 
 
@@ -38,6 +51,12 @@ namespace Ricochet
                            const std::string              &what,
                            const bool                      of_time)
   {
+    for (const std::string &text : texts)
+      if (is_random(text))
+        throw InputError("One of the expressions of " + what +
+                         " has random numbers, with which no run could be "
+                         "repeated or resumed: " +
+                         text);
     auto new_parser = std::make_shared<dealii::FunctionParser<3>>(texts.size());
     // deal.II prints what it does not understand; we say it in a sentence.
     std::streambuf *const terminal = std::cerr.rdbuf(nullptr);

@@ -5,8 +5,8 @@
 
 #include <deal.II/base/utilities.h>
 
-#include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -41,7 +41,7 @@ namespace Ricochet
       return text;
     }
 
-    /// ParameterHandler escapes blanks and special characters in its JSON keys
+    /// ParameterHandler escapes blanks and special characters in its XML names
     /// as "_20" and the like.
     std::string
     unescape(const std::string &key)
@@ -82,13 +82,14 @@ namespace Ricochet
     Declarations
     declarations_of(const dealii::ParameterHandler &parameters)
     {
-      std::ostringstream json;
-      parameters.print_parameters(json, dealii::ParameterHandler::JSON);
-      std::istringstream          in(json.str());
+      // In its JSON a dot in a name is taken for the end of a section.
+      std::ostringstream xml;
+      parameters.print_parameters(xml, dealii::ParameterHandler::XML);
+      std::istringstream          in(xml.str());
       boost::property_tree::ptree tree;
-      boost::property_tree::read_json(in, tree);
+      boost::property_tree::read_xml(in, tree);
       Declarations declarations;
-      collect(tree, {}, declarations);
+      collect(tree.get_child("ParameterHandler"), {}, declarations);
       return declarations;
     }
 
@@ -208,9 +209,27 @@ namespace Ricochet
     /// What reading a file and those that it includes carries along.
     struct Reading
     {
+      // Far more than anybody writes; files may include each other twice each.
+      static constexpr std::size_t max_depth = 100, max_files = 1000,
+                                   max_bytes = 1 << 24;
+
       std::vector<std::string> open_files;
+      std::size_t              n_files = 0, n_bytes = 0;
       ParameterText            text;
     };
+
+    /// @throws InputError where a name has the sign that is between names in messages
+    /// and on the command line.
+    void
+    check_name(const std::string &name, const std::string &where)
+    {
+      const std::size_t slash = name.find('/');
+      if (slash != std::string::npos)
+        throw InputError(where + ": the name '" + shortened(name) +
+                         "' has a '/'. What is in a section is set between "
+                         "'subsection " +
+                         shortened(name.substr(0, slash)) + "' and 'end'.");
+    }
 
     void
     read(const std::string &file_name,
@@ -235,10 +254,17 @@ namespace Ricochet
                     canonical) != reading.open_files.end())
         refuse("includes itself");
       reading.open_files.push_back(canonical);
+      if (reading.open_files.size() > Reading::max_depth)
+        refuse("is included by more than " +
+               std::to_string(Reading::max_depth) + " files in each other");
+      if (++reading.n_files > Reading::max_files)
+        refuse("is one of more than " + std::to_string(Reading::max_files) +
+               " that are included");
       std::string text;
       try
         {
-          text = read_file(file_name, /* largest size */ 1 << 24);
+          text = read_file(file_name, Reading::max_bytes - reading.n_bytes);
+          reading.n_bytes += text.size();
         }
       catch (const InputError &problem)
         {
@@ -251,8 +277,10 @@ namespace Ricochet
       const std::string  folder = fs::path(file_name).parent_path().string();
       std::istringstream in(text);
       Path               section;
-      std::string        line;
-      unsigned int       line_number = 0;
+      // Where it was opened.
+      std::vector<std::string> opened;
+      std::string              line;
+      unsigned int             line_number = 0;
       while (std::getline(in, line))
         {
           ++line_number;
@@ -276,6 +304,7 @@ namespace Ricochet
           if (keyword == "subsection" && !rest.empty())
             {
               section.push_back(rest);
+              opened.push_back(where);
               if (section.size() > 10)
                 throw InputError(where +
                                  ": more than ten subsections in each other.");
@@ -286,6 +315,7 @@ namespace Ricochet
               if (section.empty())
                 throw InputError(where + ": this 'end' closes no subsection.");
               section.pop_back();
+              opened.pop_back();
             }
           else if (keyword == "include" && !rest.empty())
             {
@@ -299,6 +329,7 @@ namespace Ricochet
             {
               const std::size_t equal = rest.find('=');
               Path              path  = section;
+              check_name(trim(rest.substr(0, equal)), where);
               path.push_back(trim(rest.substr(0, equal)));
               reading.text.assignments.push_back(
                 {path, trim(rest.substr(equal + 1)), where, folder});
@@ -311,7 +342,7 @@ namespace Ricochet
                              "starts with '#'.");
         }
       if (!section.empty())
-        throw InputError(file_name + ": subsection '" +
+        throw InputError(opened.back() + ": the subsection '" +
                          shortened(join(section)) +
                          "' is never closed with 'end'.");
       reading.open_files.pop_back();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/last_meeting.h>
 #include <base/parameter_file.h>
 #include <base/program.h>
 #include <base/threads.h>
@@ -346,12 +347,15 @@ namespace Ricochet
     // A stack trace in an assertion helps nobody who runs a finished program.
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
 
+    const LastMeeting meeting;
     const auto report = [&](const std::string &kind, const std::string &text) {
-      if (is_root)
+      const bool all_failed = LastMeeting::is_complete();
+      if (is_root || !all_failed)
         std::cerr << "\n"
                   << program.name << ": " << kind << "\n"
                   << text << "\n"
                   << std::endl;
+      return all_failed;
     };
     // Possibly on one rank only: the others must not wait for ever.
     const auto stop_all_ranks = [](const int code) {
@@ -374,14 +378,15 @@ namespace Ricochet
       }
     catch (const InputError &error)
       {
-        // Thrown alike on all ranks.
-        report("the input is not valid.", error.what());
-        return 1;
+        return report("the input is not valid.", error.what())
+          ? 1
+          : stop_all_ranks(1);
       }
     catch (const ComputationError &error)
       {
-        report("the computation stopped.", error.what());
-        return 2;
+        return report("the computation stopped.", error.what())
+          ? 2
+          : stop_all_ranks(2);
       }
     catch (const std::bad_alloc &)
       {

@@ -85,6 +85,12 @@ namespace Ricochet
                            const bool         may_be_empty)
   {
     AssertThrow(row_list.empty(), ExcMessage("Columns come before rows."));
+    for (const Column &column : column_list)
+      if (column.name == name)
+        throw InputError("The table of energies would have two columns '" +
+                         name +
+                         "'. Give the body, contact or probe that it is of "
+                         "another name.");
     column_list.push_back({name, unit, may_be_empty});
     return column_list.size() - 1;
   }

@@ -2,6 +2,7 @@
 #include <base/child_process.h>
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
+#include <base/read_only_thread.h>
 #include <problems/gmsh_element_types.h>
 #include <problems/gmsh_file_check.h>
 #include <problems/gmsh_mesh.h>
@@ -42,7 +43,8 @@ namespace Ricochet
     {
       GmshSession()
       {
-        gmsh::initialize();
+        // Without the files in the user's home, which would make other meshes.
+        gmsh::initialize(0, nullptr, false);
         // Gmsh keeps quiet, and its random numbers begin the same each time.
         gmsh::option::setNumber("General.Terminal", 0);
         gmsh::option::setNumber("General.NumThreads", 1);
@@ -373,6 +375,19 @@ namespace Ricochet
 
 
 
+    /// Gmsh reads options beside a file without a word. @throws InputError
+    void
+    refuse_options_beside(const std::string &file_name)
+    {
+      const std::string options = file_name + ".opt";
+      if (std::filesystem::exists(options))
+        throw InputError("Beside '" + file_name + "' lies '" + options +
+                         "', which Gmsh would follow without a word. Write "
+                         "its options into the geometry, and remove it.");
+    }
+
+
+
     /// Write Gmsh's mesh into @p msh_file, which may have any name, while Gmsh wants one
     /// that ends with .msh. It takes a moment only, in which nothing interrupts this
     /// process: a run that is killed leaves no files behind.
@@ -432,6 +447,8 @@ namespace Ricochet
     const bool       is_curved = check_gmsh_file(file_name, dim) == 2;
     Description<dim> mesh;
     if (is_curved)
+      refuse_options_beside(file_name);
+    if (is_curved)
       mesh =
         with_gmsh<Description<dim>>("read the mesh '" + file_name + "'", [&]() {
           gmsh::open(file_name);
@@ -486,8 +503,21 @@ namespace Ricochet
         std::istringstream words(line);
         unsigned int       group_dim = 0, number = 0;
         const std::size_t  begin = line.find('"'), end = line.rfind('"');
-        if (words >> group_dim >> number && group_dim == dim && begin < end)
-          groups[line.substr(begin + 1, end - begin - 1)] = number;
+        if (!(words >> group_dim >> number) || group_dim != dim || begin >= end)
+          continue;
+        const std::string name = line.substr(begin + 1, end - begin - 1);
+        if (!groups.emplace(name, number).second)
+          throw InputError("The mesh file '" + file_name +
+                           "' has two physical groups of one dimension with "
+                           "the name '" +
+                           name + "', " + std::to_string(groups[name]) +
+                           " and " + std::to_string(number) + ".");
+        if (name.find_first_not_of("0123456789") == std::string::npos &&
+            name != std::to_string(number))
+          throw InputError("The mesh file '" + file_name +
+                           "' calls its physical group " +
+                           std::to_string(number) + " '" + name +
+                           "', which is the number of another one.");
       }
     return groups;
   }
@@ -500,7 +530,8 @@ namespace Ricochet
                        const unsigned int dim,
                        const double       mesh_size)
   {
-    const auto convert = [&]() {
+    // A geometry is a script, and may be a stranger's.
+    const auto make_mesh = [&]() {
       if (mesh_size > 0.)
         for (const std::string bound : {"Min", "Max"})
           gmsh::option::setNumber("Mesh.MeshSize" + bound, mesh_size);
@@ -536,8 +567,14 @@ namespace Ricochet
           gmsh::model::addPhysicalGroup(dim - 1,
                                         {entity.second},
                                         entity.second);
+    };
+    const auto convert = [&]() {
+      run_read_only(make_mesh);
       gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
       gmsh::option::setNumber("Mesh.Binary", 0);
+      // Scripts can ask for files to be left at the end.
+      for (const std::string file : {"Options", "Session"})
+        gmsh::option::setNumber("General.Save" + file, 0);
       write_msh(msh_file);
       return true;
     };
@@ -579,6 +616,7 @@ namespace Ricochet
                        ".stp.");
     if (!fs::exists(file_name))
       throw InputError("The mesh file '" + file_name + "' does not exist.");
+    refuse_options_beside(file_name);
     const MemoryFile file;
     try
       {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/last_meeting.h>
 #include <base/parameter_file.h>
 #include <output/checkpoint.h>
 #include <problems/time_loop.h>
@@ -962,6 +963,9 @@ namespace Ricochet
       }
     catch (const ComputationError &failure)
       {
+        // What failed on this rank only cannot be saved together.
+        if (!LastMeeting::is_complete())
+          throw;
         // A step that was not completed leaves no trace.
         const std::string text = failure.what();
         throw ComputationError(

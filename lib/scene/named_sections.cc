@@ -30,6 +30,13 @@ namespace Ricochet
       return text;
     }
 
+    /// Of "file.prm, line 3".
+    std::string
+    file_of(const std::string &where)
+    {
+      return where.substr(0, where.rfind(", line "));
+    }
+
     bool
     is_good_name(const std::string &name)
     {
@@ -86,8 +93,16 @@ namespace Ricochet
                            ": 'itself' means something else in contacts; "
                            "choose another name than '" +
                            full + "'.");
-        if (!known.emplace(full, section.where).second)
-          continue;
+        const auto [first, is_first] = known.emplace(full, section.where);
+        if (!is_first)
+          {
+            if (file_of(first->second) == file_of(section.where))
+              throw InputError(
+                section.where + ": '" + full + "' is there already, in " +
+                first->second +
+                ". Give one of both another name, or put them together.");
+            continue;
+          }
         const NamedSection found{kind, name, section.where};
         const auto [other, is_new] =
           columns.emplace(kind + " " + found.column_name(), full);

@@ -32,12 +32,13 @@ namespace Ricochet
 
   /**
    * The named sections of @p text, each once, in the order in which they appear first.
+   * A file may go on with a section of one that it includes.
    *
    * @param kinds of sections with names.
    * @param plain other sections.
    * @throws InputError for a section of neither kind, with the nearest names; for a
    * name that is missing or has characters that mean something else; and for two names
-   * of one kind that differ by blanks and underscores only.
+   * of one kind in one file that are the same or differ by blanks and underscores only.
    */
   std::vector<NamedSection>
   find_named_sections(const ParameterText            &text,

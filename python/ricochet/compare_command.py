@@ -43,7 +43,7 @@ from .programs import (
     Task,
     check_many,
     choices_of,
-    find_program,
+    find_program_of_file,
     parameters_of,
     run_tasks,
 )
@@ -198,7 +198,7 @@ def compare(options: argparse.Namespace) -> Comparison:
             f"The parameter file '{options.case}' does not name its program: it needs a line "
             "'set Program = NAME'."
         )
-    program = find_program(text.values["Program"], options.programs)
+    program = find_program_of_file(text.values["Program"], options.programs)
     section = prm.contact_sections(text)[0]
     check_names(program, options.case, f"{section}/Treatment", options.treatments)
     check_names(program, options.case, "Time/Scheme", options.schemes)

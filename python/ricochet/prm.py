@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import pathlib
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
@@ -12,6 +13,12 @@ from .errors import BadParameterFile
 
 #: Sections that say what is written and how hard the solvers try, not what is computed.
 ASIDE = ("Output/", "Limits/", "Linear solver/", "Newton/")
+
+#: What is taken off both ends of words.
+BLANKS = " \t\r\n\f\v"
+
+#: Files that include each other, and all of them, as in the programs.
+MOST_DEEP, MOST_FILES = 100, 1000
 
 
 @dataclass
@@ -28,11 +35,13 @@ class ParameterText:
 
 def _statements(text: str) -> Iterator[tuple[int, str]]:
     """Numbers and texts of the lines, without comments, continued lines joined."""
-    lines = iter(enumerate(text.lstrip("\ufeff").splitlines(), start=1))
+    # As the programs read it: other signs that end lines elsewhere, such as form feeds,
+    # would make settings of comments.
+    lines = iter(enumerate(text.lstrip("\ufeff").split("\n"), start=1))
     for number, line in lines:
-        line = line.split("#", 1)[0].strip()
+        line = line.split("#", 1)[0].strip(BLANKS)
         while line.endswith("\\"):
-            line = line[:-1] + next(lines, (0, ""))[1].split("#", 1)[0].strip()
+            line = line[:-1] + next(lines, (0, ""))[1].split("#", 1)[0].strip(BLANKS)
         if line:
             yield number, line
 
@@ -54,8 +63,13 @@ def _read(
     """Add what stands in a file; `origin` is the line that includes it."""
     if path.resolve() in open_files:
         raise BadParameterFile(f"{origin}the parameter file '{path}' includes itself.")
+    if len(open_files) >= MOST_DEEP or len(result.files) >= MOST_FILES:
+        raise BadParameterFile(
+            f"{origin}the parameter file '{path}' is one of more than {MOST_DEEP} in each other, "
+            f"or of {MOST_FILES} in all."
+        )
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_bytes().decode("utf-8")
     except FileNotFoundError:
         raise BadParameterFile(f"{origin}the parameter file '{path}' does not exist.") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -68,7 +82,7 @@ def _read(
     section: list[str] = []
     for number, line in _statements(text):
         here = f"{path}, line {number}: "
-        keyword, rest = (line.split(None, 1) + [""])[:2]
+        keyword, rest = ([*re.split("[ \t]+", line, maxsplit=1), ""])[:2]
         if keyword == "subsection" and rest:
             section.append(rest)
             if "/".join(section) not in result.sections:
@@ -79,7 +93,7 @@ def _read(
             _read(path.parent / rest, here, open_files, result)
         elif keyword == "set" and "=" in rest:
             name, _, value = rest.partition("=")
-            result.values["/".join([*section, name.strip()])] = value.strip()
+            result.values["/".join([*section, name.strip(BLANKS)])] = value.strip(BLANKS)
         else:
             raise BadParameterFile(f"{here}cannot make sense of '{line[:120]}'.")
     if section:

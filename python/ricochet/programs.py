@@ -24,6 +24,22 @@ from .results import Run
 #: Where the programs of a checkout are built.
 BUILD = pathlib.Path(__file__).resolve().parents[2] / "build" / "release"
 
+#: The programs that a parameter file may name.
+NAMES = (
+    "ricochet",
+    "bar_sd",
+    "bar_ss",
+    "elastic_ball",
+    "hyperelastic_ring",
+    "sphere",
+    "stent_artery",
+    "sliding_block",
+    "obstacle_course",
+    "colliding_disks",
+    "colliding_spheres",
+    "colliding_tori",
+)
+
 #: The environment of a run that shares the cores with others: it takes one.
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
 
@@ -58,6 +74,21 @@ def find_program(program: PathLike, programs: PathLike | None = None) -> pathlib
     raise RicochetError(
         f"There is no program '{path}'. Build the project, or name the folder with the programs."
     )
+
+
+def find_program_of_file(name: str, programs: PathLike | None = None) -> pathlib.Path:
+    """The file of the program that a parameter file names, which may be a stranger's: a
+    program of Ricochet, or one that lies in the folder that the user has named.
+
+    Raises:
+        RicochetError: there is no such program, or the name is none.
+    """
+    if name not in NAMES and (programs is None or not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name)):
+        raise RicochetError(
+            f"'{name[:60]}' is no program of Ricochet; those are {', '.join(NAMES)}. One of your "
+            "own is named by a word, and its folder by --programs."
+        )
+    return find_program(name, programs)
 
 
 def _settings(overrides: Overrides | None) -> list[str]:

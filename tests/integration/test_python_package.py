@@ -221,6 +221,16 @@ class PythonPackage(ProgramTest):
         file.write_text("include mine.prm\n")
         with self.assertRaisesRegex(ricochet.BadParameterFile, "line 1: .* includes itself"):
             prm.read(file)
+        # Signs that end a line for Python, but not for the programs, end no comment.
+        file.write_text("# note\x0cset Program = bash\n# \u2028set X = 1\nset Y = 2\x85\r\n",
+                        encoding="utf-8")
+        self.assertEqual(prm.read(file).values, {"Y": "2\x85"})
+        # Each file includes the next one twice.
+        for k in range(20):
+            (self.folder / f"{k}.prm").write_text(f"include {k + 1}.prm\n" * 2)
+        (self.folder / "20.prm").write_text("set Z = 1\n")
+        with self.assertRaisesRegex(ricochet.BadParameterFile, "one of more than"):
+            prm.read(self.folder / "0.prm")
         # What is written is read as it was.
         file.write_text(prm.write(text.values))
         self.assertEqual(prm.read(file).values, text.values)
@@ -379,6 +389,19 @@ end
             self.assertIn(f"There is no {wrong}. The nearest valid name is '{nearest}'", error)
             self.assertEqual(out, "")
             self.assertFalse((self.folder / "misspelt").exists())
+
+    def test_compare_runs_our_programs_only(self):
+        """A parameter file may be a stranger's: what it names is not run for that."""
+        own = self.folder / "evil"
+        own.write_text(f"#!/bin/sh\ntouch {self.folder}/was_run\n")
+        own.chmod(0o755)
+        for name in ("bash", str(own), "../evil", "true"):
+            case = self.folder / "hostile.prm"
+            case.write_text(f"set Program = {name}\n")
+            code, _, error = self.script("ricochet-compare", case)
+            self.assertEqual(code, 2, msg=error)
+            self.assertIn("is no program of Ricochet; those are ricochet, bar_sd", error)
+        self.assertFalse((self.folder / "was_run").exists())
 
     def test_compare_without_a_file(self):
         code, _, error = self.script("ricochet-compare", self.folder / "none.prm")

@@ -809,6 +809,91 @@ end
         self.assertAlmostEqual(ledger["momentum_x"][-1] / ledger["momentum_x"][0],
                                -1., delta=.7)
 
+    def test_names_with_all_signs(self):
+        """Names with _ and . ended with "an error that should not happen"."""
+        self.refused_at_once()
+        text = scene(steps=1)
+        for old, new in (("Contact ball on floor", "Contact on_the.floor-2"),
+                         ("Obstacle floor", "Obstacle bar_CD.20"), ("= floor", "= bar_CD.20")):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        result = self.validate(self.write(text))
+        self.assertEqual(result.returncode, 0, msg=result.stderr)
+        self.assertIn("Contact on_the.floor-2: persistent contact", result.stdout)
+
+    def test_what_is_said_twice_or_without_end(self):
+        """Each was read as something else without a word, or never ended."""
+        self.refused_at_once()
+        self.refuse_scene("", "subsection Obstacle floor\n  set Shape = half space\nend\n",
+                          "'Obstacle floor' is there already, in ")
+        self.refuse_scene("", "set Time/Final time = 1\n",
+                          "line 1: the name 'Time/Final time' has a '/'", "'subsection Time'")
+        self.refuse_scene("", "subsection Time\n", "line 1: the subsection", "never closed")
+        self.refuse_scene("", "subsection Condition push\n  set Boundary = ball\n"
+                          "  set Kind = traction\n  set Value = rand(); 0\nend\n",
+                          "has random numbers")
+        for k in range(20):
+            (self.folder / f"{k}.prm").write_text(f"include {k + 1}.prm\n" * 2)
+        (self.folder / "20.prm").write_text("\n")
+        self.refuse_scene("", f"include {self.folder}/0.prm\n",
+                          "is one of more than 1000 that are included")
+        for k in range(120):
+            (self.folder / f"{k}.prm").write_text(f"include {k + 1}.prm\n")
+        self.refuse_scene("", f"include {self.folder}/0.prm\n",
+                          "is included by more than 100 files in each other")
+
+    def test_geometries_can_only_read(self):
+        """A geometry is a script of Gmsh, and ran commands and wrote files already with
+        --validate; options beside it, or in the user's home, made another mesh."""
+        self.refused_at_once()
+        text = BLOCK.replace("  set Shape       = rectangle\n", "  set File = plate.geo\n")
+        text = text.replace("  set Size        = 2, 1\n  set Cells along = 4, 2\n", "")
+        plate = 'SetFactory("OpenCASCADE");\nRectangle(1) = {0, 0, 0, 2, 1};\n'
+        mark = self.folder / "mark"
+        options = self.folder / "plate.geo.opt"
+        for script, message in (
+                (f'SystemCall "touch {mark}";\n', "a script of geometry may not do"),
+                (f'NonBlockingSystemCall "touch {mark}";\n', "may not do"),
+                (f'Printf("hello") > "{mark}";\n', "may not do"),
+                (f'Mesh 2; Save "{mark}.msh";\n', "may not do"),
+                ('Physical Curve("end", 1) = {1}; Physical Curve("end", 2) = {2};\n'
+                 'Physical Curve("end", 3) = {3};\n', None),
+                ('Physical Curve("2", 1) = {1}; Physical Curve("right", 2) = {2};\n',
+                 "calls its physical group 1 '2'")):
+            with self.subTest(script=script):
+                (self.folder / "plate.geo").write_text(plate + script)
+                result = self.validate(self.write(text))
+                if message:
+                    self.assertEqual(result.returncode, 1, msg=result.stdout)
+                    self.assertIn(message, " ".join(result.stderr.split()))
+                self.assertEqual(list(self.folder.glob("mark*")), [])
+        (self.folder / "plate.geo").write_text(plate)
+        home = self.folder / "home"
+        home.mkdir()
+        (home / ".gmshrc").write_text("Mesh.MeshSizeMax = 0.02;\n")
+        (home / ".gmsh-options").write_text("Mesh.MeshSizeMax = 0.02;\n")
+        file = self.write(text)
+        at_home = subprocess.run([program_path("ricochet"), str(file), "--validate"],
+                                 capture_output=True, text=True, cwd=ROOT,
+                                 env={**os.environ, "HOME": str(home)})
+        self.assertEqual(at_home.stdout, self.validate(file).stdout)
+        options.write_text("Mesh.MeshSizeMax = 0.02;\n")
+        refused = self.validate(file)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("which Gmsh would follow without a word", refused.stderr)
+
+    def test_what_fails_on_one_rank_ends_all(self):
+        """A load that is no number at one end of a block left the other ranks waiting for
+        ever."""
+        text = BLOCK + ("subsection Condition push\n  set Boundary = block: left\n"
+                        "  set Kind = traction\n"
+                        "  set Value = sqrt(0.1 - t); 0\nend\n")
+        for n_ranks in (1, 3):
+            code, out, err = self.attempt("ricochet", prm=self.write(text),
+                                          n_ranks=n_ranks, options=["--overwrite"])
+            self.assertEqual(code, 2, msg=out + err)
+            self.assertIn("Condition push/Value is not finite at t = ", err)
+
     def test_overlap(self):
         self.refused_at_once()
         text = scene(steps=1).replace("set Centre = 0, -0.6", "set Centre = 0, -0.4")

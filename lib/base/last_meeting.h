@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_base_last_meeting_h
+#define ricochet_base_last_meeting_h
+
+#include <mpi.h>
+
+#include <chrono>
+#include <thread>
+
+namespace Ricochet
+{
+  /**
+   * Ranks that end with an error. It is thrown alike on all of them, except where what a
+   * user gives fails in one place only, such as an expression: then the others wait for a
+   * message that never comes, and nothing may be done together any more. One object lives
+   * as long as a program runs.
+   */
+  class LastMeeting
+  {
+  public:
+    /// Collective.
+    LastMeeting()
+    {
+      MPI_Comm_dup(MPI_COMM_WORLD, &communicator);
+      current = this;
+    }
+
+    ~LastMeeting()
+    {
+      current = nullptr;
+      MPI_Comm_free(&communicator);
+    }
+
+    LastMeeting(const LastMeeting &) = delete;
+    LastMeeting &
+    operator=(const LastMeeting &) = delete;
+
+    /// Whether all ranks come here within five seconds. After one failed meeting there is
+    /// no other.
+    static bool
+    is_complete()
+    {
+      return !current || current->wait();
+    }
+
+  private:
+    bool
+    wait()
+    {
+      constexpr auto patience = std::chrono::seconds(5);
+      if (has_failed)
+        return false;
+      MPI_Request request;
+      MPI_Ibarrier(communicator, &request);
+      const auto begin = std::chrono::steady_clock::now();
+      int        done  = 0;
+      while (true)
+        {
+          MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+          if (done != 0)
+            return true;
+          if (std::chrono::steady_clock::now() - begin > patience)
+            {
+              has_failed = true;
+              return false;
+            }
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+
+    inline static LastMeeting *current      = nullptr;
+    MPI_Comm                   communicator = MPI_COMM_NULL;
+    bool                       has_failed   = false;
+  };
+} // namespace Ricochet
+
+#endif

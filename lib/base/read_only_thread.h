@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_base_read_only_thread_h
+#define ricochet_base_read_only_thread_h
+
+#include <functional>
+
+namespace Ricochet
+{
+  /// The signal by which Linux ends a process for a forbidden system call.
+  extern const int forbidden_call;
+
+  /**
+   * Run @p task in a thread that can read files, but neither write, make nor remove any,
+   * nor start programs, nor reach a network: for libraries that execute what a stranger's
+   * file says. A script that tries ends the whole process with the signal
+   * #forbidden_call, so that it belongs into a child, see run_apart(). Other threads of
+   * the process are free, and all share its memory.
+   *
+   * What is forbidden is told to the kernel (seccomp(2)) and not to the library, whose
+   * statements for it are many.
+   *
+   * @throws std::runtime_error where the kernel cannot do it, and what the task throws.
+   */
+  void
+  run_read_only(const std::function<void()> &task);
+} // namespace Ricochet
+
+#endif
