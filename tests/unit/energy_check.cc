@@ -94,6 +94,7 @@ BOOST_AUTO_TEST_CASE(a_gain_of_one_contact_is_seen_behind_the_loss_of_another)
   terms.contact_gains = {0., 0.};
   check.add(terms);
   terms.kinetic -= 1.;
+  terms.contact_work  = 1.;
   terms.contact_gains = {-1.5, .5};
   BOOST_TEST(check.add(terms).breaks_promise);
   BOOST_TEST(check.worst_contact()->name == "b");
