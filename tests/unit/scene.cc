@@ -71,9 +71,11 @@ BOOST_AUTO_TEST_CASE(units)
 BOOST_AUTO_TEST_CASE(sections_with_names)
 {
   ParameterText text;
-  for (const std::string name :
-       {"Body ball", "Time", "Contact ball on floor", "Body ball"})
-    text.sections.push_back({{name}, "line " + name});
+  // A file goes on with a section of another one.
+  text.sections = {{{"Body ball"}, "base.prm, line 1"},
+                   {{"Time"}, "base.prm, line 5"},
+                   {{"Contact ball on floor"}, "scene.prm, line 2"},
+                   {{"Body ball"}, "scene.prm, line 7"}};
   const auto found =
     find_named_sections(text, {"Body", "Contact"}, {"Time", "Output"});
   BOOST_REQUIRE_EQUAL(found.size(), 2);
@@ -85,10 +87,11 @@ BOOST_AUTO_TEST_CASE(sections_with_names)
          {"Tiem", "Is 'Time' meant?"},
          {"Body", "should be 'Body NAME'"},
          {"Body a/b", "should be 'Body NAME'"},
-         {"Contact ball_on floor", "would be the same"}})
+         {"Contact ball_on floor", "would be the same"},
+         {"Contact ball on floor", "is there already, in scene.prm, line 2"}})
     {
       ParameterText wrong = text;
-      wrong.sections.push_back({{name}, "there"});
+      wrong.sections.push_back({{name}, "scene.prm, line 9"});
       check_refused(
         [&, name = name]() {
           find_named_sections(wrong, {"Body", "Contact"}, {"Time", "Output"});
