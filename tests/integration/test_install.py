@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What is installed works where it was put: programs, a step of one's own that is built
-against the library, the commands in Python."""
+against the library, the commands in Python; what the library shows to others."""
 
 from common import *
 
@@ -41,6 +41,23 @@ class Installed(ProgramTest):
         self.call(sys.executable, programs / "ricochet-plot", self.folder / "run",
                   "-o", self.folder / "pictures")
         self.assertTrue(list((self.folder / "pictures").glob("*.png")))
+
+
+class Symbols(ProgramTest):
+
+    def test_nothing_of_eigen_is_shared(self):
+        """Gmsh has Eigen's functions, too, with another alignment: whose are found first
+        would serve both, and Gmsh freed memory that it had not got so."""
+        folder = pathlib.Path(program_path("ricochet")).parent
+        n_symbols = 0
+        for file in (*folder.glob("libricochet.so*"), folder / "ricochet",
+                     folder / "spectral_radius", folder / "tests" / "unit_tests"):
+            symbols = subprocess.run(["nm", "-D", "--defined-only", file],
+                                     capture_output=True, text=True, check=True).stdout
+            self.assertEqual([line for line in symbols.splitlines() if "5Eigen" in line],
+                             [], msg=file)
+            n_symbols += len(symbols.splitlines())
+        self.assertGreater(n_symbols, 1000)
 
 
 if __name__ == "__main__":
