@@ -8,7 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # is five times slower in factorisations.
 packages="cmake ninja-build g++ ccache libdeal.ii-dev libeigen3-dev libsuitesparse-dev
   libgmsh-dev libboost-dev
-  libhdf5-openmpi-dev libsundials-dev libopenblas0-pthread openmpi-bin numdiff
+  libhdf5-openmpi-dev libsundials-dev libopenblas0-pthread openmpi-bin
   perl python3 python3-matplotlib python3-numpy python3-h5py
   python3-pandas python3-vtk9 xvfb xauth libgl1-mesa-dri"
 

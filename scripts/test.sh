@@ -9,10 +9,12 @@
 #                     checked
 #   test.sh --quick   while you work: the release build, unit tests, stored outputs,
 #                     bad input, files (meant to take 8 minutes with the build)
-#   test.sh --full    once before an issue is closed (meant to take 90 minutes): all of the
-#                     above, all figures, sanitizers, hostile inputs and kills, and deliberate
-#                     errors in the library, all of which the tests must find. They
-#                     come in portions: TEST_PORTION=2/3 for the second third.
+#   test.sh --full    once before an issue is closed (some hours): all of the above, the
+#                     tests of the release build with the kernels of OpenBLAS for other
+#                     processors and without AVX2, all figures, sanitizers, hostile inputs
+#                     and kills, and deliberate errors in the library, all of which the
+#                     tests must find. They come in portions: TEST_PORTION=2/3 for the
+#                     second third.
 
 case "${1:-}" in
   "" | --quick | --full) ;;
@@ -28,10 +30,19 @@ fi
 
 build Debug
 build Release
-ctest --test-dir build/debug --output-on-failure -j 2
+# With kernels of OpenBLAS that round in different ways: those of an old processor and those
+# of this one.
+OPENBLAS_CORETYPE=Nehalem ctest --test-dir build/debug --output-on-failure -j 2
 ctest --test-dir build/release --output-on-failure -j 2
 
 if [ "${1:-}" = "--full" ]; then
+  for kernels in Nehalem:sse4_2 Sandybridge:avx Haswell:avx2 Zen:avx2 SkylakeX:avx512f; do
+    grep -qw "${kernels#*:}" /proc/cpuinfo || continue
+    echo "kernels of OpenBLAS: ${kernels%:*}"
+    OPENBLAS_CORETYPE="${kernels%:*}" ctest --test-dir build/release --output-on-failure -j 2
+  done
+  build without_avx2 -D RICOCHET_AVX2=OFF
+  ctest --test-dir build/without_avx2 --output-on-failure -j 2
   figures/make.py all
   figures/hertz_impact.py
   examples/check.py

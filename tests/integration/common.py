@@ -153,7 +153,9 @@ class ProgramTest(unittest.TestCase):
 
 
 def largest(values):
-    return max(map(abs, values))
+    """Not a number if one of them is none."""
+    values = [abs(value) for value in values]
+    return next((value for value in values if value != value), max(values))
 
 
 def increments(values):
