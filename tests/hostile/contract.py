@@ -24,7 +24,7 @@ FORBIDDEN = (
 LONGEST_REPORT = 24
 LARGEST_RESIDUAL = 1e-6
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
-TEMPORARY = re.compile(r"\.(new|tmp|temp|part|partial|old|bak)$|~$")
+TEMPORARY = re.compile(r"\.(unfinished|new|tmp|temp|part|partial|old|bak)$|~$")
 
 
 def check_texts(result):

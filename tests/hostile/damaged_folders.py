@@ -2,6 +2,8 @@
 """Kind 5: folders of earlier runs, damaged, and then resumed or run anew."""
 
 import shutil
+import struct
+import zlib
 
 from case import ACCEPTED, ANY, NOT_ACCEPTED, REFUSED
 from programs import BARS, THROWN, small, steps
@@ -54,6 +56,22 @@ class Folder:
     def checkpoint_junk(self):
         self.checkpoint.write_bytes(self.rng.randbytes(self.rng.choice([0, 8, 5000])))
         return REFUSED
+
+    def checkpoint_of_a_stranger(self):
+        """A good checksum, and nobody knows what."""
+        data = self.checkpoint.read_bytes()
+        head = data.index(b"\n") + 1
+        payload = bytearray(data[head + 12:])
+        if self.rng.random() < .3:
+            payload = self.rng.randbytes(self.rng.choice([0, 8, 1000, len(payload)]))
+        else:
+            for place in self.rng.choices(range(len(payload)),
+                                          k=self.rng.choice([1, 10, 100])):
+                payload[place] = self.rng.randrange(256)
+        payload = bytes(payload)
+        self.checkpoint.write_bytes(
+            data[:head] + struct.pack("<QI", len(payload), zlib.crc32(payload)) + payload)
+        return ANY
 
     def checkpoint_gone(self):
         self.checkpoint.unlink()
@@ -211,5 +229,5 @@ def run(case):
     shutil.copytree(case.run_folder, damaged, symlinks=True)
     case.script("cp", "-a", damaged, case.run_folder)
     result = case.attempt(program, after, expected, options=options)
-    if result.code == 0:
+    if result.code == 0 and name != "checkpoint_of_a_stranger":
         case.expect_same_ledger(case.run_folder, reference)

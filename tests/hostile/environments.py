@@ -158,7 +158,58 @@ def odd_variables(case, program):
     same_results(case, program, case.run_folder, result)
 
 
-SUBKINDS = [locale] * 4 + [folder_name] * 4 + [two_at_once] * 3 + [
+def little_memory(case, program):
+    """Whatever the limit is, an end: libraries that cannot be loaded have codes of their
+    own, and everything else is one sentence."""
+    kilobytes = case.rng.randrange(450000, 1500000)
+    words = ["sh", "-c", f'ulimit -v {kilobytes}; unset OPENBLAS_NUM_THREADS; exec "$0" "$@"']
+    words += case.command(program, small(program))
+    result = case.execute(words)
+    begins = "loading shared libraries" in result.err or "map segment" in result.err
+    if not begins:
+        case.judge(result, program, ANY, case.run_folder)
+    elif result.timed_out or result.code == 0:
+        case.finding("no end without memory for libraries", f"exit code {result.code}")
+
+
+def files_of_others(case, program):
+    """A folder with files that no run has left: they stay."""
+    name = case.rng.choice(["solution/step-000000.vtu", "solution/mine.txt", "energy.csv",
+                            "log.txt", "solution.pvd", "notes.txt", "parameters.prm",
+                            "energy.csv.new", "checkpoint.bin"])
+    file = case.run_folder / name
+    file.parent.mkdir(parents=True)
+    file.write_text("mine")
+    is_ours = name not in ("notes.txt", "energy.csv.new")
+    case.attempt(program, small(program), REFUSED if is_ours else ACCEPTED,
+                 options=case.rng.choice([[], ["--resume"]]) if is_ours else [])
+    if file.read_text() != "mine":
+        case.finding("a stranger's file is lost", name)
+
+
+def options_at_home(case, _program):
+    """Gmsh's files in the user's home make no other mesh."""
+    home = case.folder / "home"
+    home.mkdir()
+    for name in (".gmshrc", ".gmsh-options"):
+        (home / name).write_text(case.rng.choice(
+            ["Mesh.MeshSizeMax = 0.01;\n", "SystemCall \"touch mark\";\n", "Exit;\n", "(("]))
+    case.write("plate.geo", 'SetFactory("OpenCASCADE");\nRectangle(1) = {0, 0, 0, 2, 1};\n')
+    prm = case.write("given.prm", "set Program = ricochet\nset Dimension = 2\n"
+                     "subsection Body plate\n  set File = plate.geo\n"
+                     "  set Mesh size = 0.5\nend\n")
+    lines = []
+    for environment in ({}, {"HOME": str(home)}):
+        result = case.attempt("ricochet", prm=prm, expected=ACCEPTED, is_run=False,
+                              options=["--validate"], environment=environment)
+        lines.append([line for line in result.out.splitlines() if "cells" in line])
+    if lines[0] != lines[1]:
+        case.finding("options at home make another mesh", str(lines))
+    if list(case.folder.rglob("mark")):
+        case.finding("a command was run")
+
+
+SUBKINDS = [little_memory] * 4 + [files_of_others] * 4 + [options_at_home] + [locale] * 4 + [folder_name] * 4 + [two_at_once] * 3 + [
     working_folder, read_only, another_file, closed_streams, closed_streams,
     odd_variables]
 

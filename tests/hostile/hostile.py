@@ -31,11 +31,12 @@ KINDS = {
     "command-lines": ("command_lines", .15),
     "combinations": ("combinations", .10),
     "meshes": ("meshes", .10),
-    "scenes": ("scenes", .25),
+    "scenes": ("scenes", .23),
     "scene-meshes": ("scene_meshes", .06),
     "damaged-folders": ("damaged_folders", .06),
     "full-disk": ("full_disk", .05),
-    "environments": ("environments", .03),
+    "environments": ("environments", .04),
+    "python-commands": ("python_commands", .03),
     "kills": ("kills", None),
 }
 

@@ -124,7 +124,7 @@ def ranks_of(mpirun):
     return children
 
 
-def strike(case, process, n_ranks):
+def strike(case, process, n_ranks, number):
     """Kill the run, or one of its ranks. Returns whether it was still there."""
     if process.poll() is not None:
         return False
@@ -132,10 +132,26 @@ def strike(case, process, n_ranks):
     if not victims:
         return False
     try:
-        os.kill(case.rng.choice(victims), signal.SIGKILL)
+        os.kill(case.rng.choice(victims), number)
     except ProcessLookupError:
         return False
     return True
+
+
+def check_polite_end(case, result, number):
+    """Of a signal that asks for an end: a whole table and a checkpoint, or none of them,
+    if the run had not begun. Returns whether the run was complete all the same."""
+    if result.code == 0:
+        return True
+    if result.timed_out:
+        case.finding("no end after a signal", f"signal {number}")
+    elif result.code not in (128 + number, -number):
+        case.finding("another exit code than that of the signal", f"{result.code}")
+    elif result.code == 128 + number and "stopped by a signal" in result.err:
+        for name in ("checkpoint.bin", "energy.csv", "energy.h5"):
+            if not (case.run_folder / name).exists():
+                case.finding("a signal leaves no " + name)
+    return False
 
 
 def killed_run(case, program, words, n_ranks, duration):
@@ -147,14 +163,17 @@ def killed_run(case, program, words, n_ranks, duration):
     started = case.start(words)
     process = started[0]
     wait_for_the_moment(case, process, delay, from_start)
-    struck = strike(case, process, n_ranks)
+    number = case.rng.choice([signal.SIGKILL] * 4 + [signal.SIGINT, signal.SIGTERM])
+    struck = strike(case, process, n_ranks, number)
     when = "after its start" if from_start else "after it first wrote something"
-    case.note(f"SIGKILL to {'a rank' if n_ranks > 1 else 'it'} {delay:.4f} s {when}"
+    case.note(f"{number.name} to {'a rank' if n_ranks > 1 else 'it'} {delay:.4f} s {when}"
               if struck else "ended by itself")
     killed_at = time.monotonic()
     result = case.finish(started, PATIENCE if struck else HANG, began)
     if not struck:
         return result
+    if number != signal.SIGKILL and n_ranks == 1:
+        return result if check_polite_end(case, result, number) else None
     if n_ranks > 1:
         if result.timed_out:
             case.finding("mpirun does not end after a rank was killed",

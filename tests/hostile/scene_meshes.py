@@ -260,6 +260,9 @@ COMMANDS = [
     "Mesh.SecondOrderIncomplete = 1; Mesh.ElementOrder = 2;", "Plugin(None).Run;",
     "Point(50) = {7, 7, 7};", "Line(50) = {1, 3};", "NewModel;", "For i In {1:3}",
     "If (1)", "/*", "\"", "#", "General.Terminal = 1;", "Printf(\"hello\");",
+    "SystemCall \"touch mark\";", "NonBlockingSystemCall \"touch mark\";",
+    "OnelabRun(\"touch mark\", \"touch mark\");", "Printf(\"x\") > \"mark\";",
+    "Save \"mark.msh\";", "Print \"mark.png\";", "CreateDir \"mark\";",
     "Mesh.MeshOnlyEmpty = 1;", "Embed;", "Point{1} In Surface{1};"]
 
 
@@ -312,6 +315,10 @@ def geometry(case, dim):
     elif chance < .95:
         command = rng.choice(COMMANDS)
         case.note(command)
+        if rng.random() < .3:
+            # In another file.
+            case.write("more.geo", command + "\n")
+            command = rng.choice(["Include", "Merge"]) + ' "more.geo";'
         text = rng.choice([command + "\n" + text, text + command + "\n",
                            base + command + "\n" + groups])
     else:
@@ -364,3 +371,5 @@ def run(case):
     scene.add("Output", Fields_every=1, Log_every=0)
     prm = case.write("given.prm", scene.text())
     attempt(case, prm, expected, validate=rng.random() < .4)
+    if list(case.folder.rglob("mark*")):
+        case.finding("a geometry has run a command, or written a file")
