@@ -83,7 +83,8 @@ def _fingerprint(run, build_dir):
     """All that the result of a run depends on.
 
     The program and the library count by their time stamps, since a build writes
-    them anew; parameter files by their text, since a checkout touches them.
+    them anew; parameter files and meshes by what is in them, since a checkout touches
+    them.
     """
     program = build_dir / run.program
     if not program.is_file():
@@ -93,12 +94,22 @@ def _fingerprint(run, build_dir):
         )
     binaries = [program, *sorted(build_dir.glob("libricochet*"))]
     parameters = hashlib.sha256()
+    folder = CHECKOUT
+    values = [override.partition("=")[2] for override in run.overrides]
     if run.parameter_file:
         path = CHECKOUT / "parameter_files" / run.parameter_file
         if not path.is_file():
             raise RicochetError(f"There is no parameter file {path}, which {run.name} needs.")
-        for file in prm.read(path).files:
+        text = prm.read(path)
+        for file in text.files:
             parameters.update(file.read_bytes())
+        folder = path.parent
+        values += text.values.values()
+    # Some values are names of meshes.
+    for value in values:
+        for file in {CHECKOUT / value, folder / value}:
+            if file.is_file():
+                parameters.update(file.read_bytes())
     return {
         "command": run.command(build_dir),
         "parameters": parameters.hexdigest(),

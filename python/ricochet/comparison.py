@@ -53,7 +53,8 @@ class Method:
             open_runs = [run for run in self.runs if run.is_open]
             if not open_runs:
                 return ""
-            return f"{len(open_runs)} of {len(self.outcomes)} runs: {open_runs[0].open_lines[0]}"
+            lines = "; ".join(dict.fromkeys(line for run in open_runs for line in run.open_lines))
+            return f"{len(open_runs)} of {len(self.outcomes)} runs: {lines}"
         count = (
             ""
             if len(errors) == len(self.outcomes)
@@ -140,6 +141,11 @@ def quantities(comparison: Comparison) -> list[Quantity]:
         Quantity("largest force", unit("contact_force_"), each(force)),
         Quantity("largest penetration", unit("penetration_"), each(penetration)),
         Quantity("contact lasts", unit("time"), each(lambda run: measures.duration(run.table))),
+        Quantity(
+            "largest balance residual",
+            "",
+            each(lambda run: float(np.nanmax(np.abs(run.table["balance_residual"])))),
+        ),
         Quantity(
             "largest promise residual",
             "",

@@ -50,7 +50,7 @@ def first_sentence(text: str) -> str:
     """
     lines = [line.strip() for line in text.splitlines()]
     for number, line in enumerate(lines):
-        if re.search(r": (the input is not valid|the computation stopped)\.$", line):
+        if re.search(r": (the input is not valid|the computation stopped|stopped by a signal)\.$", line):
             lines = lines[number + 1 :]
             break
     words = " ".join(line for line in lines if line)

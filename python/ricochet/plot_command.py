@@ -9,9 +9,13 @@ are drawn with the names of their boundaries. Images go to FOLDER, without -o to
 from __future__ import annotations
 
 import argparse
+import os
 import pathlib
+import resource
+import signal
 import sys
-from collections.abc import Sequence
+import traceback
+from collections.abc import Callable, Sequence
 
 from .errors import RicochetError
 from .fields import COLOURS
@@ -92,6 +96,47 @@ def plot(
 def main(arguments: Sequence[str] | None = None) -> int:
     """The command; returns its exit code: 0, or 2 with one sentence if it cannot be done."""
     options = command_line(arguments)
+    return _in_a_process_of_its_own(lambda: _draw(options))
+
+
+def _in_a_process_of_its_own(action: Callable[[], int]) -> int:
+    """What an action returns; VTK crashes on some damaged files, or takes all memory."""
+    sys.stdout.flush()
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 5 * 4
+            resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            code = action()
+        except MemoryError:
+            print("ricochet-plot: There is not enough memory.", file=sys.stderr)
+            code = 2
+        except BaseException:
+            traceback.print_exc()
+        finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(code)
+    while True:
+        try:
+            status = os.waitpid(child, 0)[1]
+            break
+        except KeyboardInterrupt:
+            # The child gets it, too.
+            continue
+    if os.WIFSIGNALED(status):
+        name = signal.Signals(os.WTERMSIG(status)).name
+        print(
+            f"ricochet-plot: VTK crashed ({name}): a file of fields may be damaged.",
+            file=sys.stderr,
+        )
+        return 2
+    return os.waitstatus_to_exitcode(status)
+
+
+def _draw(options: argparse.Namespace) -> int:
     try:
         from . import setup_picture
 

@@ -106,7 +106,7 @@ def execute(command: Sequence[str], cwd: PathLike | None = None) -> tuple[int, s
         RicochetError: it cannot be started.
     """
     try:
-        result = subprocess.run(
+        process = subprocess.Popen(
             command,
             cwd=cwd,
             env={**os.environ, **ONE_THREAD},
@@ -115,11 +115,16 @@ def execute(command: Sequence[str], cwd: PathLike | None = None) -> tuple[int, s
             stderr=subprocess.STDOUT,
             text=True,
             errors="replace",
-            check=False,
         )
     except OSError as error:
         raise RicochetError(f"'{command[0]}' cannot be run: {error.strerror}.") from None
-    return result.returncode, result.stdout
+    try:
+        text, _ = process.communicate()
+    except KeyboardInterrupt:
+        # The program has got it, too, finishes its step and writes a checkpoint.
+        process.wait()
+        raise
+    return process.returncode, text
 
 
 def _check(name: str, exit_code: int, text: str) -> None:

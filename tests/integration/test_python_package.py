@@ -330,6 +330,21 @@ class PythonPackage(ProgramTest):
             self.assertEqual(code, 2)
             self.assertIn("needs ffmpeg", error)
 
+    def test_a_file_that_crashes_vtk(self):
+        try:
+            import vtkmodules.vtkIOXML
+        except ImportError:
+            self.skipTest("there is no VTK")
+        run = self.folder / "damaged"
+        shutil.copytree(self.ball.folder, run)
+        for file in run.glob("solution/step-*.vtu"):
+            file.write_text(re.sub('NumberOfPoints="[0-9]*"',
+                                   'NumberOfPoints="1000000000000"', file.read_text()))
+        code, _, error = self.script("ricochet-plot", run, "--fields", "-o", run / "plots")
+        self.assertEqual(code, 2, msg=error)
+        self.assertRegex(error.splitlines()[-1],
+                         "^ricochet-plot: .*(VTK crashed|damaged)")
+
     def test_compare(self):
         folder = self.folder / "compared"
         code, out, error = self.script(
