@@ -91,7 +91,7 @@ def declared(program: pathlib.Path) -> list[Parameter]:
 def parse(printed: str) -> list[Parameter]:
     """The parameters in what a program prints of them, each with the comment before it.
 
-    What is allowed stands behind all of them, as "#   Section/Name: words of deal.II".
+    What is allowed stands behind all of them, as "#   Section/Name: A number".
     """
     printed, _, rest = printed.partition("# What is allowed:\n")
     allowed = dict(line.lstrip("# ").split(": ", 1) for line in rest.splitlines() if line)
@@ -117,46 +117,13 @@ def parse(printed: str) -> list[Parameter]:
     return found
 
 
-_NUMBER = r"(-?[0-9.e+-]+|-?MAX_\w+)"
-
-
 def in_words(pattern: str) -> str:
-    """What deal.II says of a pattern, in fewer words."""
+    """What a program says that a parameter allows, within a sentence."""
     pattern = pattern.strip()
-    number = r"(A floating point number|An integer) \w (?:such that )?.*?"
-    list_of = r"A list of (\d+) to (\d+) elements.*? where each element is \[(.*)\]$"
-    match = re.match(list_of, pattern)
-    if match:
-        least, most = int(match[1]), int(match[2])
-        if least == most:
-            count = f"{least} values"
-        elif least == 0 and most > 10**6:
-            count = "any number of values"
-        elif most > 10**6:
-            count = f"at least {least} values"
-        else:
-            count = f"{least} to {most} values"
-        return f"{count}, each {in_words(match[3])}"
-    match = re.match(rf"{number}{_NUMBER} <= \w <= {_NUMBER}$", pattern)
-    if match:
-        kind = "a number" if match[1].startswith("A f") else "a whole number"
-        low, high = match[2], match[3]
-        if "MAX" in low and "MAX" in high:
-            return kind
-        if "MAX" in high:
-            tiny = kind == "a number" and 0 < float(low) <= 1e-12
-            return f"{kind} above 0" if tiny else f"{kind}, at least {low}"
-        if "MAX" in low:
-            return f"{kind}, at most {high}"
-        return f"{kind} from {low} to {high}"
     if pattern.startswith("Any one of "):
-        return "one of: " + ", ".join(pattern.removeprefix("Any one of ").split(", "))
+        return "one of: " + pattern.removeprefix("Any one of ")
     if pattern.startswith("A boolean value"):
         return "true or false"
-    if re.match(r"(A floating point number|Any floating)", pattern):
-        return "a number"
-    if pattern.startswith("An integer"):
-        return "a whole number"
     return pattern[:1].lower() + pattern[1:]
 
 

@@ -37,7 +37,8 @@ namespace Ricochet
       // Where an exception would end in std::terminate().
       std::set_new_handler([]() { _exit(out_of_memory); });
       // MPI's handlers would print pages about a crash.
-      for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL})
+      for (const int signal :
+           {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGALRM})
         std::signal(signal, SIG_DFL);
       const rlimit no_core = {0, 0};
       setrlimit(RLIMIT_CORE, &no_core);
@@ -92,7 +93,9 @@ namespace Ricochet
 
 
   void
-  run_apart(const std::string &who, const std::function<void()> &task)
+  run_apart(const std::string           &who,
+            const std::function<void()> &task,
+            const unsigned int           seconds)
   {
     std::array<int, 2> pipe_ends;
     if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
@@ -111,6 +114,7 @@ namespace Ricochet
       {
         close(pipe_ends[0]);
         prepare_child(parent);
+        alarm(seconds);
         std::string    message;
         const ExitCode code = run_task(task, message);
         const ssize_t  written =
@@ -131,6 +135,10 @@ namespace Ricochet
         " was to start a program, or to write or remove a file, which a script of "
         "geometry may not do here. If you trust it, run it by itself and name the "
         "mesh that it makes.");
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+      throw InputError(who + " did not come to an end within " +
+                       std::to_string(seconds) +
+                       " s; Limits/Meshing time allows more.");
     if (WIFSIGNALED(status))
       throw InputError(who + " crashed (" + strsignal(WTERMSIG(status)) + ").");
     switch (WEXITSTATUS(status))

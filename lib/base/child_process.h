@@ -16,11 +16,14 @@ namespace Ricochet
    * with its parent.
    *
    * @param who does the task, such as "Gmsh", for messages.
+   * @param seconds by the clock after which the process is ended; 0 for never.
    * @throws InputError with the message of an exception in the task, or saying how the
    * process ended otherwise.
    */
   void
-  run_apart(const std::string &who, const std::function<void()> &task);
+  run_apart(const std::string           &who,
+            const std::function<void()> &task,
+            const unsigned int           seconds = 0);
 } // namespace Ricochet
 
 #endif

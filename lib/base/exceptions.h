@@ -31,6 +31,21 @@ namespace Ricochet
   };
 
   /**
+   * A run ended after a complete step because a signal asked for it. All that was computed
+   * is on disk, with a checkpoint. The program ends with code 128 and the signal's number.
+   */
+  class StoppedBySignal : public std::runtime_error
+  {
+  public:
+    StoppedBySignal(const int signal, const std::string &text)
+      : std::runtime_error(text)
+      , signal(signal)
+    {}
+
+    const int signal;
+  };
+
+  /**
    * Newton's method did not converge in one stage of one step. The time loop
    * catches this, halves the step as often as it may, and only then gives up.
    */

@@ -30,6 +30,9 @@ namespace Ricochet
         }
       return false;
     }
+
+
+
     /// Whether random numbers are asked for: rand() or rand_seed().
     bool
     is_random(const std::string &text)

@@ -61,7 +61,7 @@ namespace Ricochet
     public:
       explicit NewFile(const std::string &file)
         : file(file)
-        , name(file + ".new")
+        , name(file + unfinished)
         , descriptor(::open(name.c_str(),
                             O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC,
                             0666))
@@ -205,6 +205,48 @@ namespace Ricochet
 
 
 
+  bool
+  replace_end(const std::string &file,
+              const std::string &old_end,
+              const std::string &bytes)
+  {
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+    if (descriptor < 0)
+      return false;
+    const auto fail = [&](const int error) {
+      ::close(descriptor);
+      cannot_write(file, error);
+    };
+    const off_t size  = ::lseek(descriptor, 0, SEEK_END);
+    const off_t begin = size - static_cast<off_t>(old_end.size());
+    std::string end(old_end.size(), '\0');
+    if (begin < 0 ||
+        ::pread(descriptor, end.data(), end.size(), begin) !=
+          static_cast<ssize_t>(end.size()) ||
+        end != old_end)
+      {
+        ::close(descriptor);
+        return false;
+      }
+    // In one piece, so that a run that is killed leaves all of it or nothing.
+    const ssize_t written =
+      ::pwrite(descriptor, bytes.data(), bytes.size(), begin);
+    if (written != static_cast<ssize_t>(bytes.size()))
+      {
+        const int  error = written < 0 ? errno : ENOSPC;
+        const bool is_restored =
+          ::pwrite(descriptor, end.data(), end.size(), begin) ==
+            static_cast<ssize_t>(end.size()) &&
+          ::ftruncate(descriptor, size) == 0;
+        fail(is_restored ? error : EIO);
+      }
+    if (::close(descriptor) != 0)
+      cannot_write(file, errno);
+    return true;
+  }
+
+
+
   std::string
   read_file(const std::string &file, const std::size_t largest_size)
   {
@@ -308,7 +350,7 @@ namespace Ricochet
 
 
 
-  void
+  std::string
   FolderLock::take(const std::string &folder)
   {
     const std::string file = (std::filesystem::path(folder) / ".lock").string();
@@ -316,10 +358,15 @@ namespace Ricochet
     if (descriptor < 0)
       throw InputError("The output folder '" + folder +
                        "' cannot be written to: " + std::strerror(errno) + ".");
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+      return {};
+    if (errno == EWOULDBLOCK)
       throw InputError("The output folder '" + folder +
                        "' is in use by another run. Wait for it, or name "
                        "another folder with --output-dir.");
+    return "note: the output folder cannot be locked (" +
+      std::string(std::strerror(errno)) +
+      "), so that nothing keeps another run from writing to it";
   }
 
 

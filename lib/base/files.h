@@ -11,6 +11,9 @@
 
 namespace Ricochet
 {
+  /// The end of the name of a file while it is written.
+  inline const std::string unfinished = ".unfinished";
+
   /**
    * Write @p bytes to a new file beside @p file, wait until they are on the disk,
    * and let it take the place of @p file: whatever happens, there is the old file
@@ -33,6 +36,18 @@ namespace Ricochet
   write_atomically(const std::string &file,
                    const std::string &my_piece,
                    const MPI_Comm     communicator);
+
+  /**
+   * Write @p bytes, which are more, over the @p old_end of a @p file.
+   *
+   * @return whether the file could be read, and ended so.
+   * @throws ComputationError naming the file, when the disk is full; the file is then as it
+   * was.
+   */
+  bool
+  replace_end(const std::string &file,
+              const std::string &old_end,
+              const std::string &bytes);
 
   /**
    * All bytes of @p file.
@@ -88,12 +103,13 @@ namespace Ricochet
 
     /**
      * Lock @p folder, by a file in it. The lock ends with the process, however
-     * that ends. File systems without locks are taken as they are.
+     * that ends.
      *
+     * @return what is to be noted: some file systems have no locks.
      * @throws InputError when another process has it, or the folder cannot be
      * written to.
      */
-    void
+    std::string
     take(const std::string &folder);
 
   private:

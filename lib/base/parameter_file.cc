@@ -9,10 +9,12 @@
 #include <boost/property_tree/xml_parser.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <regex>
 #include <sstream>
 
 namespace Ricochet
@@ -112,6 +114,73 @@ namespace Ricochet
       return text.size() > length ? printable + "..." : printable;
     }
 
+    /// What a pattern allows, without the words and numbers of compilers.
+    std::string
+    allowed_values(const dealii::Patterns::PatternBase &pattern)
+    {
+      static const std::vector<std::pair<std::regex, std::string>> words = {
+        {std::regex("A floating point number v such that -MAX_DOUBLE <= v <= "
+                    "MAX_DOUBLE"),
+         "A number"},
+        {std::regex(
+           "A floating point number v such that 1e-30 <= v <= MAX_DOUBLE"),
+         "A number above 0"},
+        {std::regex(
+           "A floating point number v such that (\\S+) <= v <= MAX_DOUBLE"),
+         "A number, at least $1"},
+        {std::regex("A floating point number v such that (\\S+) <= v <= "
+                    "([^\\s\\]]+)"),
+         "A number from $1 to $2"},
+        {std::regex("An integer n such that -2147483648 <= n <= 2147483647"),
+         "A whole number"},
+        {std::regex("An integer n such that (\\S+) <= n <= 2147483647"),
+         "A whole number, at least $1"},
+        {std::regex("An integer n such that (\\S+) <= n <= ([^\\s\\]]+)"),
+         "A whole number from $1 to $2"},
+        {std::regex("A list of ([0-9]+) to \\1 elements where each element is "
+                    "\\[A(.*)\\]"),
+         "$1 values, each a$2"},
+        {std::regex("A list of 0 to 4294967295 elements where each element is "
+                    "\\[A(.*)\\]"),
+         "Any number of values, each a$1"},
+        {std::regex(
+           "A list of ([0-9]+) to 4294967295 elements where each element is "
+           "\\[A(.*)\\]"),
+         "At least $1 values, each a$2"},
+        {std::regex(
+           "A list of ([0-9]+) to ([0-9]+) elements where each element is "
+           "\\[A(.*)\\]"),
+         "$1 to $2 values, each a$3"}};
+      std::string text =
+        pattern.description(dealii::Patterns::PatternBase::OutputStyle::Text);
+      for (const auto &[expression, ours] : words)
+        text = std::regex_replace(text, expression, ours);
+      return text;
+    }
+
+    /// The beginning of a @p line, up to a '#'. @throws InputError where that may be part
+    /// of a word.
+    std::string
+    without_comment(const std::string &line, const std::string &where)
+    {
+      const std::size_t begin = line.find('#');
+      if (begin != std::string::npos && begin > 0 &&
+          std::isspace(static_cast<unsigned char>(line[begin - 1])) == 0)
+        throw InputError(
+          where +
+          ": a '#' begins a comment, and has a space before it; what is "
+          "named with one cannot be given here.");
+      return line.substr(0, begin);
+    }
+
+    std::string
+    lower_case(std::string text)
+    {
+      for (char &c : text)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      return text;
+    }
+
     unsigned int
     edit_distance(const std::string &a, const std::string &b)
     {
@@ -191,8 +260,7 @@ namespace Ricochet
       if (!declaration.pattern->match(value))
         throw InputError(where + ": the value '" + shortened(value) + "' of '" +
                          join(path) + "' is not allowed.\nAllowed: " +
-                         declaration.pattern->description(
-                           dealii::Patterns::PatternBase::OutputStyle::Text));
+                         allowed_values(*declaration.pattern));
 
       for (unsigned int i = 0; i + 1 < path.size(); ++i)
         parameters.enter_subsection(path[i]);
@@ -277,16 +345,14 @@ namespace Ricochet
       const std::string  folder = fs::path(file_name).parent_path().string();
       std::istringstream in(text);
       Path               section;
-      // Where it was opened.
-      std::vector<std::string> opened;
-      std::string              line;
-      unsigned int             line_number = 0;
+      std::string        line;
+      unsigned int       line_number = 0;
       while (std::getline(in, line))
         {
           ++line_number;
           const std::string where =
             file_name + ", line " + std::to_string(line_number);
-          line = trim(line.substr(0, line.find('#')));
+          line = trim(without_comment(line, where));
           while (!line.empty() && line.back() == '\\')
             {
               line.pop_back();
@@ -294,7 +360,7 @@ namespace Ricochet
               if (!std::getline(in, next))
                 break;
               ++line_number;
-              line += trim(next.substr(0, next.find('#')));
+              line += trim(without_comment(next, where));
             }
           if (line.empty())
             continue;
@@ -304,7 +370,6 @@ namespace Ricochet
           if (keyword == "subsection" && !rest.empty())
             {
               section.push_back(rest);
-              opened.push_back(where);
               if (section.size() > 10)
                 throw InputError(where +
                                  ": more than ten subsections in each other.");
@@ -315,7 +380,6 @@ namespace Ricochet
               if (section.empty())
                 throw InputError(where + ": this 'end' closes no subsection.");
               section.pop_back();
-              opened.pop_back();
             }
           else if (keyword == "include" && !rest.empty())
             {
@@ -329,8 +393,8 @@ namespace Ricochet
             {
               const std::size_t equal = rest.find('=');
               Path              path  = section;
-              check_name(trim(rest.substr(0, equal)), where);
               path.push_back(trim(rest.substr(0, equal)));
+              check_name(path.back(), where);
               reading.text.assignments.push_back(
                 {path, trim(rest.substr(equal + 1)), where, folder});
             }
@@ -342,9 +406,16 @@ namespace Ricochet
                              "starts with '#'.");
         }
       if (!section.empty())
-        throw InputError(opened.back() + ": the subsection '" +
-                         shortened(join(section)) +
-                         "' is never closed with 'end'.");
+        {
+          // Of several with this name, the last one is open.
+          const auto opened =
+            std::find_if(reading.text.sections.rbegin(),
+                         reading.text.sections.rend(),
+                         [&](const auto &one) { return one.path == section; });
+          throw InputError(opened->where + ": the subsection '" +
+                           shortened(join(section)) +
+                           "' is never closed with 'end'.");
+        }
       reading.open_files.pop_back();
     }
   } // namespace
@@ -367,12 +438,17 @@ namespace Ricochet
                 const unsigned int              n_names)
   {
     std::vector<std::pair<unsigned int, std::string>> ranked;
+    constexpr unsigned int                            shortest_part = 3;
     for (const std::string &candidate : candidates)
       {
         // Nobody types a name this long; the distance takes time.
         const unsigned int distance =
           edit_distance(name.substr(0, 200), candidate);
-        if (2 * distance <= std::max(name.size(), candidate.size()))
+        const bool is_part = name.size() >= shortest_part &&
+          lower_case(candidate).find(lower_case(name)) != std::string::npos;
+        if (is_part)
+          ranked.emplace_back(1, candidate);
+        else if (2 * distance <= std::max(name.size(), candidate.size()))
           ranked.emplace_back(distance, candidate);
       }
     std::sort(ranked.begin(), ranked.end());
@@ -393,8 +469,7 @@ namespace Ricochet
         list.push_back({name, declaration.value, is_input_file(declaration)});
         if (!dynamic_cast<const dealii::Patterns::Anything *>(
               declaration.pattern.get()))
-          list.back().allowed = declaration.pattern->description(
-            dealii::Patterns::PatternBase::OutputStyle::Text);
+          list.back().allowed = allowed_values(*declaration.pattern);
       }
     return list;
   }

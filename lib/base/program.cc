@@ -15,6 +15,9 @@
 #include <new>
 #include <sstream>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 namespace Ricochet
 {
   CommandLine
@@ -67,6 +70,7 @@ namespace Ricochet
                                                  "--resume",
                                                  "--validate",
                                                  "--print-parameters",
+                                                 "--promises",
                                                  "--quiet",
                                                  "--help",
                                                  "--version"},
@@ -268,7 +272,16 @@ namespace Ricochet
         {
           std::string lines = "The parameters are valid.\n";
           if (program.description_of_input)
-            lines += program.description_of_input(command_line.output_dir);
+            try
+              {
+                lines += program.description_of_input(command_line.output_dir);
+              }
+            catch (const ComputationError &error)
+              {
+                // Such as a load that is not finite at the start: nothing is computed
+                // here that could fail otherwise.
+                throw InputError(error.what());
+              }
           for (const std::string &note : notes)
             lines += note + "\n";
           print(lines);
@@ -302,6 +315,7 @@ namespace Ricochet
       for (const std::string &note : notes)
         folder.log(note);
       program.run(folder);
+      folder.end();
       return folder.what_is_open();
     }
 
@@ -327,9 +341,32 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    // OpenBLAS starts threads when it is loaded. Where memory is limited (ulimit -v), it
+    // has less than it wants, and waits for them for ever at the end of the process: then
+    // the program is started once more with one thread, which is all that we use of it.
+    void
+    start_again_if_memory_is_limited(char **argv)
+    {
+      rlimit     space = {}, data = {};
+      const bool is_limited = (getrlimit(RLIMIT_AS, &space) == 0 &&
+                               space.rlim_cur != RLIM_INFINITY) ||
+        (getrlimit(RLIMIT_DATA, &data) == 0 && data.rlim_cur != RLIM_INFINITY);
+      if (!is_limited || std::getenv("OPENBLAS_NUM_THREADS") != nullptr)
+        return;
+      ::setenv("OPENBLAS_NUM_THREADS", "1", /* overwrite */ 1);
+      ::execv("/proc/self/exe", argv);
+    }
+  } // namespace
+
+
+
   int
   run_program(const int argc, char **argv, const Program &program)
   {
+    start_again_if_memory_is_limited(argv);
+
     // Beyond the limit on the size of files, writing fails as on a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
 
@@ -349,13 +386,10 @@ namespace Ricochet
 
     const LastMeeting meeting;
     const auto report = [&](const std::string &kind, const std::string &text) {
-      const bool all_failed = LastMeeting::is_complete();
-      if (is_root || !all_failed)
-        std::cerr << "\n"
-                  << program.name << ": " << kind << "\n"
-                  << text << "\n"
-                  << std::endl;
-      return all_failed;
+      std::cerr << "\n"
+                << program.name << ": " << kind << "\n"
+                << text << "\n"
+                << std::endl;
     };
     // Possibly on one rank only: the others must not wait for ever.
     const auto stop_all_ranks = [](const int code) {
@@ -363,6 +397,14 @@ namespace Ricochet
         MPI_Abort(MPI_COMM_WORLD, code);
       return code;
     };
+    // Where all ranks have failed, one of them says so and each of them ends.
+    const auto fail =
+      [&](const int code, const std::string &kind, const std::string &text) {
+        const bool all_failed = LastMeeting::is_complete();
+        if (is_root || !all_failed)
+          report(kind, text);
+        return all_failed ? code : stop_all_ranks(code);
+      };
     try
       {
         const std::vector<std::string> open = execute(argc, argv, program);
@@ -371,22 +413,25 @@ namespace Ricochet
             std::string lines;
             for (const std::string &line : open)
               lines += (lines.empty() ? "" : "\n") + line;
-            report("the run is complete, but its energy is not what it says.",
-                   lines);
+            if (is_root)
+              report("the run is complete, but its energy is not what it says.",
+                     lines);
             return 4;
           }
       }
+    catch (const StoppedBySignal &stop)
+      {
+        if (is_root)
+          report("stopped by a signal.", stop.what());
+        return 128 + stop.signal;
+      }
     catch (const InputError &error)
       {
-        return report("the input is not valid.", error.what())
-          ? 1
-          : stop_all_ranks(1);
+        return fail(1, "the input is not valid.", error.what());
       }
     catch (const ComputationError &error)
       {
-        return report("the computation stopped.", error.what())
-          ? 2
-          : stop_all_ranks(2);
+        return fail(2, "the computation stopped.", error.what());
       }
     catch (const std::bad_alloc &)
       {

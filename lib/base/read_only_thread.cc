@@ -19,12 +19,10 @@
 
 namespace Ricochet
 {
-  const int forbidden_call = SIGSYS;
-
   namespace
   {
-    // What the kernel runs at each system call: a program of its own language (BPF).
-    using Program = std::vector<sock_filter>;
+    // Instructions (BPF) that the kernel follows at each system call.
+    using Filter = std::vector<sock_filter>;
 
     sock_filter
     load(const std::size_t place)
@@ -46,35 +44,37 @@ namespace Ricochet
       return offsetof(seccomp_data, args) + 8 * n;
     }
 
-    /// Forbid the system call @p number.
+    /// Give the @p value for an answer to the system call @p number.
     void
-    forbid(Program &program, const unsigned int number)
+    forbid(Filter            &filter,
+           const unsigned int number,
+           const unsigned int value = SECCOMP_RET_KILL_PROCESS)
     {
-      program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 1));
-      program.push_back(answer(SECCOMP_RET_KILL_PROCESS));
+      filter.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 1));
+      filter.push_back(answer(value));
     }
 
     /// Forbid the system call @p number if its argument has one of @p flags, or, with
     /// @p unless, if it has none.
     void
-    forbid_with(Program           &program,
+    forbid_with(Filter            &filter,
                 const unsigned int number,
                 const unsigned int argument,
                 const unsigned int flags,
                 const bool         unless = false)
     {
-      program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 4));
-      program.push_back(load(place_of_argument(argument)));
-      program.push_back(BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K,
-                                 flags,
-                                 static_cast<unsigned char>(unless ? 1 : 0),
-                                 static_cast<unsigned char>(unless ? 0 : 1)));
-      program.push_back(answer(SECCOMP_RET_KILL_PROCESS));
-      program.push_back(answer(SECCOMP_RET_ALLOW));
+      filter.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 4));
+      filter.push_back(load(place_of_argument(argument)));
+      filter.push_back(BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K,
+                                flags,
+                                static_cast<unsigned char>(unless ? 1 : 0),
+                                static_cast<unsigned char>(unless ? 0 : 1)));
+      filter.push_back(answer(SECCOMP_RET_KILL_PROCESS));
+      filter.push_back(answer(SECCOMP_RET_ALLOW));
     }
 
-    Program
-    read_only_program()
+    Filter
+    read_only_filter()
     {
 #if defined(__x86_64__)
       constexpr unsigned int machine = AUDIT_ARCH_X86_64;
@@ -83,13 +83,13 @@ namespace Ricochet
 #else
 #  error "Which numbers system calls have on this machine is not known."
 #endif
-      Program program = {load(offsetof(seccomp_data, arch)),
-                         BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, machine, 1, 0),
-                         answer(SECCOMP_RET_KILL_PROCESS),
-                         load(offsetof(seccomp_data, nr))};
+      Filter filter = {load(offsetof(seccomp_data, arch)),
+                       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, machine, 1, 0),
+                       answer(SECCOMP_RET_KILL_PROCESS),
+                       load(offsetof(seccomp_data, nr))};
       // Other numbers of the same machine (x32).
-      program.push_back(BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, 0x40000000U, 0, 1));
-      program.push_back(answer(SECCOMP_RET_KILL_PROCESS));
+      filter.push_back(BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, 0x40000000U, 0, 1));
+      filter.push_back(answer(SECCOMP_RET_KILL_PROCESS));
       for (const unsigned int number : {
 #ifdef __NR_fork
              __NR_fork,          __NR_vfork,
@@ -114,32 +114,29 @@ namespace Ricochet
              __NR_ptrace,        __NR_process_vm_writev,
              __NR_socket,        __NR_mount,
              __NR_io_uring_setup})
-        forbid(program, number);
+        forbid(filter, number);
       constexpr unsigned int writing =
         O_WRONLY | O_RDWR | O_CREAT | O_TRUNC | O_APPEND;
 #ifdef __NR_open
-      forbid_with(program, __NR_open, 1, writing);
+      forbid_with(filter, __NR_open, 1, writing);
 #endif
-      forbid_with(program, __NR_openat, 2, writing);
+      forbid_with(filter, __NR_openat, 2, writing);
       // A process is not made, a thread is.
-      forbid_with(program, __NR_clone, 0, CLONE_THREAD, true);
+      forbid_with(filter, __NR_clone, 0, CLONE_THREAD, true);
       // Their arguments lie in memory, where they cannot be looked at. The C library takes
       // the calls above if there are none of these.
       for (const unsigned int number : {__NR_clone3, __NR_openat2})
-        {
-          program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 1));
-          program.push_back(answer(SECCOMP_RET_ERRNO | ENOSYS));
-        }
-      program.push_back(answer(SECCOMP_RET_ALLOW));
-      return program;
+        forbid(filter, number, SECCOMP_RET_ERRNO | ENOSYS);
+      filter.push_back(answer(SECCOMP_RET_ALLOW));
+      return filter;
     }
 
     void
     forbid_all_but_reading()
     {
-      Program          program = read_only_program();
-      const sock_fprog text{static_cast<unsigned short>(program.size()),
-                            program.data()};
+      Filter           filter = read_only_filter();
+      const sock_fprog text{static_cast<unsigned short>(filter.size()),
+                            filter.data()};
       if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
           prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &text) != 0)
         throw std::runtime_error(

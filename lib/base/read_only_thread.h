@@ -2,12 +2,13 @@
 #ifndef ricochet_base_read_only_thread_h
 #define ricochet_base_read_only_thread_h
 
+#include <csignal>
 #include <functional>
 
 namespace Ricochet
 {
   /// The signal by which Linux ends a process for a forbidden system call.
-  extern const int forbidden_call;
+  constexpr int forbidden_call = SIGSYS;
 
   /**
    * Run @p task in a thread that can read files, but neither write, make nor remove any,
@@ -16,8 +17,8 @@ namespace Ricochet
    * #forbidden_call, so that it belongs into a child, see run_apart(). Other threads of
    * the process are free, and all share its memory.
    *
-   * What is forbidden is told to the kernel (seccomp(2)) and not to the library, whose
-   * statements for it are many.
+   * The kernel forbids it (seccomp(2)), and not a list of the library's statements, which
+   * are many.
    *
    * @throws std::runtime_error where the kernel cannot do it, and what the task throws.
    */

@@ -4,8 +4,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -14,21 +16,44 @@ namespace Ricochet
   namespace
   {
     // What a run leaves in its folder.
-    const std::string              identity_file = "run.txt";
-    const std::vector<std::string> result_files  = {"checkpoint.bin",
-                                                    "energy.csv",
-                                                    "energy.h5",
-                                                    "solution.pvd",
-                                                    "obstacles.pvd",
-                                                    "log.txt",
-                                                    "parameters.prm",
-                                                    "parameters.resumed.prm"};
+    const std::string identity_file                = "run.txt";
+    const std::string checkpoint_file              = "checkpoint.bin";
+    const std::string all_values                   = "parameters.prm";
+    const std::string all_values_of_resumed        = "parameters.resumed.prm";
+    const std::vector<std::string> lists_of_fields = {"solution.pvd",
+                                                      "obstacles.pvd"};
+    const std::vector<std::string> result_files    = {checkpoint_file,
+                                                      "energy.csv",
+                                                      "energy.h5",
+                                                      lists_of_fields[0],
+                                                      lists_of_fields[1],
+                                                      "log.txt",
+                                                      all_values,
+                                                      all_values_of_resumed};
+
+    // A run that has come to its end, and was not resumed in between, can be made again.
+    const std::string complete = "complete", resumed = "resumed",
+                      running = "running";
 
     /// The name of the copy of a parameter file in the folder.
     std::string
     name_of_copy(const std::string &parameter_file)
     {
       return std::filesystem::path(parameter_file).filename().string();
+    }
+
+    /// The files of fields that a list of them names and that have names such as ours.
+    std::vector<std::string>
+    fields_of(const std::string &list)
+    {
+      static const std::regex entry(
+        "file=\"(solution/(step|obstacles)-[0-9]+\\.vtu)\"");
+      std::vector<std::string> names;
+      for (std::sregex_iterator match(list.begin(), list.end(), entry), end;
+           match != end;
+           ++match)
+        names.push_back((*match)[1]);
+      return names;
     }
 
     /// The text after @p key in the line that begins with it.
@@ -71,11 +96,21 @@ namespace Ricochet
     namespace fs = std::filesystem;
     on_first_rank(communicator, [&]() {
       std::error_code error;
+      const auto      refuse_to_resume_nothing = [&]() {
+        if (resume && !exists(file(checkpoint_file)))
+          throw InputError("The run cannot be resumed: the checkpoint '" +
+                           file(checkpoint_file) + "' does not exist.");
+      };
+      if (!exists(options.path))
+        refuse_to_resume_nothing();
       fs::create_directories(options.path, error);
       if (error)
         throw InputError("The output folder '" + options.path +
                          "' cannot be written to: " + error.message() + ".");
-      lock.take(options.path);
+      const std::string note = lock.take(options.path);
+      if (!note.empty())
+        this->log(note);
+      refuse_to_resume_nothing();
       identity = "program = " + options.program + "\nparameter file = ";
       if (!options.parameter_file.empty())
         identity +=
@@ -99,6 +134,39 @@ namespace Ricochet
 
 
   void
+  RunFolder::check_parameter_file() const
+  {
+    std::vector<std::string> names = result_files;
+    names.push_back(identity_file);
+    for (const std::string &name : names)
+      {
+        // All values of a run may be run again where they are.
+        const bool is_kept =
+          name == (resume ? all_values : all_values_of_resumed) ||
+          !same_file(file(name), options.parameter_file) ||
+          read_file(options.parameter_file) == all_parameters;
+        if (!is_kept)
+          throw InputError("The parameter file '" + options.parameter_file +
+                           "' has the name of a file that the run writes to "
+                           "its folder. Copy it to another name first.");
+      }
+  }
+
+
+
+  bool
+  RunFolder::has_copy() const
+  {
+    const std::string name = name_of_copy(options.parameter_file);
+    return !name.empty() && name != identity_file &&
+      std::find(result_files.begin(), result_files.end(), name) ==
+      result_files.end() &&
+      !same_file(file(name), options.parameter_file);
+  }
+
+
+
+  void
   RunFolder::check_whose_run_it_holds() const
   {
     const auto refuse = [&](const std::string &whose) {
@@ -112,24 +180,36 @@ namespace Ricochet
         for (const std::string &name : result_files)
           if (exists(file(name)))
             refuse("an unknown run");
+        std::error_code error;
+        if (!std::filesystem::is_empty(file("solution"), error) && !error)
+          refuse("an unknown run, with files in 'solution'");
+        const std::string copy = name_of_copy(options.parameter_file);
+        if (has_copy() && exists(file(copy)) &&
+            read_file(file(copy)) != read_file(options.parameter_file))
+          refuse("others: '" + copy + "' is not the file that was given");
         return;
       }
-    const std::string found = read_file(file(identity_file));
-    if (found == identity)
-      return;
+    const std::string found   = read_file(file(identity_file));
     const std::string program = entry(found, "program = ");
     const std::string other   = entry(found, "parameter file = ");
     // A file that was moved, or came with the folder from elsewhere, is still
     // the same file.
-    if (program == options.program && !other.empty() &&
-        !options.parameter_file.empty() &&
-        name_of_copy(other) == name_of_copy(options.parameter_file) &&
-        exists(file(name_of_copy(other))) &&
-        read_file(file(name_of_copy(other))) ==
-          read_file(options.parameter_file))
-      return;
-    refuse(program +
-           (other.empty() ? " without a parameter file" : " with " + other));
+    const bool is_moved = program == options.program && !other.empty() &&
+      !options.parameter_file.empty() &&
+      name_of_copy(other) == name_of_copy(options.parameter_file) &&
+      exists(file(name_of_copy(other))) &&
+      read_file(file(name_of_copy(other))) == read_file(options.parameter_file);
+    if (found.compare(0, identity.size(), identity) != 0 && !is_moved)
+      refuse(program +
+             (other.empty() ? " without a parameter file" : " with " + other));
+    const std::string state = entry(found, "state = ");
+    if (state != complete && exists(file(checkpoint_file)))
+      throw InputError(
+        "The output folder '" + options.path + "' holds a run of this " +
+        (options.parameter_file.empty() ? "program" : "file") + " that " +
+        (state == resumed ? "was resumed" : "did not come to its end") +
+        " and has a checkpoint. Go on with it with --resume, name another folder "
+        "with --output-dir, or take its place with --overwrite.");
   }
 
 
@@ -140,6 +220,10 @@ namespace Ricochet
     namespace fs = std::filesystem;
     // The checkpoint first: from then on nothing can be resumed by mistake.
     std::vector<std::string> names = result_files;
+    for (const std::string &list : lists_of_fields)
+      if (exists(file(list)))
+        for (const std::string &name : fields_of(read_file(file(list))))
+          names.push_back(name);
     if (exists(file(identity_file)))
       {
         const std::string other =
@@ -157,16 +241,23 @@ namespace Ricochet
         if (error)
           throw ComputationError(
             "'" + file(name) + "' cannot be removed: " + error.message() + ".");
-        fs::remove(file(name + ".new"), error);
+        // Left by a run that was killed.
+        fs::remove(file(name) + unfinished, error);
       }
-    std::error_code error;
-    for (const auto &field : fs::directory_iterator(file("solution"), error))
+  }
+
+
+
+  void
+  RunFolder::write_identity(const std::string &state) const
+  {
+    std::string whose = identity;
+    if (resume && exists(file(identity_file)))
       {
-        const std::string name = field.path().filename().string();
-        if (name.compare(0, 5, "step-") == 0 ||
-            name.compare(0, 10, "obstacles-") == 0)
-          fs::remove(field.path(), error);
+        whose = read_file(file(identity_file));
+        whose.erase(std::min(whose.size(), whose.find("state = ")));
       }
+    write_atomically(file(identity_file), whose + "state = " + state + "\n");
   }
 
 
@@ -178,23 +269,36 @@ namespace Ricochet
       return;
     begun = true;
     on_first_rank(communicator, [&]() {
+      check_parameter_file();
       if (resume)
-        // An attempt to resume with other parameters must not overwrite the
-        // ones that the results in the folder belong to.
-        write_atomically(file("parameters.resumed.prm"), all_parameters);
+        {
+          // An attempt to resume with other parameters must not overwrite the
+          // ones that the results in the folder belong to.
+          write_atomically(file(all_values_of_resumed), all_parameters);
+          write_identity(resumed);
+        }
       else
         {
           remove_earlier_results();
-          write_atomically(file(identity_file), identity);
+          write_identity(running);
           const std::string &given = options.parameter_file;
-          if (!given.empty() && !same_file(file(name_of_copy(given)), given))
+          if (has_copy())
             write_atomically(file(name_of_copy(given)), read_file(given));
-          write_atomically(file("parameters.prm"), all_parameters);
+          write_atomically(file(all_values), all_parameters);
         }
       log_file.open(file("log.txt"), /* keep */ resume);
       log_file.append(early_lines);
     });
     early_lines.clear();
+  }
+
+
+
+  void
+  RunFolder::end()
+  {
+    if (!resume)
+      on_first_rank(communicator, [&]() { write_identity(complete); });
   }
 
 

@@ -17,7 +17,7 @@ namespace Ricochet
    *
    * One process at a time writes to a folder. What an earlier run has left is
    * untouched until begin(): a run that is refused while it is set up leaves
-   * everything as it was.
+   * everything as it was. What is not of a run, or not of Ricochet, stays as it is.
    */
   class RunFolder
   {
@@ -37,8 +37,9 @@ namespace Ricochet
     /**
      * Create the folder if need be, and lock it.
      * @throws InputError on all ranks when it cannot be created or written to,
-     * is in use, or holds the run of another program or parameter file and
-     * neither resume nor overwrite is asked for.
+     * is in use, holds nothing that can be resumed although that is asked for, or, unless
+     * it is to be overwritten, holds the run of another program or parameter file or one
+     * that can be resumed.
      */
     RunFolder(const Options &options, const MPI_Comm communicator);
 
@@ -46,6 +47,10 @@ namespace Ricochet
     /// the log. Called when the set-up has succeeded; further calls do nothing.
     void
     begin();
+
+    /// Note that the run has come to its end. Called after it.
+    void
+    end();
 
     /// Print one line on the console and into `log.txt`.
     /// @throws ComputationError when the disk is full.
@@ -83,15 +88,28 @@ namespace Ricochet
     std::string all_parameters;
 
   private:
+    /// @throws InputError where the parameter file is one of the files that the run writes.
+    void
+    check_parameter_file() const;
+
+    /// Whether a copy of the parameter file goes into the folder: it may lie there itself,
+    /// or have the name of a result.
+    bool
+    has_copy() const;
+
     void
     check_whose_run_it_holds() const;
 
     void
     remove_earlier_results() const;
 
+    /// Write run.txt.
+    void
+    write_identity(const std::string &state) const;
+
     const Options options;
     FolderLock    lock;
-    // What run.txt says of this run.
+    // What run.txt says of this run: its program and parameter file.
     std::string identity;
     bool        begun = false;
     GrowingFile log_file;

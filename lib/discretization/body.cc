@@ -106,7 +106,7 @@ namespace Ricochet
             throw InputError(
               "The mesh has a cell that is turned inside out or "
               "flat, around (" +
-              text + ") m.");
+              text + ").");
           }
     }
   } // namespace

@@ -114,6 +114,11 @@ namespace Ricochet
     std::vector<dealii::types::global_dof_index>
     canonical_positions() const;
 
+    /// What a checkpoint knows the mesh by: nodes of the geometry, numbers of parts and
+    /// boundaries; the same on any number of ranks. Collective.
+    std::uint64_t
+    mesh_checksum() const;
+
     /// The displacements of degree 1 of a body without multipliers. Collective.
     /// @param of_own_degree those of the body's own degree instead, with or without
     /// multipliers: no prolongation, rigid body modes only.

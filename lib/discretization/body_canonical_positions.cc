@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/files.h>
 #include <discretization/body.h>
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 #include <string>
 #include <tuple>
 
-// Where unknowns are in a checkpoint: an order that does not depend on the
-// ranks.
+// What a checkpoint has to know of a body, whatever the number of ranks: an order of the
+// unknowns, and a checksum of the mesh.
 
 namespace Ricochet
 {
@@ -80,10 +82,54 @@ namespace Ricochet
     return Utilities::MPI::some_to_some(communicator, places).at(0);
   }
 
+  template <int dim>
+  std::uint64_t
+  Body<dim>::mesh_checksum() const
+  {
+    // The sum of those of all cells, which does not know their order.
+    std::uint64_t sum = 0;
+    for (const auto &cell : displacement_dofs.active_cell_iterators())
+      {
+        if (!cell->is_locally_owned())
+          continue;
+        std::ostringstream bytes;
+        const auto         put = [&](const auto &value) {
+          bytes.write(reinterpret_cast<const char *>(&value), sizeof(value));
+        };
+        // In single precision, as curved cells are evaluated, which another processor may
+        // round in another way.
+        const auto put_point = [&](const Point<dim> &point) {
+          for (unsigned int c = 0; c < dim; ++c)
+            put(static_cast<float>(point[c]));
+        };
+        put(cell->id().template to_binary<dim>());
+        put(cell->material_id());
+        for (const auto &vertex : mapping().get_vertices(cell))
+          put_point(vertex);
+        for (const auto &face : cell->face_iterators())
+          put(face->at_boundary() ? face->boundary_id()
+                                  : numbers::internal_face_boundary_id);
+        if (is_curved())
+          for (const Point<dim> &node :
+               displacement_element->base_element(0).get_unit_support_points())
+            put_point(mapping().transform_unit_to_real_cell(cell, node));
+        const std::string own = bytes.str();
+        sum +=
+          (static_cast<std::uint64_t>(checksum(own)) << 32) + checksum(own, 1);
+      }
+    return Utilities::MPI::sum(sum, communicator);
+  }
+
   template std::vector<types::global_dof_index>
   Body<1>::canonical_positions() const;
   template std::vector<types::global_dof_index>
   Body<2>::canonical_positions() const;
   template std::vector<types::global_dof_index>
   Body<3>::canonical_positions() const;
+  template std::uint64_t
+  Body<1>::mesh_checksum() const;
+  template std::uint64_t
+  Body<2>::mesh_checksum() const;
+  template std::uint64_t
+  Body<3>::mesh_checksum() const;
 } // namespace Ricochet

@@ -111,6 +111,14 @@ namespace Ricochet
     virtual bool
     is_linear() const = 0;
 
+    /// Where a corner of a cell is turned inside out, though the cell is not where stresses
+    /// are evaluated, which is within; empty if that is nowhere, or is not looked at.
+    virtual std::string
+    inverted_corner(const Vector & /*solution*/) const
+    {
+      return {};
+    }
+
     /// Why the last force was not a number; empty if it was one.
     virtual std::string
     failure() const

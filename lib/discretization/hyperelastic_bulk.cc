@@ -87,6 +87,8 @@ namespace Ricochet
     n_points = quadrature.size();
     n_nodes  = element.n_dofs_per_cell() / dim;
 
+    has_corners = element.degree == 1 && !one_point;
+
     const unsigned int n = dim * n_nodes;
     struct Cell
     {
@@ -153,6 +155,15 @@ namespace Ricochet
               const Cell &cell = cells[numbers[lane]];
               ghosted_index.push_back(cell.ghosted[k]);
               owned_index.push_back(first + lane < end ? cell.owned[k] : -1);
+            }
+        if (has_corners)
+          for (unsigned int v = 0; v < n_nodes; ++v)
+            {
+              Tensor<1, dim, Lanes> corner;
+              for (unsigned int lane = 0; lane < n_lanes; ++lane)
+                for (unsigned int c = 0; c < dim; ++c)
+                  corner[c][lane] = cells[numbers[lane]].iterator->vertex(v)[c];
+              corners.push_back(corner);
             }
         const std::size_t first_point = jxw.size();
         jxw.resize(first_point + n_points);
@@ -875,7 +886,56 @@ namespace Ricochet
       " in the cell around (";
     for (unsigned int d = 0; d < dim; ++d)
       text += (d == 0 ? "" : ", ") + to_text(worst[d + 1]);
-    return text + ") m of the undeformed body.";
+    return text + ") of the undeformed body.";
+  }
+
+
+  template <int dim>
+  std::string
+  HyperelasticBulk<dim>::inverted_corner(const Vector &solution) const
+  {
+    if (!has_corners)
+      return {};
+    import_ghosts(solution, solution);
+    // The place of an inverted corner in the undeformed body, on this rank.
+    std::vector<Point<dim>> places;
+    for (unsigned int batch = 0; batch < n_batches && places.empty(); ++batch)
+      {
+        gather(batch, n_nodes);
+        const auto *const corner = &corners[batch * n_nodes];
+        for (unsigned int v = 0; v < n_nodes; ++v)
+          {
+            // The edges along the axes of the reference cell, which lead from this corner
+            // to its neighbours or from those to this one.
+            Tensor<2, dim, Lanes> edges;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const unsigned int begin = v & ~(1U << d), end = v | (1U << d);
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    edges[d][c] = corner[end][c] - corner[begin][c];
+                    // gather() leaves displacements relative to the first node.
+                    edges[d][c] += cell_old[end * dim + c];
+                    if (begin > 0)
+                      edges[d][c] -= cell_old[begin * dim + c];
+                  }
+              }
+            const Lanes volume = determinant(edges);
+            for (unsigned int lane = 0; lane < Lanes::size(); ++lane)
+              if (volume[lane] <= 0. && places.empty())
+                {
+                  Point<dim> &place = places.emplace_back();
+                  for (unsigned int c = 0; c < dim; ++c)
+                    place[c] = corner[v][c][lane];
+                }
+          }
+      }
+    std::string text;
+    for (const auto &of_rank : Utilities::MPI::all_gather(communicator, places))
+      if (text.empty() && !of_rank.empty())
+        for (unsigned int c = 0; c < dim; ++c)
+          text += (c == 0 ? "(" : ", ") + to_text(of_rank.front()[c]);
+    return text.empty() ? text : text + ") of the undeformed body";
   }
 
 

@@ -98,6 +98,11 @@ namespace Ricochet
     std::string
     failure() const override;
 
+    /// Of quadrilaterals and hexahedra of degree 1: in a triangle or tetrahedron the
+    /// gradient is that of the corners.
+    std::string
+    inverted_corner(const Vector &solution) const override;
+
   private:
     using Gradient   = dealii::Tensor<2, dim, Lanes>;
     using Symmetric2 = dealii::SymmetricTensor<2, dim, Lanes>;
@@ -219,6 +224,9 @@ namespace Ricochet
     // without weight.
     std::vector<unsigned int>                            batch_part;
     std::vector<std::array<unsigned int, Lanes::size()>> batch_cells;
+    // Corners of the cells of each batch (m), where they are looked at.
+    bool                                                 has_corners = false;
+    dealii::AlignedVector<dealii::Tensor<1, dim, Lanes>> corners;
     dealii::AlignedVector<dealii::Tensor<1, dim, Lanes>>
                                  shape_gradients; // batch, point, node
     dealii::AlignedVector<Lanes> jxw;             // batch, point

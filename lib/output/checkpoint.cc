@@ -9,6 +9,7 @@
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <sstream>
@@ -19,7 +20,7 @@ namespace Ricochet
 
   namespace
   {
-    const std::string magic     = "Ricochet checkpoint, format 11\n";
+    const std::string magic     = "Ricochet checkpoint, format 12\n";
     const std::string file_name = "checkpoint.bin";
 
     /// The vectors of a state, in the order in which they are stored.
@@ -39,10 +40,24 @@ namespace Ricochet
         visit(state.tangent.solution);
     }
 
+    /// The beginning of a line that may be anything.
+    std::string
+    printable(std::string line)
+    {
+      constexpr std::size_t longest = 120;
+      std::replace_if(
+        line.begin(),
+        line.end(),
+        [](const char c) { return c < ' ' || c > '~'; },
+        '?');
+      return line.size() > longest ? line.substr(0, longest) + "..." : line;
+    }
+
     /// What is in the file, apart from magic, size and checksum.
     struct Payload
     {
       std::string         parameters;
+      std::uint64_t       mesh = 0;
       unsigned int        step = 0;
       double              time = 0.;
       std::vector<double> sums;
@@ -56,7 +71,7 @@ namespace Ricochet
       void
       serialize(Archive &archive, const unsigned int /*version*/)
       {
-        archive &parameters &step &time &sums &n_rows &checksum &tangent
+        archive &parameters &mesh &step &time &sums &n_rows &checksum &tangent
           &values;
       }
     };
@@ -66,10 +81,10 @@ namespace Ricochet
 
 
   void
-  Checkpoint::write(const RunFolder                            &folder,
-                    const std::vector<types::global_dof_index> &positions) const
+  Checkpoint::write(const RunFolder &folder, const CheckpointMesh &mesh) const
   {
     Payload    payload{folder.parameters_that_matter,
+                    mesh.checksum,
                     step,
                     state.time,
                     sums,
@@ -78,7 +93,7 @@ namespace Ricochet
                     state.tangent.record,
                     {}};
     const auto positions_of_rank =
-      Utilities::MPI::gather(folder.communicator, positions);
+      Utilities::MPI::gather(folder.communicator, mesh.positions);
     for_each_vector(state, [&](const Vector &vector) {
       const double *mine           = vector.trilinos_vector()[0];
       const auto    values_of_rank = Utilities::MPI::gather(
@@ -110,9 +125,9 @@ namespace Ricochet
 
 
   Checkpoint
-  Checkpoint::read(const RunFolder                            &folder,
-                   const Vector                               &empty_vector,
-                   const std::vector<types::global_dof_index> &positions)
+  Checkpoint::read(const RunFolder      &folder,
+                   const Vector         &empty_vector,
+                   const CheckpointMesh &mesh)
   {
     const std::string file = folder.file(file_name);
     const auto        fail = [&](const std::string &why) {
@@ -147,10 +162,19 @@ namespace Ricochet
 
     Payload            payload;
     std::istringstream data(bytes);
-    {
-      boost::archive::binary_iarchive archive(data);
-      archive >> payload;
-    }
+    // Of a file that nobody but a run has written, the checksum says enough; it may be a
+    // stranger's.
+    const std::string strange =
+      "is damaged: its content is none of a checkpoint";
+    try
+      {
+        boost::archive::binary_iarchive archive(data);
+        archive >> payload;
+      }
+    catch (const std::exception &)
+      {
+        fail(strange);
+      }
     if (payload.parameters != folder.parameters_that_matter)
       {
         // Name the first line that differs.
@@ -160,8 +184,8 @@ namespace Ricochet
         while (std::getline(old_lines, old_line) &&
                std::getline(new_lines, new_line) && old_line == new_line)
           ;
-        fail("belongs to a run with other parameters: it had '" + old_line +
-             "', this one has '" + new_line + "'");
+        fail("belongs to a run with other parameters: it had '" +
+             printable(old_line) + "', this one has '" + new_line + "'");
       }
 
     Checkpoint checkpoint;
@@ -172,19 +196,24 @@ namespace Ricochet
     checkpoint.state.tangent.record = payload.tangent;
     unsigned int n_without_shares   = 0;
     for_each_vector(checkpoint.state, [&](Vector &) { ++n_without_shares; });
+    if (payload.values.size() < n_without_shares)
+      fail(strange);
+    if (payload.mesh != mesh.checksum)
+      fail(
+        "belongs to another mesh: nodes, parts or boundaries are not those that "
+        "the run began with");
     checkpoint.state.contact_shares.resize(payload.values.size() -
                                            n_without_shares);
     auto stored = payload.values.begin();
     for_each_vector(checkpoint.state, [&](Vector &vector) {
       vector.reinit(empty_vector);
-      AssertThrow(stored != payload.values.end(), ExcInternalError());
       if (stored->size() != vector.size())
         fail("has " + std::to_string(stored->size()) +
              " unknowns, this run has " + std::to_string(vector.size()) +
              ": it belongs to another mesh");
       double *values = vector.trilinos_vector()[0];
-      for (std::size_t k = 0; k < positions.size(); ++k)
-        values[k] = (*stored)[positions[k]];
+      for (std::size_t k = 0; k < mesh.positions.size(); ++k)
+        values[k] = (*stored)[mesh.positions[k]];
       ++stored;
     });
     return checkpoint;

@@ -7,6 +7,21 @@
 
 namespace Ricochet
 {
+  /// The mesh and the unknowns, as checkpoints know them on any number of ranks.
+  struct CheckpointMesh
+  {
+    /// Body::canonical_positions()
+    std::vector<dealii::types::global_dof_index> positions;
+    /// Body::mesh_checksum()
+    std::uint64_t checksum = 0;
+
+    /// Collective.
+    explicit CheckpointMesh(const SemiDiscreteSystem::Unknowns &unknowns)
+      : positions(unknowns.canonical_positions())
+      , checksum(unknowns.mesh_checksum())
+    {}
+  };
+
   /// All that a run needs to go on as if it had not been stopped.
   struct Checkpoint
   {
@@ -22,25 +37,23 @@ namespace Ricochet
      * Write to @p folder / checkpoint.bin, so that there is a whole checkpoint at
      * any time.
      *
-     * @param positions Body::canonical_positions().
      * @throws ComputationError on all ranks, when the disk is full.
      */
     void
-    write(const RunFolder                                    &folder,
-          const std::vector<dealii::types::global_dof_index> &positions) const;
+    write(const RunFolder &folder, const CheckpointMesh &mesh) const;
 
     /**
      * Read what write() has written, on any number of ranks and with the same
      * parameters (but for final time, output and solvers).
      *
      * @param empty_vector a system vector, for the layout.
-     * @param positions Body::canonical_positions().
-     * @throws InputError no checkpoint, truncated or damaged, other parameters.
+     * @throws InputError no checkpoint, truncated or damaged, other parameters, another
+     * mesh.
      */
     static Checkpoint
-    read(const RunFolder                                    &folder,
-         const Vector                                       &empty_vector,
-         const std::vector<dealii::types::global_dof_index> &positions);
+    read(const RunFolder      &folder,
+         const Vector         &empty_vector,
+         const CheckpointMesh &mesh);
   };
 } // namespace Ricochet
 

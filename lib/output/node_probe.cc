@@ -3,11 +3,32 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 namespace Ricochet
 {
   using namespace dealii;
+
+  template <int dim>
+  bool
+  is_nearer(const Point<dim> &a, const Point<dim> &b, const Point<dim> &point)
+  {
+    constexpr double as_near = 1e-9;
+    const double     of_a = a.distance(point), of_b = b.distance(point);
+    const double     size =
+      std::max({of_a, of_b, a.norm(), b.norm(), point.norm()});
+    if (std::abs(of_a - of_b) > as_near * size)
+      return of_a < of_b;
+    for (unsigned int c = 0; c < dim; ++c)
+      if (std::abs(a[c] - b[c]) > as_near * size)
+        return a[c] < b[c];
+    return false;
+  }
+
+
 
   template <int dim>
   NodeProbe<dim>::NodeProbe(const Body<dim>   &body,
@@ -17,7 +38,7 @@ namespace Ricochet
                             const unsigned int end)
     : communicator(body.communicator)
   {
-    double nearest = std::numeric_limits<double>::max();
+    std::optional<Point<dim>>            nearest;
     std::vector<types::global_dof_index> candidate(dim);
     for (const auto &cell : body.dof_handler().active_cell_iterators())
       {
@@ -26,10 +47,9 @@ namespace Ricochet
           continue;
         for (const unsigned int v : cell->vertex_indices())
           {
-            const double distance = cell->vertex(v).distance(point);
-            if (distance >= nearest)
+            if (nearest && !is_nearer(cell->vertex(v), *nearest, point))
               continue;
-            nearest = distance;
+            nearest = cell->vertex(v);
             for (unsigned int c = 0; c < dim; ++c)
               candidate[c] = body.system_index(
                 cell->vertex_dof_index(v, c, cell->active_fe_index()));
@@ -37,8 +57,15 @@ namespace Ricochet
       }
     // The node belongs to the lowest rank that sees the nearest vertex and owns
     // its unknowns.
-    const double global_nearest = Utilities::MPI::min(nearest, communicator);
-    const bool   mine           = nearest == global_nearest &&
+    std::optional<Point<dim>> of_all;
+    for (const auto &of_rank :
+         Utilities::MPI::all_gather(communicator,
+                                    nearest ? std::vector<Point<dim>>{*nearest}
+                                            : std::vector<Point<dim>>()))
+      for (const Point<dim> &vertex : of_rank)
+        if (!of_all || is_nearer(vertex, *of_all, point))
+          of_all = vertex;
+    const bool mine = nearest && *nearest == *of_all &&
       body.owned_indices().is_element(candidate[0]);
     const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
     const unsigned int owner =
@@ -64,6 +91,12 @@ namespace Ricochet
   }
 
 
+  template bool
+  is_nearer(const Point<1> &, const Point<1> &, const Point<1> &);
+  template bool
+  is_nearer(const Point<2> &, const Point<2> &, const Point<2> &);
+  template bool
+  is_nearer(const Point<3> &, const Point<3> &, const Point<3> &);
   template class NodeProbe<1>;
   template class NodeProbe<2>;
   template class NodeProbe<3>;

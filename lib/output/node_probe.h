@@ -6,7 +6,16 @@
 
 namespace Ricochet
 {
-  /// Reads system vectors in the vertex that is nearest to a given point.
+  /// Whether @p a is nearer than @p b to @p point or, where both are as near to nine digits,
+  /// has the lower coordinates, of which x counts first: the same vertex on any mesh and
+  /// any number of ranks.
+  template <int dim>
+  bool
+  is_nearer(const dealii::Point<dim> &a,
+            const dealii::Point<dim> &b,
+            const dealii::Point<dim> &point);
+
+  /// Reads system vectors in the vertex that is nearest to a given point, by is_nearer().
   template <int dim>
   class NodeProbe
   {

@@ -5,11 +5,8 @@
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_postprocessor.h>
 
-#include <charconv>
 #include <filesystem>
-#include <fstream>
 #include <limits>
-#include <regex>
 #include <sstream>
 
 namespace Ricochet
@@ -206,20 +203,6 @@ namespace Ricochet
       }
     };
 
-    /// A file of fields that was written to its end.
-    bool
-    is_whole(const std::string &file)
-    {
-      constexpr std::streamoff length = 40;
-      std::ifstream            in(file, std::ios::binary | std::ios::ate);
-      if (!in || in.tellg() < length)
-        return false;
-      std::string end(length, '\0');
-      in.seekg(-length, std::ios::end);
-      in.read(end.data(), length);
-      return end.find("</VTKFile>") != std::string::npos;
-    }
-
     /// In 1D a field of one component is a scalar to VTU files.
     template <int dim>
     std::vector<DataComponentInterpretation::DataComponentInterpretation>
@@ -246,34 +229,9 @@ namespace Ricochet
     , obstacles(obstacles)
     , surfaces(obstacles)
     , folder(folder)
-  {
-    if (!folder.resume || !std::filesystem::exists(folder.file("solution.pvd")))
-      return;
-    // Take over the list of an earlier part of the run.
-    std::istringstream in(read_file(folder.file("solution.pvd")));
-    std::string        line;
-    const std::regex   entry(
-      "timestep=\"([^\"]*)\".*file=\"(solution/step-([0-9]*)\\.vtu)\"");
-    std::smatch match;
-    while (std::getline(in, line))
-      if (std::regex_search(line, match, entry))
-        {
-          unsigned long step = 0;
-          double        time = 0.;
-          const auto    read = [](const std::string &text, auto &number) {
-            return std::from_chars(text.data(),
-                                   text.data() + text.size(),
-                                   number)
-                     .ec == std::errc();
-          };
-          if (read(match[3], step) && read(match[1], time) &&
-              is_whole(folder.file(match[2])))
-            written[step] = {time, match[2]};
-          else
-            folder.log("note: '" + match[2].str() +
-                       "' is missing or damaged and is not listed any more");
-        }
-  }
+    , list(folder, "solution.pvd", "solution/step-")
+    , obstacle_list(folder, "obstacles.pvd", "solution/obstacles-")
+  {}
 
 
 
@@ -327,8 +285,6 @@ namespace Ricochet
                            body.is_curved() ? DataOut<dim>::curved_inner_cells
                                             : DataOut<dim>::curved_boundary);
 
-    const std::string name =
-      "solution/step-" + Utilities::int_to_string(step, 6) + ".vtu";
     // One file, to which each rank gives the part between header and footer.
     DataOutBase::VtkFlags flags;
     flags.time                = state.time;
@@ -347,23 +303,13 @@ namespace Ricochet
         throw ComputationError("The folder '" + folder.file("solution") +
                                "' cannot be made: " + error.message() + ".");
     });
-    write_atomically(folder.file(name),
+    write_atomically(folder.file(list.file_of(step)),
                      (rank == 0 ? header.str() : "") +
                        data_out.text(flags, /* may be empty */ rank > 0) +
                        (rank + 1 == n_ranks ? footer.str() : ""),
                      folder.communicator);
 
-    // A resumed run forgets what came after its checkpoint.
-    written.erase(written.lower_bound(step), written.end());
-    written[step] = {state.time, name};
-    std::vector<std::pair<double, std::string>> times_and_names;
-    for (const auto &entry : written)
-      times_and_names.push_back(entry.second);
-    on_first_rank(folder.communicator, [&]() {
-      std::ostringstream pvd;
-      DataOutBase::write_pvd_record(pvd, times_and_names);
-      write_atomically(folder.file("solution.pvd"), pvd.str());
-    });
+    list.append(step, state.time);
     if constexpr (dim > 1)
       if (!surfaces.empty())
         write_obstacles(displacement, step, flags);
@@ -403,20 +349,10 @@ namespace Ricochet
         upper[c] = Utilities::MPI::max(upper[c], folder.communicator);
       }
     on_first_rank(folder.communicator, [&]() {
-      const auto file_of = [](const unsigned int s) {
-        return "solution/obstacles-" + Utilities::int_to_string(s, 6) + ".vtu";
-      };
-      write_atomically(folder.file(file_of(step)),
+      write_atomically(folder.file(obstacle_list.file_of(step)),
                        surfaces.vtu(BoundingBox<dim>({lower, upper}), flags));
-      std::vector<std::pair<double, std::string>> times_and_names;
-      // Of a run that is resumed they may have got lost, as the fields may.
-      for (const auto &[s, time_and_name] : written)
-        if (is_whole(folder.file(file_of(s))))
-          times_and_names.emplace_back(time_and_name.first, file_of(s));
-      std::ostringstream pvd;
-      DataOutBase::write_pvd_record(pvd, times_and_names);
-      write_atomically(folder.file("obstacles.pvd"), pvd.str());
     });
+    obstacle_list.append(step, flags.time);
   }
 
 

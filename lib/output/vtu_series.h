@@ -5,13 +5,15 @@
 #include <base/run_folder.h>
 #include <discretization/body.h>
 #include <materials/material.h>
+#include <output/field_list.h>
 #include <output/obstacle_surfaces.h>
 #include <time_integration/semi_discrete_system.h>
 
 namespace Ricochet
 {
   /**
-   * The fields of a body for ParaView: displacement, velocity, acceleration,
+   * The fields of a body for ParaView: displacement, velocity, acceleration (of the
+   * midpoint scheme its mean over the last step),
    * elastic Cauchy stress and von Mises stress (Pa), the contact force of each
    * node (N, on the body), the contact pressure (Pa), the gap (m; of all points
    * of the body, to the nearest obstacle, if there is one) and the number of the part
@@ -61,8 +63,7 @@ namespace Ricochet
     const Obstacles                  obstacles;
     const ObstacleSurfaces<dim>      surfaces;
     RunFolder                       &folder;
-    // Time and file name of each step written, by step.
-    std::map<unsigned int, std::pair<double, std::string>> written;
+    FieldList                        list, obstacle_list;
   };
 } // namespace Ricochet
 

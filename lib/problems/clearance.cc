@@ -287,11 +287,17 @@ namespace Ricochet
                 std::string text;
                 for (unsigned int c = 0; c < dim; ++c)
                   text += (c == 0 ? "" : ", ") + to_text(x[c]);
-                throw InputError("At the start bodies overlap: the point (" +
-                                 text + ") m of the contact '" + pair.name +
-                                 "' is " + to_text(depth) +
-                                 " m inside another one. Move one of them "
-                                 "away.");
+                // Facets of two circles of one radius overlap by less.
+                const bool may_be_a_fit = depth < .1 * facet.cell_diameter;
+                throw InputError(
+                  "At the start bodies overlap: the point (" + text +
+                  ") of the contact '" + pair.name +
+                  "' is inside another one, " + to_text(depth) +
+                  " behind its surface. Move one of them away" +
+                  (may_be_a_fit
+                     ? ", or, where one curved surface fits into another, leave so much "
+                       "of a gap: facets are chords of an arc."
+                     : "."));
               }
   }
 

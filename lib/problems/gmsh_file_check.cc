@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/parameter_file.h>
 #include <problems/gmsh_element_types.h>
 #include <problems/gmsh_file_check.h>
+
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -147,15 +150,9 @@ namespace Ricochet
     void
     MeshFile::read()
     {
-      namespace fs = std::filesystem;
-      std::error_code       error;
-      const fs::file_status status = fs::status(name, error);
-      if (fs::is_directory(status))
-        throw InputError("The mesh file '" + name + "' is a directory.");
-      // Pipes and devices could keep us waiting for ever.
-      if (!fs::is_regular_file(status))
-        throw InputError("The mesh file '" + name + "' cannot be read.");
-      const std::uintmax_t size = fs::file_size(name, error);
+      check_mesh_file(name);
+      std::error_code      error;
+      const std::uintmax_t size = std::filesystem::file_size(name, error);
       std::ifstream        file(name, std::ios::binary);
       if (error || !file)
         throw InputError("The mesh file '" + name + "' cannot be read.");
@@ -1353,6 +1350,29 @@ namespace Ricochet
                       "be read.");
     }
   } // namespace
+
+
+
+  void
+  check_mesh_file(const std::string &file_name)
+  {
+    namespace fs = std::filesystem;
+    std::error_code       error;
+    const fs::file_status status = fs::status(file_name, error);
+    if (fs::is_directory(status))
+      throw InputError("The mesh file '" + file_name + "' is a directory.");
+    if (!fs::is_regular_file(status))
+      throw InputError("The mesh file '" + file_name + "' cannot be read.");
+    const double size   = static_cast<double>(fs::file_size(file_name, error));
+    const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+      static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    constexpr double memory_of_mesh = 16.;
+    if (!error && memory_of_mesh * size > memory)
+      throw InputError(
+        "The mesh file '" + file_name + "' has " + to_text(size / 1e9) +
+        " GB; its mesh would take more than the " + to_text(memory / 1e9) +
+        " GB of memory of this machine.");
+  }
 
 
 

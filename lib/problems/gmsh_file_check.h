@@ -7,6 +7,16 @@
 namespace Ricochet
 {
   /**
+   * See that @p file_name can be read without waiting for anybody, as pipes and devices
+   * would, and is not far too large, as a slip or a file with holes may be: a mesh takes
+   * at least sixteen times the memory of its file.
+   *
+   * @throws InputError
+   */
+  void
+  check_mesh_file(const std::string &file_name);
+
+  /**
    * Check that @p file_name is a whole ASCII mesh of Gmsh (format 2.2 or 4.1)
    * that can be read as a mesh of dimension @p dim, which is 2 or 3: by deal.II when
    * its elements are of first order, by Gmsh when they are of second. deal.II's reader trusts its input: damaged files make it crash, hang, or

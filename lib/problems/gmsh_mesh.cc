@@ -447,13 +447,14 @@ namespace Ricochet
     const bool       is_curved = check_gmsh_file(file_name, dim) == 2;
     Description<dim> mesh;
     if (is_curved)
-      refuse_options_beside(file_name);
-    if (is_curved)
-      mesh =
-        with_gmsh<Description<dim>>("read the mesh '" + file_name + "'", [&]() {
-          gmsh::open(file_name);
-          return describe_model<dim>();
-        });
+      {
+        refuse_options_beside(file_name);
+        mesh = with_gmsh<Description<dim>>("read the mesh '" + file_name + "'",
+                                           [&]() {
+                                             gmsh::open(file_name);
+                                             return describe_model<dim>();
+                                           });
+      }
     try
       {
         if (!is_curved)
@@ -528,7 +529,8 @@ namespace Ricochet
   convert_to_gmsh_mesh(const std::string &file_name,
                        const std::string &msh_file,
                        const unsigned int dim,
-                       const double       mesh_size)
+                       const double       mesh_size,
+                       const unsigned int seconds)
   {
     // A geometry is a script, and may be a stranger's.
     const auto make_mesh = [&]() {
@@ -579,8 +581,10 @@ namespace Ricochet
       return true;
     };
     // Gmsh crashes on some geometries, and a script may end the process it is in.
-    run_apart("Gmsh",
-              [&]() { with_gmsh<bool>("read '" + file_name + "'", convert); });
+    run_apart(
+      "Gmsh",
+      [&]() { with_gmsh<bool>("read '" + file_name + "'", convert); },
+      seconds);
   }
 
 
@@ -591,7 +595,8 @@ namespace Ricochet
                 const double                               mesh_size,
                 Triangulation<dim>                        &triangulation,
                 std::map<std::string, types::boundary_id> &boundary_names,
-                std::map<std::string, types::material_id> &material_names)
+                std::map<std::string, types::material_id> &material_names,
+                const unsigned int                         seconds)
   {
     namespace fs        = std::filesystem;
     const auto read_msh = [&](const std::string &msh_file) {
@@ -616,11 +621,12 @@ namespace Ricochet
                        ".stp.");
     if (!fs::exists(file_name))
       throw InputError("The mesh file '" + file_name + "' does not exist.");
+    check_mesh_file(file_name);
     refuse_options_beside(file_name);
     const MemoryFile file;
     try
       {
-        convert_to_gmsh_mesh(file_name, file.name(), dim, mesh_size);
+        convert_to_gmsh_mesh(file_name, file.name(), dim, mesh_size, seconds);
         return read_msh(file.name());
       }
     catch (const InputError &error)
@@ -645,11 +651,13 @@ namespace Ricochet
                 const double,
                 Triangulation<2> &,
                 std::map<std::string, types::boundary_id> &,
-                std::map<std::string, types::material_id> &);
+                std::map<std::string, types::material_id> &,
+                const unsigned int);
   template CellNodes<3>
   read_any_mesh(const std::string &,
                 const double,
                 Triangulation<3> &,
                 std::map<std::string, types::boundary_id> &,
-                std::map<std::string, types::material_id> &);
+                std::map<std::string, types::material_id> &,
+                const unsigned int);
 } // namespace Ricochet

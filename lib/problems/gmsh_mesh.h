@@ -50,13 +50,15 @@ namespace Ricochet
    * Gmsh has given to their curves or surfaces.
    *
    * @param mesh_size length of an element (m); 0 for what the file says.
+   * @param seconds that Gmsh may take; 0 for any time.
    * @throws InputError naming the file.
    */
   void
   convert_to_gmsh_mesh(const std::string &file_name,
                        const std::string &msh_file,
                        const unsigned int dim,
-                       const double       mesh_size);
+                       const double       mesh_size,
+                       const unsigned int seconds = 0);
 
   /**
    * Read a mesh, or mesh a geometry, as convert_to_gmsh_mesh() does for what is not a
@@ -74,7 +76,8 @@ namespace Ricochet
     const double                                       mesh_size,
     dealii::Triangulation<dim>                        &triangulation,
     std::map<std::string, dealii::types::boundary_id> &boundary_names,
-    std::map<std::string, dealii::types::material_id> &material_names);
+    std::map<std::string, dealii::types::material_id> &material_names,
+    const unsigned int                                 seconds = 0);
 } // namespace Ricochet
 
 #endif

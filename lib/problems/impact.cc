@@ -646,6 +646,7 @@ namespace Ricochet
                 return body.sparsity_pattern();
               },
               [this]() { return body.canonical_positions(); },
+              [this]() { return body.mesh_checksum(); },
               [this]() {
                 // Where contact couples other unknowns in each step.
                 return body.coarse_space(contact->couplings() != nullptr);

@@ -2,7 +2,7 @@
 #include <base/exceptions.h>
 #include <base/last_meeting.h>
 #include <base/parameter_file.h>
-#include <output/checkpoint.h>
+#include <base/stop_request.h>
 #include <problems/time_loop.h>
 
 #include <deal.II/base/timer.h>
@@ -48,8 +48,15 @@ namespace Ricochet
     parameters.add_parameter("Checkpoint every",
                              checkpoint_every,
                              "Write a checkpoint every so many steps and at "
-                             "the end; 0 for none but after a failure.",
+                             "the end; 0 for none but by the clock, after a "
+                             "failure or a signal.",
                              Patterns::Integer(0));
+    parameters.add_parameter("Checkpoint every minutes",
+                             checkpoint_minutes,
+                             "Write a checkpoint when so much time of the "
+                             "clock has passed since the last one (min), and "
+                             "then at the end, too; 0 for never.",
+                             Patterns::Double(0.));
     parameters.add_parameter("Log every",
                              log_every,
                              "Print a line every so many steps; 0 for never.",
@@ -351,17 +358,18 @@ namespace Ricochet
             "The step from t = " + units.text(old_state.time, "s") +
             " of length " + units.text(time_step, "s") +
             " cannot be made, after " + std::to_string(n_halvings_so_far) +
-            " halvings.\n" + failure.what() +
-            "All results up to then are in the output folder.");
+            " halvings.\n" + Utilities::trim(failure.what()) +
+            "\nAll results up to then are in the output folder.");
         ++sums.n_halvings;
       }
     State      middle;
     StepReport report =
       advance(old_state, .5 * time_step, n_halvings_so_far + 1, middle);
     report += advance(middle, .5 * time_step, n_halvings_so_far + 1, new_state);
-    // A force over the step is the mean of those over its halves.
+    // A force or acceleration over the step is the mean of those over its halves.
     if (scheme.contact_force_is_of_step())
       {
+        new_state.acceleration.sadd(.5, .5, middle.acceleration);
         new_state.contact_force.sadd(.5, .5, middle.contact_force);
         for (unsigned int k = 0; k < new_state.contact_shares.size(); ++k)
           new_state.contact_shares[k].sadd(.5, .5, middle.contact_shares[k]);
@@ -402,7 +410,6 @@ namespace Ricochet
     constexpr unsigned int   first = 9, n_of_contact = 4;
     const unsigned int       first_own = first + n_of_contact * n_contacts;
     std::vector<ContactStep> contacts(n_contacts);
-    AssertThrow(list.size() >= first_own, ExcInternalError());
     for (unsigned int k = 0; k < n_contacts; ++k)
       {
         const double *values  = &list[first + n_of_contact * k];
@@ -595,6 +602,17 @@ namespace Ricochet
     ledger.add_row(row);
     if (checked.breaks_promise)
       log_broken_promise(report, state.time);
+    if (!has_inverted_corner)
+      if (const std::string place = system.bulk.inverted_corner(state.solution);
+          !place.empty())
+        {
+          has_inverted_corner = true;
+          folder.log(
+            "note: at t = " + units.text(state.time, "s") +
+            " a cell is turned inside out in its corner at " + place +
+            ", though not where stresses are evaluated: take a finer mesh "
+            "there, or triangles or tetrahedra");
+        }
   }
 
 
@@ -669,6 +687,31 @@ namespace Ricochet
 
 
 
+  std::string
+  TimeLoop::log_head() const
+  {
+    const auto with_unit = [this](const std::string &name,
+                                  const std::string &unit) {
+      return name + " [" + units.name(unit) + "]";
+    };
+    char line[200];
+    std::snprintf(line,
+                  sizeof(line),
+                  "%8s/%-8s %12s %14s %14s %10s %12s %7s %7s",
+                  "step",
+                  "of",
+                  with_unit("time", "s").c_str(),
+                  with_unit("energy", "J").c_str(),
+                  with_unit("modified", "J").c_str(),
+                  "balance",
+                  with_unit("force", "N").c_str(),
+                  "active",
+                  "Newton");
+    return line;
+  }
+
+
+
   void
   TimeLoop::log_row(const unsigned int step,
                     const unsigned int n_steps,
@@ -723,10 +766,10 @@ namespace Ricochet
                  const unsigned int step,
                  const Sums        &sums_of_state)
   {
-    if (!positions)
-      positions = system.unknowns.canonical_positions();
+    if (!mesh)
+      mesh.emplace(system.unknowns);
     Checkpoint{step, sums_of_state.to_list(), ledger.seal(), state}
-      .write(folder, *positions);
+      .write(folder, *mesh);
   }
 
 
@@ -764,12 +807,20 @@ namespace Ricochet
   {
     if (folder.resume)
       {
-        positions = system.unknowns.canonical_positions();
+        mesh.emplace(system.unknowns);
         const Checkpoint checkpoint =
-          Checkpoint::read(folder, state.solution, *positions);
+          Checkpoint::read(folder, state.solution, *mesh);
+        const unsigned int step = checkpoint.step;
+        const double       time = state.time + step * parameters.time_step;
+        if (checkpoint.sums.size() != sums.to_list().size() ||
+            checkpoint.ledger.n_rows != step + 1 ||
+            std::abs(checkpoint.state.time - time) >
+              1e-6 * parameters.time_step)
+          throw InputError(
+            "The run cannot be resumed: its checkpoint is damaged, "
+            "with other sums, rows or times than this run has.");
         state = checkpoint.state;
         sums  = Sums::from_list(checkpoint.sums, contact_names.size());
-        const unsigned int step = checkpoint.step;
         if (step > n_steps)
           throw InputError(
             "The run cannot be resumed: its checkpoint is at t "
@@ -777,7 +828,6 @@ namespace Ricochet
             units.text(state.time, "s") + ", after the final time " +
             units.text(parameters.final_time, "s") + ".");
         ledger.resume(checkpoint.ledger);
-        AssertThrow(ledger.rows().size() == step + 1, ExcInternalError());
         for (const auto &row : ledger.rows())
           check.add(terms_of(row));
         folder.log("resumed after step " + std::to_string(step) +
@@ -908,6 +958,43 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    /// The time of the clock since the last checkpoint, as the first rank has it.
+    class CheckpointClock
+    {
+    public:
+      CheckpointClock(const double minutes, const MPI_Comm communicator)
+        : minutes(minutes)
+        , communicator(communicator)
+      {}
+
+      /// Whether one is due; at the end of a run if there was one before. Collective.
+      bool
+      is_due(const bool is_end)
+      {
+        if (minutes == 0.)
+          return false;
+        const bool has_passed =
+          Utilities::MPI::broadcast(communicator,
+                                    since_last.wall_time() > 60. * minutes);
+        if (!has_passed)
+          return is_end && has_begun;
+        has_begun = true;
+        since_last.restart();
+        return true;
+      }
+
+    private:
+      const double   minutes;
+      const MPI_Comm communicator;
+      Timer          since_last;
+      bool           has_begun = false;
+    };
+  } // namespace
+
+
+
   State
   TimeLoop::run(const State &initial_state)
   {
@@ -917,9 +1004,7 @@ namespace Ricochet
 
     State        state = initial_state;
     unsigned int step  = begin(state, n_steps);
-    folder.log(
-      "    step/of              time         energy       modified "
-      "   balance        force  active  Newton");
+    folder.log(log_head());
     if (parameters.newton_table)
       log_newton_tables();
 
@@ -932,10 +1017,14 @@ namespace Ricochet
     const unsigned int first_step = step;
     double             energy     = energies_of(state).total();
     // Sums up to the last complete step.
-    Sums complete_sums = sums;
+    Sums              complete_sums = sums;
+    CheckpointClock   checkpoint_clock(parameters.checkpoint_minutes,
+                                     folder.communicator);
+    const StopRequest stop_request;
+    int               signal = 0;
     try
       {
-        while (step < n_steps)
+        while (step < n_steps && signal == 0)
           {
             timer.enter_subsection("steps");
             const StepReport report =
@@ -956,8 +1045,11 @@ namespace Ricochet
               log_row(step, n_steps, first_step, stopwatch.wall_time());
             const TimerOutput::Scope scope(timer, "fields and checkpoints");
             write_fields_if_due(state, step);
-            if (parameters.checkpoint_every > 0 &&
-                (step % parameters.checkpoint_every == 0 || step == n_steps))
+            signal             = StopRequest::signal(folder.communicator);
+            const bool is_last = step == n_steps || signal != 0;
+            if ((parameters.checkpoint_every > 0 &&
+                 (step % parameters.checkpoint_every == 0 || is_last)) ||
+                signal != 0 || checkpoint_clock.is_due(is_last))
               save(state, step, complete_sums);
           }
       }
@@ -981,6 +1073,14 @@ namespace Ricochet
       }
     ledger.write_hdf5();
     conclude(timer, timing_table);
+    if (step < n_steps)
+      throw StoppedBySignal(signal,
+                            StopRequest::name_of(signal) + " came in step " +
+                              std::to_string(step) + " of " +
+                              std::to_string(n_steps) +
+                              ", which is complete: t = " +
+                              units.text(state.time, "s") +
+                              ". With --resume the run goes on from there.");
     return state;
   }
 } // namespace Ricochet

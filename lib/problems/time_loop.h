@@ -4,6 +4,7 @@
 
 #include <base/run_folder.h>
 #include <base/units.h>
+#include <output/checkpoint.h>
 #include <output/energy_check.h>
 #include <output/energy_ledger.h>
 #include <time_integration/time_scheme.h>
@@ -32,9 +33,11 @@ namespace Ricochet
       unsigned int max_halvings     = 4;
       unsigned int fields_every     = 10;
       unsigned int checkpoint_every = 0;
-      unsigned int log_every        = 1;
-      bool         newton_table     = false;
-      bool         timing           = true;
+      /// min
+      double       checkpoint_minutes = 10.;
+      unsigned int log_every          = 1;
+      bool         newton_table       = false;
+      bool         timing             = true;
 
       void
       add_parameters(dealii::ParameterHandler &parameters);
@@ -113,6 +116,7 @@ namespace Ricochet
      *
      * @return the state at the end.
      * @throws ComputationError after the last halving has failed.
+     * @throws StoppedBySignal after a complete step, see StopRequest.
      */
     State
     run(const State &initial_state);
@@ -180,6 +184,10 @@ namespace Ricochet
                   const unsigned int              n_halvings_so_far,
                   const std::vector<ContactStep> &steps) const;
 
+    /// The head of the lines of log_row(), with units.
+    std::string
+    log_head() const;
+
     /// @param first_step that of this run. @param seconds since then.
     void
     log_row(const unsigned int step,
@@ -230,6 +238,8 @@ namespace Ricochet
     std::vector<double> own_means;
     EnergyLedger        ledger;
     EnergyCheck         check;
+    // Whether the log knows of a corner that is turned inside out.
+    bool has_inverted_corner = false;
 
     /// Sums over the run (J), part of a checkpoint.
     struct Sums
@@ -272,8 +282,8 @@ namespace Ricochet
                        const Sums        &sums_of_state,
                        const std::string &known_problem);
 
-    // For checkpoints, known when first needed: Body::canonical_positions().
-    std::optional<std::vector<dealii::types::global_dof_index>> positions;
+    // For checkpoints, known when first needed.
+    std::optional<CheckpointMesh> mesh;
   };
 } // namespace Ricochet
 

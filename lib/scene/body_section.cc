@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/child_process.h>
 #include <base/exceptions.h>
 #include <problems/ball_mesh.h>
 #include <problems/gmsh_mesh.h>
@@ -78,7 +79,7 @@ namespace Ricochet
         cell->set_material_id(0);
     }
 
-    /// What deal.II's generators take for granted, and crash without.
+    /// What deal.II's generators take for granted, and read beyond their lists without.
     template <int dim>
     bool
     can_be_generated(const std::string &name, const std::string &arguments)
@@ -102,28 +103,44 @@ namespace Ricochet
       return true;
     }
 
+    /// A process of its own tries first: generators may crash all the same, or make meshes
+    /// that no memory holds.
     template <int dim>
     void
     make_by_generator(const BodySection<dim> &p, Triangulation<dim> &cells)
     {
-      try
-        {
-          if (!can_be_generated<dim>(p.generator, p.generator_arguments))
-            throw std::invalid_argument(p.generator);
-          GridGenerator::generate_from_name_and_arguments(
-            cells,
-            p.generator,
-            p.generator_arguments);
-        }
-      catch (const std::exception &)
-        {
-          throw InputError(
-            "deal.II's GridGenerator cannot make '" + p.generator +
-            "' with the arguments '" + p.generator_arguments + "' in " +
-            std::to_string(dim) + "D (" + p.name_of("Generator") +
-            "). Names and arguments are those of its functions, all arguments, "
-            "separated by colons: hyper_shell with 0, 0 : 1 : 2 : 12 : true.");
-        }
+      const auto make = [&p](Triangulation<dim> &mesh) {
+        try
+          {
+            if (!can_be_generated<dim>(p.generator, p.generator_arguments))
+              throw std::invalid_argument(p.generator);
+            GridGenerator::generate_from_name_and_arguments(
+              mesh,
+              p.generator,
+              p.generator_arguments);
+          }
+        catch (const std::bad_alloc &)
+          {
+            throw;
+          }
+        catch (const std::exception &)
+          {
+            throw InputError(
+              "deal.II's GridGenerator cannot make '" + p.generator +
+              "' with the arguments '" + p.generator_arguments + "' in " +
+              std::to_string(dim) + "D (" + p.name_of("Generator") +
+              "). Names and arguments are those of its functions, all arguments, "
+              "separated by colons: hyper_shell with 0, 0 : 1 : 2 : 12 : true.");
+          }
+      };
+      run_apart(
+        "deal.II's GridGenerator (" + p.name_of("Generator") + ")",
+        [&make]() {
+          Triangulation<dim> mesh;
+          make(mesh);
+        },
+        p.meshing_time);
+      make(cells);
     }
 
     bool
@@ -506,7 +523,8 @@ namespace Ricochet
                                  mesh_size,
                                  fine,
                                  mesh.boundary_names,
-                                 mesh.material_names);
+                                 mesh.material_names,
+                                 meshing_time);
     if (!mesh.nodes.empty() && refinements > 0)
       throw InputError("The mesh '" + file +
                        "' has elements of second order, which cannot be "

@@ -83,6 +83,9 @@ namespace Ricochet
     /// Expressions of x, y, z and t (m/s^2); empty for none.
     std::string acceleration;
 
+    /// How long a library may make the mesh (s); 0 for any time.
+    unsigned int meshing_time = 0;
+
     void
     add_parameters(dealii::ParameterHandler &parameters);
 

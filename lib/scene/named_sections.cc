@@ -30,7 +30,7 @@ namespace Ricochet
       return text;
     }
 
-    /// Of "file.prm, line 3".
+    /// The name of the file in "file.prm, line 3".
     std::string
     file_of(const std::string &where)
     {

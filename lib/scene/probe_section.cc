@@ -6,6 +6,7 @@
 #include <scene/probe_section.h>
 
 #include <limits>
+#include <map>
 
 namespace Ricochet
 {
@@ -19,13 +20,14 @@ namespace Ricochet
     parameters.add_parameter(
       "Quantity",
       quantity,
-      "What to write: displacement or velocity; the elastic Cauchy stress; the "
+      "What to write: displacement, velocity or acceleration (with the midpoint "
+      "scheme its mean over the last step); the elastic Cauchy stress; the "
       "rotation of the whole body (rad, from -pi to pi; in 3D a vector along its "
       "axis); or, with the midpoint scheme, the force of what holds or moves a "
       "boundary (mean over the last step) or its impulse (force times time, since "
       "the start).",
       Patterns::Selection(
-        "displacement|velocity|stress|rotation|force|impulse"));
+        "displacement|velocity|acceleration|stress|rotation|force|impulse"));
     parameters.add_parameter("Body",
                              body,
                              "Of which body; for force and impulse of which "
@@ -34,9 +36,9 @@ namespace Ricochet
     parameters.add_parameter(
       "Point",
       point,
-      "Where, at the start (m): displacement and velocity in the nearest vertex, "
-      "stress in the point. Empty: the mean over the body, of displacement and "
-      "velocity by mass, of stress by volume.",
+      "Where, at the start (m): displacement, velocity and acceleration in the nearest "
+      "vertex, stress in the point. Empty: the mean over the body, of stress by volume, "
+      "of the others by mass.",
       Patterns::List(Patterns::Double(), 0, dim));
     parameters.leave_subsection();
   }
@@ -232,11 +234,12 @@ namespace Ricochet
     if (quantity == "rotation")
       return add_rotation_to(loop, impact, begin, end);
 
-    const std::string unit      = quantity == "velocity" ? "m/s" : "m";
-    const auto        vector_of = [of_velocity = quantity == "velocity"](
-                             const State &state) -> const Vector        &{
-      return of_velocity ? state.velocity : state.solution;
-    };
+    // The vector of a state that is looked at, and its unit.
+    static const std::map<std::string, std::pair<Vector State::*, std::string>>
+      quantities                  = {{"displacement", {&State::solution, "m"}},
+                                     {"velocity", {&State::velocity, "m/s"}},
+                                     {"acceleration", {&State::acceleration, "m/s^2"}}};
+    const auto &[vector_of, unit] = quantities.at(quantity);
     std::function<double(const Vector &, const unsigned int)> value;
     if (!point.empty())
       {
@@ -268,8 +271,8 @@ namespace Ricochet
     for (unsigned int c = 0; c < dim; ++c)
       loop.add_column(name + quantity + "_" + "xyz"[c],
                       unit,
-                      [value, vector_of, c](const State &state) {
-                        return value(vector_of(state), c);
+                      [value, vector = vector_of, c](const State &state) {
+                        return value(state.*vector, c);
                       });
   }
 

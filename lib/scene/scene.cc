@@ -117,6 +117,14 @@ namespace Ricochet
       "How long the bodies have flown already, each with its velocity alone (s): "
       "shifts where within a step an impact falls.");
     parameters.leave_subsection();
+    parameters.enter_subsection("Limits");
+    parameters.add_parameter(
+      "Meshing time",
+      meshing_time,
+      "How long Gmsh, or a generator of deal.II, may make the "
+      "mesh of a body (s); 0 for any time.",
+      Patterns::Integer(0, 1000000));
+    parameters.leave_subsection();
 
     for (auto &body : bodies)
       body.add_parameters(parameters);
@@ -249,6 +257,7 @@ namespace Ricochet
         BodyMesh<dim> &mesh = *meshes.back();
         // What is much too large would not come back from there.
         impact.check_size(dim * bodies[b].vertices_at_least(), dim);
+        bodies[b].meshing_time = meshing_time;
         bodies[b].make_mesh(mesh, advance);
         const bool simplex = mesh.cells.all_reference_cells_are_simplex();
         if (b > 0 && simplex != is_simplex)

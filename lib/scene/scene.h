@@ -119,8 +119,9 @@ namespace Ricochet
     ImpactParameters       impact;
     unsigned int           degree = 1;
     dealii::Tensor<1, dim> gravity;
-    double                 advance    = 0.;
-    std::string            units_text = "m, kg, s";
+    double                 advance      = 0.;
+    unsigned int           meshing_time = 600;
+    std::string            units_text   = "m, kg, s";
 
     // The handler that the parameters were added to, for values that are found.
     dealii::ParameterHandler *handler = nullptr;

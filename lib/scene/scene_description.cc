@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/files.h>
 #include <base/units.h>
 #include <contact/obstacles/obstacle_shape.h>
 #include <contact/surfaces/closest_point.h>
 #include <problems/impact.h>
+#include <output/node_probe.h>
 #include <output/obstacle_surfaces.h>
 #include <scene/scene.h>
 
@@ -91,7 +93,7 @@ namespace Ricochet
 
   namespace
   {
-    /// Faces of a mesh, of which the nearest one is looked for.
+    /// Faces of a mesh, and a search for the closest one.
     template <int dim>
     class FacesAtRest
     {
@@ -128,7 +130,7 @@ namespace Ricochet
         tree = pack_rtree(boxes);
       }
 
-      /// Of the nearest face from @p x, if it is nearer than @p largest; else that (m).
+      /// The distance of @p x from the closest face (m), or @p largest, if that is less.
       double
       distance(const Point<dim> &x, const double largest) const
       {
@@ -206,8 +208,7 @@ namespace Ricochet
         faces.sort();
         for_each_face(sides[1 - side], [&](const auto &face) {
           for (const unsigned int v : face->vertex_indices())
-            smallest =
-              std::min(smallest, faces.distance(face->vertex(v), smallest));
+            smallest = faces.distance(face->vertex(v), smallest);
         });
       }
     return smallest;
@@ -224,6 +225,73 @@ namespace Ricochet
       char digits[40];
       std::snprintf(digits, sizeof(digits), "%.3g", number);
       return std::stod(digits);
+    }
+  } // namespace
+
+
+
+  namespace
+  {
+    // Files that a description leaves in a folder.
+    const std::string mesh_picture     = "setup.vtk",
+                      obstacle_picture = "setup_obstacles.vtu",
+                      description_file = "setup.txt";
+    // The line by which they are known again.
+    const std::string title = "Meshes of a scene, by Ricochet";
+
+    template <int dim>
+    std::string
+    picture_of(const Triangulation<dim> &whole)
+    {
+      std::ostringstream picture;
+      GridOut            writer;
+      writer.set_flags(GridOutFlags::Vtk(/* cells */ true,
+                                         /* faces */ true,
+                                         /* edges */ false,
+                                         /* only those with numbers */ false));
+      writer.write_vtk(whole, picture);
+      const std::string text  = picture.str();
+      const std::size_t begin = text.find('\n') + 1;
+      return text.substr(0, begin) + title +
+        text.substr(text.find('\n', begin));
+    }
+
+    /// Make the @p folder if need be, and @p lock it. @throws InputError where it is in use,
+    /// or files of others are in it that have the names of ours.
+    void
+    take_description_folder(const std::string &folder, FolderLock &lock)
+    {
+      namespace fs = std::filesystem;
+      std::error_code error;
+      fs::create_directories(folder, error);
+      lock.take(folder);
+      std::string   line;
+      std::ifstream earlier(folder + "/" + mesh_picture);
+      std::getline(earlier, line);
+      std::getline(earlier, line);
+      if (line == title)
+        return;
+      for (const std::string &name :
+           {mesh_picture, obstacle_picture, description_file})
+        if (fs::exists(folder + "/" + name, error))
+          throw InputError(
+            "The folder '" + folder + "' has a file '" + name +
+            "' that is not of Ricochet. Name another folder with "
+            "--output-dir.");
+    }
+
+    /// @throws InputError
+    void
+    write_description(const std::string &file, const std::string &text)
+    {
+      try
+        {
+          write_atomically(file, text);
+        }
+      catch (const ComputationError &error)
+        {
+          throw InputError(error.what());
+        }
     }
   } // namespace
 
@@ -306,41 +374,32 @@ namespace Ricochet
     for (const ProbeSection<dim> &probe : probes)
       if (!probe.point.empty() && probe.quantity != "stress")
         {
-          Point<dim> place, nearest;
+          Point<dim> place;
           for (unsigned int c = 0; c < dim; ++c)
             place[c] = probe.point[c];
-          double distance = std::numeric_limits<double>::max();
-          for (const Point<dim> &vertex :
-               meshes[probe.find_body(surfaces)]->cells.get_vertices())
-            if (place.distance(vertex) < distance)
-              {
-                distance = place.distance(vertex);
-                nearest  = vertex;
-              }
+          const std::vector<Point<dim>> &vertices =
+            meshes[probe.find_body(surfaces)]->cells.get_vertices();
+          const Point<dim> nearest =
+            *std::min_element(vertices.begin(),
+                              vertices.end(),
+                              [&](const auto &a, const auto &b) {
+                                return is_nearer(a, b, place);
+                              });
           text << "Probe " << probe.section.name << ": vertex (";
           for (unsigned int c = 0; c < dim; ++c)
             text << (c > 0 ? ", " : "") << to_text(nearest[c]);
-          text << "), " << units.text(distance, "m") << " from the point\n";
+          text << "), " << units.text(nearest.distance(place), "m")
+               << " from the point\n";
         }
     // What overlaps is refused here as it is by a run.
     Triangulation<dim> whole;
     join(whole);
+    FolderLock lock;
     if (!folder.empty())
       on_first_rank(MPI_COMM_WORLD, [&]() {
-        std::error_code error;
-        std::filesystem::create_directories(folder, error);
-        const std::string name = folder + "/setup.vtk";
-        std::ofstream     file(name);
-        GridOut           writer;
-        writer.set_flags(
-          GridOutFlags::Vtk(/* cells */ true,
-                            /* faces */ true,
-                            /* edges */ false,
-                            /* only those with numbers */ false));
-        writer.write_vtk(whole, file);
-        file.flush();
-        if (!file)
-          throw InputError("The file '" + name + "' cannot be written.");
+        take_description_folder(folder, lock);
+        const std::string name = folder + "/" + mesh_picture;
+        write_description(name, picture_of(whole));
         text << "The meshes, with the numbers of parts and boundaries: " << name
              << '\n';
       });
@@ -358,8 +417,8 @@ namespace Ricochet
         DataOutBase::VtkFlags flags;
         flags.time                = 0.;
         flags.print_date_and_time = false;
-        write_atomically(
-          folder + "/setup_obstacles.vtu",
+        write_description(
+          folder + "/" + obstacle_picture,
           obstacle_surfaces.vtu(GridTools::compute_bounding_box(whole), flags));
       });
     text << assembly.body.owned_indices().size() << " unknowns\n";
@@ -368,7 +427,7 @@ namespace Ricochet
     if (!folder.empty())
       on_first_rank(MPI_COMM_WORLD, [&]() {
         // Beside the picture, for who draws it.
-        std::ofstream(folder + "/setup.txt") << text.str();
+        write_description(folder + "/" + description_file, text.str());
       });
     return text.str();
   }

@@ -36,7 +36,7 @@ namespace Ricochet
       }
     throw NewtonFailure(
       "The matrix of the body cannot be factored: it is singular. Is "
-      "the body held, or does it have inertia?\n");
+      "the body held, or does it have inertia?");
   }
 
 

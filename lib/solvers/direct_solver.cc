@@ -22,7 +22,7 @@ namespace Ricochet
       for (const auto row : matrix.locally_owned_range_indices())
         stiffest = std::max(stiffest, std::abs(matrix.diag_element(row)));
       stiffest = Utilities::MPI::max(stiffest, matrix.get_mpi_communicator());
-      unsigned int n_softened = 0;
+      bool some_softened = false;
       for (const auto row : matrix.locally_owned_range_indices())
         if (matrix.diag_element(row) == 0.)
           {
@@ -33,10 +33,11 @@ namespace Ricochet
             if (square == 0.)
               continue;
             matrix.set(row, row, -relative_compliance * square / stiffest);
-            ++n_softened;
+            some_softened = true;
           }
       matrix.compress(VectorOperation::insert);
-      return Utilities::MPI::max(n_softened, matrix.get_mpi_communicator()) > 0;
+      return Utilities::MPI::max(some_softened ? 1 : 0,
+                                 matrix.get_mpi_communicator()) == 1;
     }
   } // namespace
 
@@ -58,15 +59,18 @@ namespace Ricochet
       entry.factorisation = factorisations.make(false);
     const Stopwatch stopwatch(spent.factorising);
     ++spent.n_factorisations;
-    if (!entry.factorisation->factorise(entry.matrix, keep_pivots) &&
-        !(soften_constraints(entry.matrix) &&
-          (entry.factorisation = factorisations.make(false))
-            ->factorise(entry.matrix, false)))
+    bool is_regular = entry.factorisation->factorise(entry.matrix, keep_pivots);
+    if (!is_regular && soften_constraints(entry.matrix))
+      {
+        entry.factorisation = factorisations.make(false);
+        is_regular = entry.factorisation->factorise(entry.matrix, false);
+      }
+    if (!is_regular)
       {
         entry.factorisation.reset();
         throw NewtonFailure(
           "The tangent matrix cannot be factored: it is singular. Is the "
-          "body held, or does it have inertia?\n");
+          "body held, or does it have inertia?");
       }
   }
 

@@ -97,7 +97,7 @@ namespace Ricochet
           static_cast<const Epetra_MultiVector *>(
             &right_hand_side.trilinos_vector())));
         if (solver->Solve() != 0)
-          throw NewtonFailure("The linear system cannot be solved.\n");
+          throw NewtonFailure("The linear system cannot be solved.");
       }
 
       using Factorisation::solve;

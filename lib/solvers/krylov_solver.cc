@@ -68,7 +68,7 @@ namespace Ricochet
         body->set_body(tangent);
         ++spent.n_factorisations;
         if (!body->factorise())
-          throw NewtonFailure("The tangent of the body cannot be factored.\n");
+          throw NewtonFailure("The tangent of the body cannot be factored.");
       }
     has_condensed = true;
     return *body;

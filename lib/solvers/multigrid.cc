@@ -192,7 +192,7 @@ namespace Ricochet
     if (Utilities::MPI::min(is_positive ? 1 : 0, tangent->communicator) == 0)
       throw NewtonFailure(
         "The diagonal of the tangent matrix is not positive: multigrid cannot "
-        "smooth with it.\n");
+        "smooth with it.");
     for (SingleVector *vector : {&single_right_hand_side,
                                  &single_result,
                                  &single_residual,
@@ -210,11 +210,11 @@ namespace Ricochet
         if (!(largest > 0.) || !std::isfinite(largest))
           throw NewtonFailure(
             "The tangent matrix is not positive: multigrid "
-            "cannot smooth with it.\n");
+            "cannot smooth with it.");
       }
     catch (const SolverControl::NoConvergence &)
       {
-        throw NewtonFailure("The tangent matrix is not finite.\n");
+        throw NewtonFailure("The tangent matrix is not finite.");
       }
   }
 

@@ -48,7 +48,7 @@ namespace Ricochet
     region_places = 0;
     factor        = nullptr;
     if (!factorisation->factorise(tangent_matrix, false))
-      throw NewtonFailure("The tangent of the body cannot be factored.\n");
+      throw NewtonFailure("The tangent of the body cannot be factored.");
     factor = factorisation->triangular_factor();
     if (factor)
       dense.resize(factor->n(), 0.);
@@ -256,7 +256,7 @@ namespace Ricochet
       {
         throw NewtonFailure(
           "The tangent matrix cannot be factored: with this state of contact it "
-          "is singular.\n");
+          "is singular.");
       }
     small.solve(z);
     for (unsigned int i = 0; i < n; ++i)

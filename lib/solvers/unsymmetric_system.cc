@@ -238,7 +238,7 @@ namespace Ricochet
     if (!factors.factorise())
       throw NewtonFailure(
         "The tangent matrix cannot be factored: with this state of contact it "
-        "is singular.\n");
+        "is singular.");
   }
 
 

@@ -30,7 +30,7 @@ namespace Ricochet
     system.external_load(new_state.time, stage.load);
     stage.load.sadd(.5, .5, work);
 
-    // The guess is free flight: in this scheme accelerations alternate.
+    // The guess is free flight.
     new_state.solution.add(dt, old_state.velocity);
     StepReport report;
     report.newton_iterations = system.solve_stage(stage, old_state, new_state);
@@ -40,11 +40,11 @@ namespace Ricochet
     work -= old_state.solution;
     new_state.velocity *= -1.;
     new_state.velocity.add(2. / dt, work);
-    new_state.acceleration *= -1.;
-    new_state.acceleration.add(2. / dt,
-                               new_state.velocity,
-                               -2. / dt,
-                               old_state.velocity);
+    // The mean over the step. That at its end, which would follow from the mean of both
+    // ends, rings with the largest eigenvalue for ever.
+    copy_values(new_state.velocity, new_state.acceleration);
+    new_state.acceleration -= old_state.velocity;
+    new_state.acceleration *= 1. / dt;
 
     copy_values(work, new_state.mean_velocity);
     new_state.mean_velocity *= 1. / dt;

@@ -34,7 +34,7 @@ namespace Ricochet
     Vector solution;
     /// m/s
     Vector velocity;
-    /// m/s^2
+    /// At this instant; of the midpoint scheme the mean over the last step (m/s^2).
     Vector acceleration;
     /// Contact force at this instant (two-point treatments: over the last
     /// step), on the side of the internal forces (N).
@@ -94,6 +94,8 @@ namespace Ricochet
       /// Body::canonical_positions(), for checkpoints.
       std::function<std::vector<dealii::types::global_dof_index>()>
         canonical_positions;
+      /// Body::mesh_checksum(), for checkpoints.
+      std::function<std::uint64_t()> mesh_checksum;
       /// Body::coarse_space(), for multigrid.
       std::function<CoarseSpace()> coarse_space;
       /// Sets the prescribed displacements in a vector of displacements (m), or

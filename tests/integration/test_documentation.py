@@ -61,6 +61,10 @@ subsection Probe speed
   set Body = ball
   set Quantity = velocity
 end
+subsection Probe change
+  set Body = ball
+  set Quantity = acceleration
+end
 subsection Probe squeeze
   set Body = ball
   set Quantity = stress
@@ -235,24 +239,25 @@ class Parameters(unittest.TestCase):
         of_bar = {each.name: each for each in parameters.declared(programs / "bar_sd")}
         self.assertEqual(of_bar["Time/Time step"].allowed, "a number above 0")
         self.assertIn("penalty", of_bar["Contact/Treatment"].allowed)
-        for pattern, words in (
-            ("An integer n such that 0 <= n <= 2147483647", "a whole number from 0 to 2147483647"),
-            ("An integer n such that 2 <= n <= MAX_INT", "a whole number, at least 2"),
-            ("A floating point number v such that -MAX_DOUBLE <= v <= MAX_DOUBLE", "a number"),
-            ("A floating point number v such that 0.01 <= v <= 0.99", "a number from 0.01 to 0.99"),
-            ("A boolean value (true or false)", "true or false"),
-            ("Any one of a, b c", "one of: a, b c"),
-            (
-                "A list of 2 to 2 elements where each element is [An integer]",
-                "2 values, each a whole number",
-            ),
+        for name, words in (
+            ("Output/Checkpoint every", "a whole number, at least 0"),
+            ("Time/HHT alpha", "a number from -0.333333 to 0.333333"),
+            ("Output/Timing", "true or false"),
         ):
-            self.assertEqual(parameters.in_words(pattern), words)
+            self.assertEqual(of_bar[name].allowed, words)
+        self.assertTrue(of_bar["Time/Mass"].allowed.startswith("one of: consistent, "))
+        of_sphere = {each.name: each for each in parameters.declared(programs / "sphere")}
+        self.assertEqual(
+            of_sphere["Start/Initial velocity"].allowed, "3 values, each a number"
+        )
+        # Neither the words of deal.II nor the numbers of compilers.
+        for each in [*of_bar.values(), *of_sphere.values()]:
+            self.assertNotRegex(each.allowed, "MAX|2147483647|4294967295|such that")
 
     def test_what_a_program_prints(self):
         printed = "# Listing of Parameters\n# ---------------------\n# One\n# text.\nset A = 1\n"
         printed += "\n\nsubsection B\n  # Another (m).\n  set C d = \nend\n"
-        printed += "\n# What is allowed:\n#   B/C d: An integer\n"
+        printed += "\n# What is allowed:\n#   B/C d: A whole number\n"
         self.assertEqual(
             parameters.parse(printed),
             [
@@ -340,8 +345,12 @@ class Results(ProgramTest):
                         item = results.find(fields, name)
                         self.assertIsNotNone(item, "not in doc/results/fields.toml")
                         seen.add(item.name)
-                heads = re.search(r"^ *step/of.*$", (folder / "log.txt").read_text(), re.MULTILINE)
-                self.assertEqual(heads[0].split(), [item.name for item in results.read("console")])
+                heads = re.search(r"^ *step/of .*$", (folder / "log.txt").read_text(), re.MULTILINE)
+                words = re.findall(r"(\S+)(?: \[(.*?)\])?", heads[0])
+                items = results.read("console")
+                self.assertEqual([word for word, _ in words], [item.name for item in items])
+                self.assertEqual([bool(unit) for _, unit in words],
+                                 [bool(item.unit) for item in items])
         for item in columns + fields:
             with self.subTest(item.name):
                 self.assertIn(item.name, seen, "no program writes it")

@@ -90,7 +90,8 @@ class DocumentedCommands(ProgramTest):
         self.assertGreater(len(files), 20)
         with ThreadPoolExecutor(max_workers=2) as pool:
             results = pool.map(lambda file: self.attempt(
-                file.parent.name, prm=file, options=["--validate"]), files)
+                file.parent.name, prm=file, options=["--validate"],
+                folder=self.folder / file.parent.name / file.stem), files)
             for file, (code, _, error) in zip(files, results):
                 with self.subTest(file.name):
                     self.assertEqual(code, 0, msg=error)

@@ -541,6 +541,11 @@ end
                                    delta=3e-6 if is_debug_build() else 1.5e-6)
         self.assertAlmostEqual(ledger["left_stress_xx"][middle], -1e8, delta=6e6)
         self.assertAlmostEqual(ledger["motion_of_left_velocity_x"][-1], -100., delta=6.)
+        # Accelerations are those of steps, and do not ring.
+        for change, acceleration in zip(
+                increments(ledger["motion_of_left_velocity_x"]),
+                ledger["push_on_left_acceleration_x"][1:]):
+            self.assertAlmostEqual(change, 1e-8 * acceleration, delta=1e-9)
         self.assertEqual(ledger["contact_force_ends"][-1], 0.)
         self.assertLess(largest([e - energy for e in ledger["energy"]]), 1e-12 * energy)
 
@@ -674,8 +679,8 @@ class BadScenes(Refusal):
     def refuse_scene(self, old, new, *messages, text=None):
         text = text or scene(steps=1)
         self.assertIn(old, text)
-        self.refuse(*messages, program="ricochet",
-                    prm=self.write(text.replace(old, new, 1)))
+        return self.refuse(*messages, program="ricochet",
+                           prm=self.write(text.replace(old, new, 1)))
 
     def test_names(self):
         self.refused_at_once()
@@ -842,6 +847,73 @@ end
         self.refuse_scene("", f"include {self.folder}/0.prm\n",
                           "is included by more than 100 files in each other")
 
+    def test_meshes_without_end(self):
+        """Those that never come, and those that no memory holds."""
+        self.refused_at_once()
+        block = "  set Size        = 2, 1\n  set Cells along = 4, 2\n"
+        shape = "  set Shape       = rectangle\n"
+        self.assertIn(shape + block, BLOCK)
+        os.mkfifo(self.folder / "pipe.geo")
+        (self.folder / "loop.geo").write_text("For i In {0:1e9}\n a = i;\nEndFor\n")
+        with open(self.folder / "holes.msh", "wb") as file:
+            file.truncate(1 << 40)
+        generator = "  set Shape = generator\n  set Generator = "
+        for mesh, *messages in (
+                ("  set File = pipe.geo\n", "pipe.geo' cannot be read"),
+                ("  set File = loop.geo\n", "did not come to an end within 2 s",
+                 "Limits/Meshing time"),
+                ("  set File = holes.msh\n", "holes.msh' has 1099", "memory"),
+                (generator + "subdivided_hyper_cube\n"
+                 "  set Generator arguments = 40000 : 0 : 1 : false\n",
+                 "GridGenerator (Body block/Generator)"),
+                (generator + "general_cell\n"
+                 "  set Generator arguments = 0, 0; 1, 0 : false\n",
+                 "cannot make 'general_cell'")):
+            with self.subTest(mesh):
+                return self.refuse(*messages, program="ricochet",
+                            parameters=["Limits/Meshing time=2"],
+                            prm=self.write(BLOCK.replace(shape + block, mesh)))
+
+    def test_messages_for_people(self):
+        """Not the words and numbers of compilers; names that begin as the given one."""
+        self.refused_at_once()
+        for old, new, *messages in (
+                ("set Time step  = 0.01", "set Time step = 0",
+                 "Allowed: A number above 0"),
+                ("set Poisson ratio = 0", "set Poisson ratio = x", "Allowed: A number"),
+                ("set Cells along = 4, 2", "set Cells along = 4, x",
+                 "Allowed: Any number of values, each a whole number"),
+                ("set Poisson ratio = 0", "set Poisson = 0",
+                 "The nearest valid names are: Body block/Poisson ratio"),
+                ("set Law         = linear elastic", "set File = plate#2.msh",
+                 "line 8: a '#' begins a comment, and has a space before it")):
+            with self.subTest(new):
+                error = self.refuse_scene(old, new, *messages, text=BLOCK)
+                self.assertNotRegex(error, "MAX_DOUBLE|2147483647|4294967295")
+        # What is not finite at the start is the input's fault.
+        load = """
+subsection Condition pull
+  set Boundary = block: right
+  set Kind     = traction
+  set Value    = 1/t; 0
+end
+"""
+        result = self.validate(self.write(BLOCK + load))
+        self.assertEqual(result.returncode, 1, msg=result.stderr)
+        self.assertIn("is not finite at t = 0", result.stderr)
+
+    def test_many_contacts(self):
+        """More than fit into a byte."""
+        self.refused_at_once()
+        text = BLOCK
+        for k in range(260):
+            text += (f"subsection Obstacle o{k}\n  set Shape = half space\n"
+                     f"  set Centre = 0, {-1 - k}\nend\nsubsection Contact c{k}\n"
+                     f"  set Surface = block\n  set Against = o{k}\n"
+                     "  set Treatment = penalty\nend\n")
+        self.run_program("ricochet", ["Time/Final time=0.01"] + NO_FIELDS,
+                         prm=self.write(text))
+
     def test_geometries_can_only_read(self):
         """A geometry is a script of Gmsh, and ran commands and wrote files already with
         --validate; options beside it, or in the user's home, made another mesh."""
@@ -944,15 +1016,12 @@ end
 
     def test_validate(self):
         self.refused_at_once()
-        file = self.write(scene(steps=1))
-        result = subprocess.run([program_path("ricochet"), str(file), "--validate"],
-                                capture_output=True, text=True, cwd=ROOT)
+        result = self.validate(self.write(scene(steps=1)))
         self.assertEqual(result.returncode, 0, msg=result.stderr)
         # What a run refuses.
         outside = self.write(BLOCK + "subsection Probe stress\n  set Body = block\n"
                              "  set Quantity = stress\n  set Point = 9, 9\nend\n")
-        refused = subprocess.run([program_path("ricochet"), str(outside), "--validate"],
-                                 capture_output=True, text=True, cwd=ROOT)
+        refused = self.validate(outside)
         self.assertEqual(refused.returncode, 1)
         self.assertIn("Probe stress/Point is not within the body", refused.stderr)
         for line in ("Body brick: 32 cells, 45 vertices, area 0.5, mass 500 kg, middle "

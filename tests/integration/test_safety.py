@@ -2,11 +2,13 @@
 """Nothing is lost and nothing silently replaced: full disks, folders that are in
 use or hold another run, damaged tables, meshes that changed."""
 
+import random
 import re
 import resource
 import signal
-import threading
+import struct
 import time
+import zlib
 
 from common import *
 
@@ -35,7 +37,7 @@ class Safety(ProgramTest):
             if file.suffix == ".pvd":
                 ends = file.read_text().rstrip()
                 self.assertTrue(ends.endswith("</VTKFile>"), msg=file)
-            self.assertNotEqual(file.suffix, ".new", msg=file)
+            self.assertNotEqual(file.suffix, ".unfinished", msg=file)
 
     def test_programs_that_start_at_once_share_no_folder(self):
         """One that ended took away what another had just begun to use: now they
@@ -254,6 +256,240 @@ class Safety(ProgramTest):
         self.assertIn("step-000060.vtu", (run / "solution.pvd").read_text())
 
 
+class Signals(ProgramTest):
+    """Ctrl-C, and the signal by which batch systems announce their end."""
+
+    # More than a second, in steps of a millisecond.
+    LONG = ["Time/Final time=60", "Output/Log every=0"]
+
+    def start(self, parameters=LONG, folder=None, ignored=None, **kwargs):
+        """Start a run and wait until it has made some steps."""
+        folder = folder or self.folder / "run"
+        table = folder / "energy.csv"
+        n_rows = lambda: table.read_bytes().count(b"\n") if table.exists() else 0
+        n_before = n_rows()
+        process = subprocess.Popen(
+            self.command("bar_sd", parameters, folder, **kwargs), cwd=ROOT,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            preexec_fn=lambda: ignored and signal.signal(ignored, signal.SIG_IGN))
+        self.addCleanup(process.kill)
+        while n_rows() < n_before + 20:
+            self.assertIsNone(process.poll())
+            time.sleep(.002)
+        return process
+
+    def test_the_step_is_finished_and_the_run_goes_on_later(self):
+        """The table is that of a run that nobody stopped, digit for digit."""
+        whole, run = self.folder / "whole", self.folder / "run"
+        self.run_program("bar_sd", self.LONG, whole)
+        options = []
+        for number, name, code in ((signal.SIGINT, "SIGINT", 130),
+                                   (signal.SIGTERM, "SIGTERM", 143)):
+            process = self.start(options=options)
+            process.send_signal(number)
+            _, error = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, code, msg=error)
+            self.assertIn("stopped by a signal", error)
+            self.assertIn(name + " came in step", error)
+            self.assertIn("--resume", error)
+            for file in ("checkpoint.bin", "energy.h5"):
+                self.assertTrue((run / file).exists(), msg=file)
+            self.assertIn("largest balance residual", (run / "log.txt").read_text())
+            options = ["--resume"]
+        n_rows = len(Ledger(run)["time"])
+        self.assertLess(n_rows, len(Ledger(whole)["time"]))
+        # It is not lost because somebody forgets to say --resume.
+        table = (run / "energy.csv").read_bytes()
+        code, _, error = self.attempt("bar_sd", self.LONG)
+        self.assertEqual(code, 1, msg=error)
+        self.assertIn("--resume", error)
+        self.assertEqual((run / "energy.csv").read_bytes(), table)
+        self.run_program("bar_sd", self.LONG, options=["--resume"])
+        self.assertEqual((run / "energy.csv").read_bytes(),
+                         (whole / "energy.csv").read_bytes())
+
+    def test_a_rank_gets_it(self):
+        process = self.start(n_ranks=2)
+        ranks = subprocess.run(["pgrep", "-P", str(process.pid)],
+                               capture_output=True, text=True).stdout.split()
+        self.assertEqual(len(ranks), 2)
+        os.kill(int(ranks[1]), signal.SIGTERM)
+        _, error = process.communicate(timeout=60)
+        self.assertIn("SIGTERM came in step", error)
+        self.assertEqual(process.returncode, 143, msg=error)
+        self.assertTrue((self.folder / "run" / "checkpoint.bin").exists())
+
+    def test_the_second_one_ends_it_at_once(self):
+        """Steps of some tenths of a second, in which both come."""
+        process = subprocess.Popen(
+            self.command("elastic_ball",
+                         ["Mesh/Nodes=40000", "Mesh/Boundary nodes=800",
+                          "Output/Checkpoint every=1"]),
+            cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(process.kill)
+        checkpoint = self.folder / "run" / "checkpoint.bin"
+        while not checkpoint.exists():
+            self.assertIsNone(process.poll())
+            time.sleep(.01)
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=60)
+        self.assertIn(process.returncode, (-signal.SIGINT, -signal.SIGTERM))
+        self.assertTrue(checkpoint.exists())
+
+    def test_what_was_ignored_at_the_start_is_ignored(self):
+        """As with nohup, or behind an & in a script."""
+        process = self.start(ignored=signal.SIGINT)
+        process.send_signal(signal.SIGINT)
+        _, error = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0, msg=error)
+
+    def test_checkpoints_by_the_clock(self):
+        whole, run = self.folder / "whole", self.folder / "run"
+        parameters = self.LONG + ["Output/Checkpoint every minutes=0.0005"]
+        self.run_program("bar_sd", self.LONG, whole)
+        self.assertFalse((whole / "checkpoint.bin").exists())
+        for n_ranks in (1, 2):
+            process = self.start(parameters, folder=run / str(n_ranks), n_ranks=n_ranks)
+            while not (run / str(n_ranks) / "checkpoint.bin").exists():
+                self.assertIsNone(process.poll())
+                time.sleep(.002)
+            process.kill()
+            process.communicate(timeout=60)
+        self.run_program("bar_sd", self.LONG, run / "1", options=["--resume"])
+        self.assertEqual((run / "1" / "energy.csv").read_bytes(),
+                         (whole / "energy.csv").read_bytes())
+
+
+class FilesOfOthers(ProgramTest):
+    """What is not of a run stays as it is."""
+
+    def refuse(self, text, *args, **kwargs):
+        code, _, error = self.attempt(*args, **kwargs)
+        self.assertEqual(code, 1, msg=error)
+        self.assertIn(text, " ".join(error.split()))
+
+    def test_fields_that_a_run_has_not_written(self):
+        run = self.folder / "run"
+        fields = run / "solution"
+        fields.mkdir(parents=True)
+        mine = fields / "step-by-step.txt"
+        mine.write_text("mine")
+        self.refuse("'solution'", "bar_sd", SHORT)
+        mine.rename(self.folder / "mine")
+        for _ in range(2):
+            self.run_program("bar_sd", SHORT + ["Output/Fields every=20"])
+            (self.folder / "mine").replace(mine)
+            self.assertEqual(len(list(fields.glob("*.vtu"))), 4)
+            shutil.copy(mine, self.folder / "mine")
+        self.run_program("bar_sd", SHORT + NO_FIELDS)
+        self.assertEqual(list(fields.iterdir()), [mine])
+
+    def test_a_parameter_file_with_the_name_of_a_result(self):
+        run = self.folder / "run"
+        run.mkdir()
+        text = "# my notes\nsubsection Time\n set Final time = 1\nend\n"
+        for name in ("parameters.prm", "run.txt", "log.txt"):
+            (run / name).write_text(text)
+            self.refuse("has the name of a file that the run writes", "bar_sd",
+                        prm=run / name, options=["--overwrite"])
+            self.assertEqual((run / name).read_text(), text)
+            (run / name).unlink()
+        # From elsewhere it is read, and the values have the name.
+        given = self.folder / "parameters.prm"
+        given.write_text(text)
+        (run / ".lock").unlink()
+        self.run_program("bar_sd", prm=given)
+        self.assertIn("set Final time", (run / "parameters.prm").read_text())
+        self.assertEqual(given.read_text(), text)
+
+    def test_another_file_of_the_same_name_in_the_folder(self):
+        run = self.folder / "run"
+        run.mkdir()
+        (run / "case.prm").write_text("# mine\n")
+        given = self.folder / "case.prm"
+        given.write_text("subsection Time\n set Final time = 1\nend\n")
+        self.refuse("'case.prm' is not the file that was given", "bar_sd", prm=given)
+        self.assertEqual((run / "case.prm").read_text(), "# mine\n")
+
+    def test_a_resume_of_nothing_leaves_nothing(self):
+        self.refuse("does not exist", "bar_sd", options=["--resume"])
+        self.assertFalse((self.folder / "run").exists())
+
+    def test_a_run_that_was_extended(self):
+        run = self.folder / "run"
+        self.run_program("bar_sd", SHORT)
+        self.run_program("bar_sd", SHORT + ["Time/Final time=5"], options=["--resume"])
+        table = (run / "energy.csv").read_bytes()
+        self.refuse("was resumed and has a checkpoint", "bar_sd", SHORT)
+        self.assertEqual((run / "energy.csv").read_bytes(), table)
+        self.run_program("bar_sd", SHORT)
+        # At its end, without more, it may be made again.
+        code, _, error = self.attempt("bar_sd", SHORT)
+        self.assertEqual(code, 0, msg=error)
+
+    def test_pictures_of_a_scene(self):
+        scene = ROOT / "parameter_files" / "ricochet" / "hyperelastic_ring.prm"
+        for name in ("setup.vtk", "setup.txt", "setup_obstacles.vtu"):
+            other = self.folder / name / name
+            other.parent.mkdir()
+            other.write_text("mine")
+            self.refuse("is not of Ricochet", "ricochet", prm=scene,
+                        folder=other.parent, options=["--validate"])
+            self.assertEqual(other.read_text(), "mine")
+        for _ in range(2):
+            code, _, error = self.attempt("ricochet", prm=scene, options=["--validate"])
+            self.assertEqual(code, 0, msg=error)
+
+
+class StrangeCheckpoint(ProgramTest):
+    """A checkpoint with a good checksum, whose content nobody knows."""
+
+    def test_random_payload(self):
+        random.seed(1)
+        run = self.folder / "run"
+        self.run_program("bar_sd", SHORT)
+        whole = (run / "checkpoint.bin").read_bytes()
+        head = whole.index(b"\n") + 1
+        payload = whole[head + 12:]
+
+        def resume(bytes_of_payload):
+            (run / "checkpoint.bin").write_bytes(
+                whole[:head] + struct.pack("<QI", len(bytes_of_payload),
+                                           zlib.crc32(bytes_of_payload)) +
+                bytes_of_payload)
+            return self.attempt("bar_sd", SHORT, options=["--resume"])
+        self.assertEqual(resume(payload)[0], 0)
+        some = [random.randbytes(len(payload)), b"", payload[:-8]]
+        for _ in range(6):
+            changed = bytearray(payload)
+            for place in random.choices(range(len(payload)), k=20):
+                changed[place] = random.randrange(256)
+            some.append(bytes(changed))
+        for content in some:
+            code, _, error = resume(content)
+            self.assertIn(code, (1, 2), msg=error)
+            self.assertNotIn("should not happen", error)
+
+
+class LittleMemory(ProgramTest):
+
+    def test_the_end_is_reached(self):
+        """OpenBLAS waited for threads that it had no memory for, when all was done."""
+        environment = {name: value for name, value in os.environ.items()
+                       if "_NUM_THREADS" not in name}
+        codes = []
+        for megabytes in (530, 600, 1000):
+            size = megabytes << 20
+            result = subprocess.run(
+                self.command("bar_sd", SHORT, self.folder / f"{size}"), cwd=ROOT,
+                env=environment, capture_output=True, text=True, timeout=60,
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (size, size)))
+            codes.append(result.returncode)
+        self.assertEqual(codes[-1], 0, msg=result.stderr)
+        self.assertTrue(set(codes) <= {0, 2}, msg=codes)
+
+
 class DamagedTable(ProgramTest):
     """--resume believes nothing of energy.csv. Each test damages a copy of the same
     run."""
@@ -331,6 +567,41 @@ class ChangedMesh(ProgramTest):
         self.assertEqual(code, 1, msg=error)
         self.assertIn("belongs to a run with other parameters", error)
         self.assertIn("checksum", error)
+
+
+    def test_a_geometry_that_is_included(self):
+        """The parameter file and the geometry are the same, but not the mesh."""
+        (self.folder / "size.geo").write_text("height = 1;\n")
+        (self.folder / "body.geo").write_text(
+            'Include "size.geo";\n'
+            "Point(1) = {0, 0, 0, .5}; Point(2) = {1, 0, 0, .5};\n"
+            "Point(3) = {1, height, 0, .5}; Point(4) = {0, height, 0, .5};\n"
+            "For i In {1:4}\n Line(i) = {i, i % 4 + 1};\nEndFor\n"
+            "Curve Loop(1) = {1:4}; Plane Surface(1) = {1};\n"
+            'Physical Curve("floor", 1) = {1}; Physical Surface("all", 2) = {1};\n')
+        scene = self.folder / "scene.prm"
+        scene.write_text("""
+set Dimension = 2
+subsection Body block
+  set File = body.geo
+  set Velocity = 0, -1
+end
+subsection Time
+  set Time step  = 1e-3
+  set Final time = 2e-3
+end
+subsection Output
+  set Checkpoint every = 1
+end
+""")
+        self.run_program("ricochet", prm=scene)
+        self.run_program("ricochet", ["Time/Final time=3e-3"], prm=scene,
+                         options=["--resume"])
+        (self.folder / "size.geo").write_text("height = 1.01;\n")
+        code, _, error = self.attempt("ricochet", ["Time/Final time=4e-3"], prm=scene,
+                                      options=["--resume"])
+        self.assertEqual(code, 1, msg=error)
+        self.assertIn("belongs to another mesh", " ".join(error.split()))
 
 
 if __name__ == "__main__":

@@ -54,12 +54,12 @@ BOOST_AUTO_TEST_CASE(written_atomically)
   write_atomically(file, "before");
   write_atomically(file, bytes);
   BOOST_CHECK(read_file(file) == bytes);
-  BOOST_CHECK(!fs::exists(file + ".new"));
+  BOOST_CHECK(!fs::exists(file + unfinished));
   // What cannot be written leaves the old file and nothing else.
   fs::create_directory(folder.file("b"));
   BOOST_CHECK_THROW(write_atomically(folder.file("b"), bytes),
                     ComputationError);
-  BOOST_CHECK(!fs::exists(folder.file("b.new")));
+  BOOST_CHECK(!fs::exists(folder.file("b") + unfinished));
   BOOST_CHECK_THROW(write_atomically(folder.file("no/such"), bytes),
                     ComputationError);
   BOOST_CHECK_THROW(write_atomically("/dev/full/x", bytes), ComputationError);

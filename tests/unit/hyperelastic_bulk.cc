@@ -168,6 +168,64 @@ BOOST_AUTO_TEST_CASE(in_3d)
   check<3>(true, 2);
 }
 
+namespace
+{
+  /// A corner that moves inwards by some part of a cell, in each direction: det F there is
+  /// 1 - dim * part, and in the nearest point of Gauss, at a = 0.789 of the cell, it is
+  /// 1 - dim * part * a^(dim - 1).
+  template <int dim>
+  void
+  check_corner(const double part, const bool is_inverted)
+  {
+    class Inwards : public dealii::Function<dim>
+    {
+    public:
+      explicit Inwards(const double distance)
+        : dealii::Function<dim>(dim)
+        , distance(distance)
+      {}
+
+      double
+      value(const dealii::Point<dim> &x, const unsigned int) const override
+      {
+        double smallest = 1.;
+        for (unsigned int c = 0; c < dim; ++c)
+          smallest = std::min(smallest, x[c]);
+        return smallest > 1. - 1e-9 ? -distance : 0.;
+      }
+
+    private:
+      const double distance;
+    };
+
+    const CubeAbovePlane<dim>   cube(false);
+    const Body<dim>             body(cube.triangulation,
+                         1,
+                         {},
+                         {1},
+                         MultiplierSpace::none,
+                         MPI_COMM_WORLD);
+    const HyperelasticBulk<dim> bulk(body,
+                                     material<dim>(PlaneState::plane_strain));
+    Vector                      solution = body.make_vector(), force(solution);
+    body.interpolate(Inwards(.5 * part), solution);
+    bulk.force(solution, force);
+    BOOST_CHECK(bulk.failure().empty());
+    const std::string place = dim == 2 ? "(1, 1)" : "(1, 1, 1)";
+    BOOST_CHECK_EQUAL(bulk.inverted_corner(solution),
+                      is_inverted ? place + " of the undeformed body" : "");
+  }
+} // namespace
+
+BOOST_AUTO_TEST_CASE(corners_that_are_turned_inside_out)
+{
+  for (const bool is_inverted : {false, true})
+    {
+      check_corner<2>(is_inverted ? .55 : .45, is_inverted);
+      check_corner<3>(is_inverted ? .37 : .3, is_inverted);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(inverted_meshes_are_refused)
 {
   for (const bool simplices : {true, false})

@@ -184,6 +184,14 @@ BOOST_AUTO_TEST_CASE(the_nearest_node_of_all)
       for (unsigned int c = 0; c < 2; ++c)
         BOOST_CHECK_SMALL(probe.value(positions, c) - corner[c], 1e-14);
     }
+  // In the middle of cells of 1/8, where ranks meet and elsewhere, all corners are as near.
+  for (const double x : {.4375, .0625, .9375})
+    for (const double y : {.4375, .5625})
+      {
+        const NodeProbe<2> probe(body, dealii::Point<2>(x, y));
+        BOOST_CHECK_SMALL(probe.value(positions, 0) - (x - .0625), 1e-14);
+        BOOST_CHECK_SMALL(probe.value(positions, 1) - (y - .0625), 1e-14);
+      }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -353,7 +353,7 @@ namespace Ricochet
                 psi(facet, support.end, facet.points[q].s);
           }
         gap.is_before_facet =
-          own_points[p].can_touch && part > 1e-6 * own_points[p].weight;
+          this->may_touch(own_points[p]) && part > 1e-6 * own_points[p].weight;
         if (!gap.is_before_facet)
           continue;
         gap.old_gap = gap.new_gap = gap.predicted_gap =

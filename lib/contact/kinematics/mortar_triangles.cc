@@ -366,7 +366,7 @@ namespace Ricochet
               }
           }
         softnesses[p]       = 1e-11 * size * size * std::abs(1. - part);
-        gap.is_before_facet = own_points[p].can_touch && part > 1e-6;
+        gap.is_before_facet = this->may_touch(own_points[p]) && part > 1e-6;
         if (!gap.is_before_facet)
           continue;
         gap.old_gap = gap.new_gap = mean_gap(p, old_positions);

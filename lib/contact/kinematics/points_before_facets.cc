@@ -51,7 +51,6 @@ namespace Ricochet
             else
               point.nodes = {{slave.facets[f].nodes[0], 1. - rule.point(q)[0]},
                              {slave.facets[f].nodes[1], rule.point(q)[0]}};
-            point.can_touch = this->may_touch(point);
             own_points.push_back(point);
           }
   }
@@ -136,7 +135,7 @@ namespace Ricochet
         step.first_allowed    = 0;
         step.is_beyond_valley = false;
         step.last_allowed     = std::numeric_limits<unsigned int>::max();
-        if (!own_points[p].can_touch || is_other_side(p))
+        if (!this->may_touch(own_points[p]) || is_other_side(p))
           continue;
         if (places_now[p])
           begin_before(p, *places_now[p]);
@@ -306,7 +305,7 @@ namespace Ricochet
     const FacetSearch<dim> search(master, old_positions.master);
     places_now.resize(own_points.size());
     for (unsigned int p = 0; p < own_points.size(); ++p)
-      if (own_points[p].can_touch && !is_other_side(p))
+      if (this->may_touch(own_points[p]) && !is_other_side(p))
         places_now[p] = place_now(p, search);
     found_at = old_positions;
   }

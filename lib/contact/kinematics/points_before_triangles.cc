@@ -114,7 +114,6 @@ namespace Ricochet
                                        });
               }
             point.nodes.assign(weight.begin(), weight.end());
-            point.can_touch = this->may_touch(point);
             own_points.push_back(point);
           }
       }
@@ -430,7 +429,7 @@ namespace Ricochet
     facets_now.resize(own_points.size());
     for_each_range([&](const unsigned int begin, const unsigned int end) {
       for (unsigned int p = begin; p < end; ++p)
-        if (own_points[p].can_touch)
+        if (this->may_touch(own_points[p]))
           facets_now[p] = find_facet(p,
                                      search,
                                      old_positions,
@@ -500,7 +499,7 @@ namespace Ricochet
           Gaps &gap           = gaps[p];
           gap.is_before_facet = false;
           step.up_to_date     = false;
-          if (!own_points[p].can_touch)
+          if (!this->may_touch(own_points[p]))
             continue;
           step.normal = normal_of(own_points[p], old_positions.slave);
           if (const auto f = facets_now[p])

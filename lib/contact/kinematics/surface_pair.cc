@@ -60,12 +60,10 @@ namespace Ricochet
         "The contact '" + pair.name +
         "' has a boundary that is slave and master. A surface that "
         "may touch itself has to be said to do so.");
-    for (const auto &node : master.nodes)
-      master_moves = master_moves || !node.is_held;
+    const auto moves = [](const auto &node) { return !node.is_held; };
+    master_moves = std::any_of(master.nodes.begin(), master.nodes.end(), moves);
     if (!master_moves &&
-        std::all_of(slave.nodes.begin(),
-                    slave.nodes.end(),
-                    [](const auto &node) { return node.is_held; }))
+        std::none_of(slave.nodes.begin(), slave.nodes.end(), moves))
       throw InputError("The contact '" + pair.name +
                        "' can do nothing: all nodes of its surfaces are held.");
     if (is_self)
@@ -153,7 +151,6 @@ namespace Ricochet
         {
           all[n].nodes       = {{n, 1.}};
           all[n].multipliers = slave.nodes[n].multipliers;
-          all[n].can_touch   = may_touch(all[n]);
           own_points.push_back(all[n]);
         }
   }
@@ -485,7 +482,7 @@ namespace Ricochet
     std::vector<unsigned int> list;
     for (unsigned int p = 0; p < own_points.size(); ++p)
       {
-        if (!own_points[p].can_touch)
+        if (!may_touch(own_points[p]))
           continue;
         const Position y0 = position_of(own_points[p], x0.slave),
                        y1 = position_of(own_points[p], x1.slave);

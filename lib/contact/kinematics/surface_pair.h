@@ -58,8 +58,6 @@ namespace Ricochet
       dealii::types::boundary_id boundary_id   = 0;
       /// Multipliers of the node; invalid ones in quadrature points.
       std::array<Index, dim> multipliers;
-      /// See may_touch().
-      bool can_touch = true;
     };
 
     /// Rows of a point over a step, at the state of the last evaluate().

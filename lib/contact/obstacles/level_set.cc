@@ -100,7 +100,7 @@ namespace Ricochet
         ": its gradient must neither vanish nor be too large.";
     if (!((given - differences).norm() <= 1e-5 * differences.norm()))
       return "The gradient of the level set is not that of its function: at " +
-        place + " m it has the length " + to_text(given.norm()) +
+        place + " it has the length " + to_text(given.norm()) +
         ", and differences of the function have " +
         to_text(differences.norm()) + ".";
     return "";

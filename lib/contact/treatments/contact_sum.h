@@ -2,6 +2,7 @@
 #ifndef ricochet_contact_treatments_contact_sum_h
 #define ricochet_contact_treatments_contact_sum_h
 
+#include <base/exceptions.h>
 #include <contact/contact_operator.h>
 #include <solvers/functional_products.h>
 
@@ -25,17 +26,24 @@ namespace Ricochet
   class ContactSum : public ContactOperator
   {
   public:
+    /// Of a key in summaries, those of the boundary; the others are of the contact.
+    static constexpr unsigned int boundary_bits = 20;
+
     explicit ContactSum(std::vector<std::unique_ptr<ContactOperator>> contacts);
 
     /// The key in summaries of the boundary @p boundary_id in contact number @p
-    /// contact.
+    /// contact. @throws InputError if there are too many of them.
     static dealii::types::boundary_id
     id_of(const unsigned int               contact,
           const dealii::types::boundary_id boundary_id)
     {
-      AssertThrow(contact < (1U << 8) && boundary_id < (1U << 24),
-                  dealii::ExcMessage("Too many contacts or boundaries."));
-      return (contact << 24) + boundary_id;
+      constexpr unsigned int most_contacts   = (1U << (32 - boundary_bits)) - 1,
+                             most_boundaries = 1U << boundary_bits;
+      if (contact >= most_contacts || boundary_id >= most_boundaries)
+        throw InputError("A run may have " + std::to_string(most_contacts) +
+                         " contacts, one for each body and obstacle, and " +
+                         std::to_string(most_boundaries) + " boundaries.");
+      return (contact << boundary_bits) + boundary_id;
     }
 
     void
@@ -80,8 +88,8 @@ namespace Ricochet
     const EnergyPromise &
     promise_at(const dealii::types::boundary_id boundary_id) const override
     {
-      return contacts[boundary_id >> 24]->promise_at(boundary_id &
-                                                     ((1U << 24) - 1));
+      return contacts[boundary_id >> boundary_bits]->promise_at(
+        boundary_id & ((1U << boundary_bits) - 1));
     }
 
     double
