@@ -6,19 +6,23 @@
 #
 #   docs.sh                     build the programs, then the site
 #   docs.sh --build-dir DIR     with programs that are there
+#   docs.sh --without-api ...   all but the pages of the API, and links to them
 #
 # Warnings are errors, and so are broken links and misspelt words (doc/words.txt has those
 # that are right all the same).
 
+api=yes
+[ "${1:-}" != "--without-api" ] || { api=no; shift; }
 case "${1:-}" in
   "") programs="" ;;
   --build-dir) programs="$(realpath "$2")" ;;
-  *) echo "usage: docs.sh [--build-dir DIR]" >&2; exit 1 ;;
+  *) echo "usage: docs.sh [--without-api] [--build-dir DIR]" >&2; exit 1 ;;
 esac
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 packages="python3-sphinx python3-myst-parser python3-nbsphinx python3-ipykernel
   python3-jupyter-client python3-nbconvert pandoc furo libjs-mathjax python3-pil
-  doxygen aspell aspell-en"
+  aspell aspell-en"
+[ "$api" = no ] || packages="$packages doxygen"
 install_packages
 if [ -z "$programs" ]; then
   build Release
@@ -33,7 +37,11 @@ rm -rf output/doc
 $python doc/make_pages.py --programs "$programs" --to build/doc/source
 RICOCHET_PROGRAMS="$programs" $python -m sphinx -b html -n -W --keep-going -q -j auto \
   -c doc -d build/doc/doctrees build/doc/source output/doc
-$python doc/make_pages.py --api output/doc
-$python doc/check_links.py output/doc
+if [ "$api" = yes ]; then
+  $python doc/make_pages.py --api output/doc
+  $python doc/check_links.py output/doc
+else
+  $python doc/check_links.py output/doc api
+fi
 $python doc/check_spelling.py output/doc
 echo "output/doc/index.html, $((SECONDS - begin)) s"

@@ -240,7 +240,8 @@ def with_links(text: str, page: str, folder: str = "") -> str:
             return anchor(site.page_link(page, path[4:-3]) + sharp + part, label)
         if path in PAGES_OF_FILES:
             return anchor(site.page_link(page, PAGES_OF_FILES[path]), label)
-        if path.endswith(".prm") and (site.ROOT / path).is_file():
+        shown = path.startswith(("parameter_files/", "examples/"))
+        if shown and path.endswith(".prm") and (site.ROOT / path).is_file():
             return anchor(parameter_file_link(page, path), label)
         return label
 

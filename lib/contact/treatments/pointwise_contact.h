@@ -87,7 +87,7 @@ namespace Ricochet
     void
     complete_open_tangent(Matrix &tangent) const override;
 
-    /// With #displacement_functionals nothing that depends on directions, which may turn.
+    /// With functionals of displacements nothing that depends on directions, which may turn.
     void
     complete_constant_tangent(Matrix &tangent) const override;
 
