@@ -750,26 +750,36 @@ namespace Ricochet
     const std::vector<unsigned int> part_of =
       body.parts_of_unknowns(parts.size());
     Vector start = body.make_vector();
+    // Velocities without spin in one go, however many parts there are.
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        Tensor<1, dim> direction;
+        direction[c]      = 1.;
+        const Vector unit = uniform(direction);
+        for (unsigned int k = 0; k < part_of.size(); ++k)
+          if (part_of[k] < parts.size())
+            start.trilinos_vector()[0][k] +=
+              parts[part_of[k]].velocity[c] * unit.trilinos_vector()[0][k];
+      }
     for (unsigned int p = 0; p < parts.size(); ++p)
       {
         const Part<dim> &part = parts[p];
-        // Of one that does not spin the same everywhere, to the last digit.
+        if (part.spin == Tensor<1, 3>())
+          continue;
         copy_part(p,
                   part_of,
-                  part.spin == Tensor<1, 3>()
-                    ? uniform(part.velocity)
-                    : interpolated<dim>(body,
-                                        [&](const Point<dim> &place) {
-                                          Tensor<1, dim> result = part.velocity;
-                                          const Tensor<1, 3> turning =
-                                            cross_product_3d(
-                                              part.spin,
-                                              in_space<dim>(place) -
-                                                in_space<dim>(part.centre));
-                                          for (unsigned int c = 0; c < dim; ++c)
-                                            result[c] += turning[c];
-                                          return result;
-                                        }),
+                  interpolated<dim>(body,
+                                    [&](const Point<dim> &place) {
+                                      Tensor<1, dim>     result = part.velocity;
+                                      const Tensor<1, 3> turning =
+                                        cross_product_3d(part.spin,
+                                                         in_space<dim>(place) -
+                                                           in_space<dim>(
+                                                             part.centre));
+                                      for (unsigned int c = 0; c < dim; ++c)
+                                        result[c] += turning[c];
+                                      return result;
+                                    }),
                   start);
       }
     return state_with(start);
