@@ -6,7 +6,7 @@
 #                     on 2 cores): the debug build with all assertions of deal.II,
 #                     and the release build, which also compares with stored outputs
 #                     and makes the short ones of the figures, whose numbers are
-#                     checked
+#                     checked; the site without the API
 #   test.sh --quick   while you work: the release build, unit tests, stored outputs,
 #                     bad input, files (meant to take 8 minutes with the build)
 #   test.sh --full    once before an issue is closed (some hours): all of the above, the
@@ -34,6 +34,8 @@ build Release
 # of this one.
 OPENBLAS_CORETYPE=Nehalem ctest --test-dir build/debug --output-on-failure -j 2
 ctest --test-dir build/release --output-on-failure -j 2
+# With the pictures that there are.
+bash scripts/docs.sh --without-api --build-dir build/release
 
 if [ "${1:-}" = "--full" ]; then
   for kernels in Nehalem:sse4_2 Sandybridge:avx Haswell:avx2 Zen:avx2 SkylakeX:avx512f; do
