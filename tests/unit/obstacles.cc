@@ -165,6 +165,26 @@ BOOST_AUTO_TEST_CASE(gaps_are_distances)
 // direction . way = change of the gap, less the work of the motion, which is here
 // measured in the obstacle's own frame; and gap increments are differences of
 // gaps.
+// A node in the middle of a bowl, which is as far from all of it, or comes there.
+BOOST_AUTO_TEST_CASE(the_middle_of_a_circle)
+{
+  const SphereShape  bowl({}, 2., true);
+  const Tensor<1, 3> middle, beside({.5, 0., 0.});
+  for (const auto &[begin, end] : {std::make_pair(middle, middle),
+                                   std::make_pair(beside, middle),
+                                   std::make_pair(beside, -beside),
+                                   std::make_pair(middle, beside)})
+    {
+      const Tensor<1, 3> normal = bowl.discrete_normal(begin, end);
+      BOOST_CHECK_SMALL(normal * (end - begin) -
+                          (bowl.gap(end) - bowl.gap(begin)),
+                        1e-15);
+      BOOST_CHECK_GT(normal.norm(), .5);
+      BOOST_CHECK(
+        std::isfinite(bowl.discrete_normal_derivative(begin, end).norm()));
+    }
+}
+
 BOOST_AUTO_TEST_CASE(increments_are_differences_of_gaps)
 {
   for (const bool moves : {false, true})

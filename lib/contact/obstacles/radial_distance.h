@@ -14,7 +14,8 @@ namespace Ricochet
    *
    * is a discrete gradient of it without any division by the step. It points
    * along the mean of both vectors, so that a force along it has no moment about
-   * the origin.
+   * the origin. Where both vectors cancel, it is one across them, or at the origin any
+   * one: of length one, as elsewhere, and with a product with the step that is zero.
    */
   namespace RadialDistance
   {
@@ -22,7 +23,13 @@ namespace Ricochet
     discrete_gradient(const dealii::Tensor<1, 3> &begin,
                       const dealii::Tensor<1, 3> &end)
     {
-      return (begin + end) / (begin.norm() + end.norm());
+      const dealii::Tensor<1, 3> sum = begin + end;
+      if (sum != dealii::Tensor<1, 3>())
+        return sum / (begin.norm() + end.norm());
+      dealii::Tensor<1, 3> across({-end[1], end[0], 0.});
+      if (across == dealii::Tensor<1, 3>())
+        across[0] = 1.;
+      return across / across.norm();
     }
 
     /// Derivative of discrete_gradient() with respect to a point of which
@@ -34,8 +41,12 @@ namespace Ricochet
                const dealii::Tensor<2, 3> &projection)
     {
       const double length = begin.norm() + end.norm();
+      if (length == 0.)
+        return {};
+      const dealii::Tensor<1, 3> outwards =
+        end.norm() > 0. ? end / end.norm() : dealii::Tensor<1, 3>();
       return projection / length -
-        outer_product(begin + end, end / end.norm()) / (length * length);
+        outer_product(begin + end, outwards) / (length * length);
     }
   } // namespace RadialDistance
 } // namespace Ricochet
