@@ -107,7 +107,7 @@ def _fingerprint(run, build_dir):
         values += text.values.values()
     # Some values are names of meshes.
     for value in values:
-        for file in {CHECKOUT / value, folder / value}:
+        for file in dict.fromkeys((CHECKOUT / value, folder / value)):
             if file.is_file():
                 parameters.update(file.read_bytes())
     return {

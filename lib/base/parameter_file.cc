@@ -5,6 +5,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/predicate.hpp>
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 
@@ -114,7 +115,7 @@ namespace Ricochet
       return text.size() > length ? printable + "..." : printable;
     }
 
-    /// What a pattern allows, without the words and numbers of compilers.
+    /// The values that a pattern allows, without words and numbers of compilers.
     std::string
     allowed_values(const dealii::Patterns::PatternBase &pattern)
     {
@@ -171,14 +172,6 @@ namespace Ricochet
           ": a '#' begins a comment, and has a space before it; what is "
           "named with one cannot be given here.");
       return line.substr(0, begin);
-    }
-
-    std::string
-    lower_case(std::string text)
-    {
-      for (char &c : text)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      return text;
     }
 
     unsigned int
@@ -444,8 +437,8 @@ namespace Ricochet
         // Nobody types a name this long; the distance takes time.
         const unsigned int distance =
           edit_distance(name.substr(0, 200), candidate);
-        const bool is_part = name.size() >= shortest_part &&
-          lower_case(candidate).find(lower_case(name)) != std::string::npos;
+        const bool is_part =
+          name.size() >= shortest_part && boost::icontains(candidate, name);
         if (is_part)
           ranked.emplace_back(1, candidate);
         else if (2 * distance <= std::max(name.size(), candidate.size()))

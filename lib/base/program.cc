@@ -278,8 +278,8 @@ namespace Ricochet
               }
             catch (const ComputationError &error)
               {
-                // Such as a load that is not finite at the start: nothing is computed
-                // here that could fail otherwise.
+                // A load that is not finite at the start, or a folder that cannot be
+                // written to: nothing is computed here that could fail otherwise.
                 throw InputError(error.what());
               }
           for (const std::string &note : notes)

@@ -220,8 +220,8 @@ namespace Ricochet
     /// this rank) differ by @p change from those at the last complete_residual(), as
     /// complete_residual() does. Until that is called again, all but contact_force(),
     /// friction_force(), and works speak of this state.
-    /// The other argument is the residual without contact along them (N), which only
-    /// contact that takes rows looks at.
+    /// The other argument is the residual without contact along them (N), of use
+    /// where contact takes rows.
     virtual void
     look_at_change(const std::vector<double> & /*change*/,
                    const std::vector<double> & /*excess*/)

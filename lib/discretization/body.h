@@ -114,8 +114,8 @@ namespace Ricochet
     std::vector<dealii::types::global_dof_index>
     canonical_positions() const;
 
-    /// What a checkpoint knows the mesh by: nodes of the geometry, numbers of parts and
-    /// boundaries; the same on any number of ranks. Collective.
+    /// Checksum of the mesh for checkpoints: of nodes of the geometry, numbers of parts
+    /// and boundaries; the same on any number of ranks. Collective.
     std::uint64_t
     mesh_checksum() const;
 

@@ -98,8 +98,8 @@ namespace Ricochet
     std::string
     failure() const override;
 
-    /// Of quadrilaterals and hexahedra of degree 1: in a triangle or tetrahedron the
-    /// gradient is that of the corners.
+    /// Looks at quadrilaterals and hexahedra of degree 1: in a triangle or tetrahedron
+    /// the gradient is that of the corners.
     std::string
     inverted_corner(const Vector &solution) const override;
 

@@ -38,7 +38,7 @@ namespace Ricochet
       return text.str();
     }
 
-    /// Read all of @p text as a number.
+    /// Read the @p number at the beginning of @p text. @return whether there is one.
     template <typename Number>
     bool
     read(const std::string &text, Number &number)

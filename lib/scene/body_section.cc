@@ -79,7 +79,7 @@ namespace Ricochet
         cell->set_material_id(0);
     }
 
-    /// What deal.II's generators take for granted, and read beyond their lists without.
+    /// Conditions that deal.II's generators take for granted, and crash without.
     template <int dim>
     bool
     can_be_generated(const std::string &name, const std::string &arguments)

@@ -279,20 +279,6 @@ namespace Ricochet
             "' that is not of Ricochet. Name another folder with "
             "--output-dir.");
     }
-
-    /// @throws InputError
-    void
-    write_description(const std::string &file, const std::string &text)
-    {
-      try
-        {
-          write_atomically(file, text);
-        }
-      catch (const ComputationError &error)
-        {
-          throw InputError(error.what());
-        }
-    }
   } // namespace
 
 
@@ -399,7 +385,7 @@ namespace Ricochet
       on_first_rank(MPI_COMM_WORLD, [&]() {
         take_description_folder(folder, lock);
         const std::string name = folder + "/" + mesh_picture;
-        write_description(name, picture_of(whole));
+        write_atomically(name, picture_of(whole));
         text << "The meshes, with the numbers of parts and boundaries: " << name
              << '\n';
       });
@@ -417,7 +403,7 @@ namespace Ricochet
         DataOutBase::VtkFlags flags;
         flags.time                = 0.;
         flags.print_date_and_time = false;
-        write_description(
+        write_atomically(
           folder + "/" + obstacle_picture,
           obstacle_surfaces.vtu(GridTools::compute_bounding_box(whole), flags));
       });
@@ -427,7 +413,7 @@ namespace Ricochet
     if (!folder.empty())
       on_first_rank(MPI_COMM_WORLD, [&]() {
         // Beside the picture, for who draws it.
-        write_description(folder + "/" + description_file, text.str());
+        write_atomically(folder + "/" + description_file, text.str());
       });
     return text.str();
   }

@@ -144,7 +144,7 @@ def quantities(comparison: Comparison) -> list[Quantity]:
         Quantity(
             "largest balance residual",
             "",
-            each(lambda run: float(np.nanmax(np.abs(run.table["balance_residual"])))),
+            each(lambda run: measures.largest_balance_residual(run.table)),
         ),
         Quantity(
             "largest promise residual",

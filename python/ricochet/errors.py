@@ -50,7 +50,8 @@ def first_sentence(text: str) -> str:
     """
     lines = [line.strip() for line in text.splitlines()]
     for number, line in enumerate(lines):
-        if re.search(r": (the input is not valid|the computation stopped|stopped by a signal)\.$", line):
+        ends = "the input is not valid|the computation stopped|stopped by a signal"
+        if re.search(rf": ({ends})\.$", line):
             lines = lines[number + 1 :]
             break
     words = " ".join(line for line in lines if line)

@@ -575,7 +575,6 @@ class ChangedMesh(ProgramTest):
         self.assertIn("belongs to a run with other parameters", error)
         self.assertIn("checksum", error)
 
-
     def test_a_geometry_that_is_included(self):
         """The parameter file and the geometry are the same, but not the mesh."""
         (self.folder / "size.geo").write_text("height = 1;\n")

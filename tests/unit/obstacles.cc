@@ -162,9 +162,6 @@ BOOST_AUTO_TEST_CASE(gaps_are_distances)
                     1e-12);
 }
 
-// direction . way = change of the gap, less the work of the motion, which is here
-// measured in the obstacle's own frame; and gap increments are differences of
-// gaps.
 // A node in the middle of a bowl, which is as far from all of it, or comes there.
 BOOST_AUTO_TEST_CASE(the_middle_of_a_circle)
 {
@@ -185,6 +182,9 @@ BOOST_AUTO_TEST_CASE(the_middle_of_a_circle)
     }
 }
 
+// direction . way = change of the gap, less the work of the motion, which is here
+// measured in the obstacle's own frame; and gap increments are differences of
+// gaps.
 BOOST_AUTO_TEST_CASE(increments_are_differences_of_gaps)
 {
   for (const bool moves : {false, true})

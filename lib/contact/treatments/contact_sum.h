@@ -26,7 +26,7 @@ namespace Ricochet
   class ContactSum : public ContactOperator
   {
   public:
-    /// Of a key in summaries, those of the boundary; the others are of the contact.
+    /// Bits of a key in summaries that are the boundary's; the others are the contact's.
     static constexpr unsigned int boundary_bits = 20;
 
     explicit ContactSum(std::vector<std::unique_ptr<ContactOperator>> contacts);
