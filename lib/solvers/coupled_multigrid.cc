@@ -3,10 +3,10 @@
 #include <base/stopwatch.h>
 #include <solvers/aggregation_parameters.h>
 #include <solvers/coupled_multigrid.h>
+#include <solvers/flexible_gmres.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/solver_control.h>
-#include <deal.II/lac/solver_gmres.h>
 
 #include <EpetraExt_MatrixMatrix.h>
 #include <Epetra_CrsMatrix.h>
@@ -294,12 +294,9 @@ namespace Ricochet
   {
     solution = 0.;
     SolverControl control(400, tolerance);
-    // Flexible: what it builds its solution from is what the cycles gave, with their
-    // rounding in single precision.
-    const SolverFGMRES<Vector>::AdditionalData data(40);
     try
       {
-        SolverFGMRES<Vector>(control, data)
+        SolverFGMRES<Vector>(control, flexible_gmres_settings())
           .solve(matrix, solution, forces, *this);
       }
     catch (const SolverControl::NoConvergence &)

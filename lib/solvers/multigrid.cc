@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <solvers/aggregation_parameters.h>
+#include <solvers/flexible_gmres.h>
 #include <solvers/multigrid.h>
 #include <solvers/single_precision.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
-#include <deal.II/lac/solver_gmres.h>
 
 #include <cmath>
 
@@ -353,13 +353,8 @@ namespace Ricochet
                                           right_hand_side,
                                           *this);
         else
-          {
-            // Flexible: what it builds its solution from is what the cycles gave, with
-            // their rounding in single precision.
-            const SolverFGMRES<Vector>::AdditionalData data(40);
-            SolverFGMRES<Vector>(control, data)
-              .solve(*tangent, solution, right_hand_side, *this);
-          }
+          SolverFGMRES<Vector>(control, flexible_gmres_settings())
+            .solve(*tangent, solution, right_hand_side, *this);
       }
     catch (const SolverControl::NoConvergence &)
       {
