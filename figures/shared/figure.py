@@ -7,8 +7,7 @@ from dataclasses import dataclass
 # What a row of the table can say.
 YES = "yes"  # the number meets its criterion
 NO = "NO"  # it does not: make.py fails
-NOTE = "note"  # a statement of the paper that our data do not bear out
-INFO = "info"  # a number without a criterion
+DIFFERS = "differs"  # it is ours as written down, and the paper's is known to be another one
 
 
 @dataclass
@@ -22,21 +21,12 @@ class Check:
     exact: str = "-"
     criterion: str = ""  # what was asked of the number
     figure: str = ""  # filled in by make.py
+    number: str = ""  # its name in figures/numbers
 
 
 def check(quantity, ours, passed, criterion, paper="-", exact="-"):
     """A row that fails when `passed` is false."""
     return Check(quantity, ours, YES if passed else NO, paper, exact, criterion)
-
-
-def note(quantity, ours, remark, paper="-", exact="-"):
-    """A row on a statement of the paper that does not hold here."""
-    return Check(quantity, ours, NOTE, paper, exact, remark)
-
-
-def info(quantity, ours, paper="-", exact="-", remark=""):
-    """A row that reports a number."""
-    return Check(quantity, ours, INFO, paper, exact, remark)
 
 
 @dataclass(frozen=True)

@@ -582,7 +582,8 @@ namespace Ricochet
   std::vector<SurfacePair<2>::Index>
   MortarPair::unknowns_nearby(const unsigned int p) const
   {
-    std::vector<Index> indices;
+    // A step of several facets leads away from those around the old place.
+    std::vector<Index> indices = rows(p).unknowns;
     const auto         add = [&](const auto &node) {
       indices.insert(indices.end(), node.unknowns.begin(), node.unknowns.end());
     };
