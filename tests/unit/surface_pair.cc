@@ -362,4 +362,31 @@ BOOST_AUTO_TEST_CASE(fast_points_are_before_the_facets_they_come_to)
     }
 }
 
+// What a pair announces for the pattern of the tangent has all unknowns of its rows, also in
+// a step over several facets.
+BOOST_AUTO_TEST_CASE(patterns_have_the_unknowns_of_fast_points)
+{
+  for (const std::string &coupling : couplings)
+    {
+      Strips       strips(11, .04);
+      const auto   pair = strips.pair(coupling);
+      const Vector zero = strips.body->make_vector();
+      pair->begin_step(start_at(strips.displacements(1e-3, .35, 0.), zero));
+      pair->evaluate(strips.displacements(1e-3, -.3, .02));
+      unsigned int n_points = 0, n_missing = 0;
+      for (unsigned int p = 0; p < pair->points().size(); ++p)
+        {
+          if (!pair->is_before_facet(p))
+            continue;
+          ++n_points;
+          const auto nearby = pair->unknowns_nearby(p);
+          for (const auto index : pair->rows(p).unknowns)
+            n_missing +=
+              !std::binary_search(nearby.begin(), nearby.end(), index);
+        }
+      BOOST_TEST(dealii::Utilities::MPI::sum(n_points, MPI_COMM_WORLD) > 5u);
+      BOOST_TEST(n_missing == 0u);
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
