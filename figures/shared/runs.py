@@ -2,6 +2,7 @@
 """Runs of the programs: what to run, running it once, reading what it wrote."""
 
 import concurrent.futures
+import dataclasses
 import functools
 import hashlib
 import json
@@ -77,6 +78,11 @@ class Run:
     def read(self, table=None):
         """The columns of a CSV table of the run, by their names without units."""
         return read_table(self.folder / (table or self.table)).columns
+
+
+def with_overrides(run, *overrides):
+    """A run with more overrides, in the same folder: for what is derived from it."""
+    return dataclasses.replace(run, overrides=(*run.overrides, *overrides))
 
 
 def _fingerprint(run, build_dir):
