@@ -14,6 +14,7 @@ import argparse
 import importlib
 import pathlib
 import shutil
+import signal
 import sys
 import tempfile
 import time
@@ -116,6 +117,9 @@ def main():
     parser.add_argument("--case", metavar="KIND:NUMBER",
                         help="this case only, with all that it prints")
     arguments = parser.parse_args()
+    # A shell lets what it starts in the background ignore this signal, and so would the
+    # programs that cases send it to.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
     work = pathlib.Path(tempfile.mkdtemp(prefix="hostile-"))
     context = Context(arguments.programs, arguments.mpiexec, arguments.seed, work,
