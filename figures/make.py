@@ -7,6 +7,7 @@
     figures/make.py short        those that take seconds, one of each kind
     figures/make.py timed        those that show seconds, which "all" leaves out
     figures/make.py --list
+    figures/make.py --table      write the table of the papers' numbers in doc/benchmarks.md
 
 Images, checks.csv and index.html go to output/figures/, runs to output/runs/.
 The last lines are a table of our numbers beside the paper's and the exact ones;
@@ -27,7 +28,7 @@ import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
 
-from shared import CHECKOUT, finding, making, runs  # noqa: E402
+from shared import CHECKOUT, finding, making, numbers_table, runs  # noqa: E402
 
 from ricochet import RicochetError  # noqa: E402
 
@@ -40,6 +41,9 @@ def command_line(figures):
         "names", nargs="*", metavar="FIGURE", help="a name such as C-6, or all, short, timed"
     )
     parser.add_argument("--list", action="store_true", help="list the figures and stop")
+    parser.add_argument(
+        "--table", action="store_true", help="write the table in doc/benchmarks.md and stop"
+    )
     parser.add_argument(
         "--build-dir",
         type=pathlib.Path,
@@ -54,7 +58,7 @@ def command_line(figures):
         help="runs at the same time (default: the number of cores)",
     )
     arguments = parser.parse_args()
-    if arguments.list:
+    if arguments.list or arguments.table:
         return arguments
     if not arguments.names:
         parser.error("name a figure, or all; --list shows the names")
@@ -98,6 +102,9 @@ def main():
         if arguments.list:
             for figure in figures.values():
                 print(f"{figure.name:<6} {figure.title}")
+            return 0
+        if arguments.table:
+            numbers_table.write()
             return 0
         return make_locked(chosen(figures, arguments.names), arguments)
     except RicochetError as error:

@@ -2,28 +2,29 @@
 """1D-SD, penetration of the penalty method and of Nitsche's.
 
 Displacement of the left end near the obstacle, Crank-Nicolson with consistent mass; the obstacle
-is at 0. Below: the first contact, with the mean over its nodes (dotted).
+is at 0. Below: the first contact, with the mean over t = 1.00 ... 2.10 (dotted). That window gives
+the digits that the paper prints, and was found by trying: the paper does not print its own.
 """
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from shared.figure import Figure, check
-from shared.paper_numbers import numbers
+from shared.figure import Figure
+from shared.paper_numbers import compare
 
-from .common import PLAIN, TREATMENTS, bar_run
+from .common import TREATMENTS, bar_run
 from .exact import FINAL_TIME, SD
 from .panels import draw_exact
 from .rows import checks_of_runs
 
-PAPER = numbers("C.figure_7")
 RUNS = {curve.key: bar_run(SD, 7, curve) for curve in TREATMENTS}
-# The nodes of the first contact: t = 1.00, 1.05, ..., 2.10.
-FIRST_CONTACT = slice(20, 43)
+# The steps over which the first contact is averaged: the exact contact, t = 1.00, 1.05, ..., 2.00;
+# or to 2.10, which gives the paper's digits.
+WINDOWS = {"": slice(20, 41), "_to_210": slice(20, 43)}
 
 
-def mean_displacement(key):
-    return RUNS[key].read()["displacement_left"][FIRST_CONTACT].mean()
+def mean_displacement(key, window=WINDOWS["_to_210"]):
+    return RUNS[key].read()["displacement_left"][window].mean()
 
 
 def draw():
@@ -65,32 +66,15 @@ def draw():
 
 
 def checks():
-    rows = []
-    for key in RUNS:
-        paper = PAPER[key]
-        mean = mean_displacement(key)
-        rows.append(
-            check(
-                f"mean displacement in the first contact, {PLAIN[key]} (m)",
-                f"{mean:.3e}",
-                float(f"{mean:.1e}") == paper,
-                "equal to the digits printed; t = 1.00 ... 2.10",
-                paper=f"{paper:.1e}",
-                exact="0",
-            )
-        )
     largest = {key: run.read()["penetration_left"].max() for key, run in RUNS.items()}
-    rows.append(
-        check(
-            "largest penetration: Nitsche, penalty (m)",
-            f"{largest['nitsche']:.2e}, {largest['penalty']:.2e}",
-            largest["nitsche"] < largest["penalty"],
-            "less with Nitsche's method",
-            paper="Nitsche less",
-            exact="0",
-        )
-    )
-    return rows + checks_of_runs(SD, RUNS.values())
+    return [
+        *(
+            compare(f"C.figure_7.{key}{end}", mean_displacement(key, WINDOWS[end]))
+            for end in WINDOWS
+            for key in RUNS
+        ),
+        compare("C.figure_7.deeper", largest["penalty"] / largest["nitsche"]),
+    ] + checks_of_runs(SD, RUNS.values())
 
 
 FIGURE = Figure("C-7", __doc__, list(RUNS.values()), draw, checks)

@@ -18,5 +18,5 @@ FIGURE = Figure(
     __doc__,
     [*TR_SD.values(), *HHT_SD.values()],
     lambda: draw_panels(SD, TREATMENTS, TR_SD),
-    lambda: checks_tr_bdf2(SD, TR_SD, HHT_SD),
+    lambda: checks_tr_bdf2(SD, "C.figure_9", TR_SD, HHT_SD),
 )

@@ -13,6 +13,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.patches import Patch
 
 from shared.figure import Figure, check
+from shared.paper_numbers import compare
 
 from . import characteristics
 from .common import SS_FIELDS
@@ -135,7 +136,12 @@ def checks():
         for x, end in enumerate(SS.ends)
         for k in range(PERIOD + 1)
     )
+    states = [end_state(SS.ends[0], k) for k in range(PERIOD)]
+    grazing = states.index("touches")
     return [
+        compare("C.section_4_2.grazing_from", grazing),
+        compare("C.section_4_2.grazing_to", grazing + 1),
+        compare("C.section_4_2.states", len(set(states))),
         check(
             "jump of u between regions (m)", f"{jumps:.1e}", jumps < 1e-12, "round-off", exact="0"
         ),

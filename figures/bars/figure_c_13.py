@@ -14,23 +14,22 @@ from .panels import draw_panels
 from .rows import (
     checks_of_runs,
     checks_off_contact,
-    energy_rows,
-    first_step_rows,
+    error_rows,
     initial_energy_row,
+    loss_rows,
     smoother_rows,
 )
 
 
 def checks():
-    return (
-        # The paper states no number for 1D-SS.
-        energy_rows(TREATMENTS, CN_SS)
-        + [initial_energy_row(SS, CN_SS["nitsche", "consistent"])]
-        + first_step_rows(TREATMENTS, CN_SS)
-        + checks_off_contact(SS, TREATMENTS, CN_SS)
-        + smoother_rows(SS, TREATMENTS, CN_SS)
-        + checks_of_runs(SS, CN_SS.values())
-    )
+    return [
+        *smoother_rows(SS, "C.figure_13", TREATMENTS, CN_SS, ("pressure", "displacement")),
+        *loss_rows("own.bar_ss_cn", TREATMENTS, CN_SS),
+        *error_rows(SS, "own.bar_ss_cn", TREATMENTS, CN_SS),
+        initial_energy_row(SS, CN_SS["nitsche", "consistent"]),
+        *checks_off_contact(SS, TREATMENTS, CN_SS),
+        *checks_of_runs(SS, CN_SS.values()),
+    ]
 
 
 FIGURE = Figure(

@@ -9,7 +9,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
 
-from shared.figure import Figure, check, info
+from shared.figure import Figure, check
+from shared.paper_numbers import compare
 from shared.pictures import (
     bare,
     colour_bar,
@@ -140,7 +141,7 @@ def checks():
             "at most 1e-12 of the energy",
             exact="<= 0",
         ),
-        info("work of friction", f"{100 * table['friction_work'][-1] / table['energy'][0]:.2f} %"),
+        compare("own.oblique.friction", table["friction_work"][-1] / table["energy"][0]),
         momenta_row([RUN], mass),
         check(
             "sum of the contact forces on both disks in the pictures, relative",

@@ -2,9 +2,10 @@
 """The exponent of improved normal compliance: figures A-8 and A-9."""
 
 from shared.curves import panels_with_bands
-from shared.measures import energy
+from shared.measures import energy, lost, missing_after
 from shared.methods import INC, SCALE, SNC
-from shared.rows import constant_row, recovered_row
+from shared.paper_numbers import compare
+from shared.rows import checks_of_runs, constant_row
 
 from .common import AGAINST, STEP
 
@@ -17,15 +18,14 @@ def draw_exponents(runs, bands, step, limits):
     return panels_with_bands(curves, energy, STEP[step][1], AGAINST, limits)
 
 
-def checks_exponents(runs, bands, snc):
-    rows = [snc]
-    for alpha in (2, 3, 4, 5):
-        group = [runs[INC[alpha].key], *bands[INC[alpha].key]]
-        rows.append(recovered_row(INC[alpha].name, group))
-    everything = [r for m in BY_EXPONENT for r in (runs[m.key], *bands[m.key])]
+def checks_exponents(runs, bands, place):
+    """Rows that figures A-8 and A-9 have in common."""
     inc = [r for m in BY_EXPONENT[1:] for r in (runs[m.key], *bands[m.key])]
-    rows.append(constant_row("INC", inc, "modified_energy", "-"))
-    return rows, everything
+    return [
+        compare(f"{place}.snc", [lost(r) for r in bands["snc"]]),
+        compare(f"{place}.inc", missing_after(inc)),
+        constant_row("INC", inc, "modified_energy", "-"),
+    ] + checks_of_runs(runs_and_bands(runs, bands))
 
 
 def runs_and_bands(runs, bands):

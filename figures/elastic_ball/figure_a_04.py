@@ -10,12 +10,12 @@ gives it all back; the two-step scheme and persistent contact change nothing.
 from shared.figure import Figure
 
 from .common import FINE, FINE_BAND, METHODS_A, with_bands
-from .energies import EMM_CN, checks_energy, draw_energy
+from .energies import checks_energy, draw_energy
 
 FIGURE = Figure(
     "A-4",
     __doc__,
-    with_bands(METHODS_A, FINE, FINE_BAND) + EMM_CN,
+    with_bands(METHODS_A, FINE, FINE_BAND),
     lambda: draw_energy(METHODS_A),
-    lambda: checks_energy(METHODS_A),
+    lambda: checks_energy(METHODS_A, "A.figure_4"),
 )

@@ -6,17 +6,17 @@ within a step. The energy comes back whatever the coefficient. 2.6e12 Pa/m^2 sta
 paper's 1000.
 """
 
+import numpy as np
+
 from shared.curves import panels_with_bands
 from shared.figure import Figure
-from shared.measures import dip, energy, mean, penetration
+from shared.measures import dip, energy, mean, missing_after, penetration
 from shared.methods import SCALE
-from shared.paper_numbers import numbers
-from shared.rows import checks_of_runs, constant_row, order_row, recovered_row, statement
+from shared.paper_numbers import compare
+from shared.rows import checks_of_runs, constant_row
 from shared.runs import QUIET, Run
 
 from .common import AGAINST, COARSE, STEP, positions
-
-PAPER = numbers("A.figure_5")
 
 # 2.6e12 Pa/m^2 stands for the paper's 1000.
 COEFFICIENTS = (2.6e10, 2.6e11, 2.6e12, 2.6e13, 2.6e14)
@@ -51,30 +51,27 @@ def draw():
     return panels_with_bands(curves, energy, STEP["10ms"][1], AGAINST, (-20, 70))
 
 
+def named(coefficient):
+    """Its name in numbers/own.toml: 26e11 for 2.6e12."""
+    return f"26e{round(np.log10(coefficient / 26))}"
+
+
 def checks():
-    deepest = [max(penetration(r) for r in BY_COEFFICIENT_BAND[c]) for c in COEFFICIENTS]
-    dips = [mean([100 * dip(r) for r in BY_COEFFICIENT_BAND[c]]) for c in COEFFICIENTS]
-    falls = all(a > b for a, b in zip(dips, dips[1:]))
+    dips = {c: mean([dip(r) for r in BY_COEFFICIENT_BAND[c]]) for c in COEFFICIENTS}
     return [
-        recovered_row("all c_nu", RUNS),
+        compare("A.figure_5.recovered", missing_after(RUNS)),
+        compare("A.figure_5.fluctuation", dips[2.6e12] / dips[2.6e14]),
         constant_row("all c_nu", RUNS, "modified_energy", "-"),
-        order_row(
-            "largest penetration (m), by c_nu from small to large",
-            deepest,
-            "falls from each to the next",
-            "practically none for large c_nu",
-            "{:.1e}",
-            rising=False,
+        *(
+            compare(
+                f"own.ball_by_coefficient.deepest_{named(c)}",
+                max(penetration(r) for r in BY_COEFFICIENT_BAND[c]),
+            )
+            for c in COEFFICIENTS
         ),
-        statement(
-            "mean dip, by c_nu from small to large",
-            ", ".join(f"{value:.1f} %" for value in dips),
-            falls,
-            "falls from each to the next",
-            PAPER["said"],
-            "the dip is the energy in the contact potential, which falls as c_nu grows, but at "
-            "this step a stiffer contact also lands nodes deeper than they would stay: the dip "
-            "ends at the loss that Signorini's condition has",
+        *(
+            compare(f"own.ball_by_coefficient.dip_{named(c)}", dips[c])
+            for c in COEFFICIENTS
         ),
     ] + checks_of_runs(RUNS)
 

@@ -5,32 +5,21 @@ Energy relative to the start. Bands: ten positions of the impact within a step. 
 ms, three to an impact, the position decides more than the exponent does.
 """
 
-from shared.figure import Figure, check, info
-from shared.measures import dip, lost, percent
+from shared.figure import Figure
+from shared.measures import dip
 from shared.methods import INC
-from shared.paper_numbers import numbers
-from shared.rows import checks_of_runs
+from shared.paper_numbers import compare
 
 from .common import COARSE, COARSE_BAND
 from .exponents import checks_exponents, draw_exponents, runs_and_bands
 
-LOST = numbers("A.figure_8")["snc_lost"]
-
 
 def checks():
-    losses = [lost(r) for r in COARSE_BAND["snc"]]
-    snc = check(
-        "SNC: energy lost",
-        percent(losses),
-        min(losses) <= LOST <= max(losses),
-        f"the ten positions reach {100 * LOST:g} %",
-        f"{100 * LOST:g} %",
-    )
-    rows, runs = checks_exponents(COARSE, COARSE_BAND, snc)
-    for alpha in (2, 3, 4, 5):
-        dips = [dip(r) for r in COARSE_BAND[INC[alpha].key]]
-        rows.append(info(f"{INC[alpha].name}: dip", percent(dips), "some fluctuations"))
-    return rows + checks_of_runs(runs)
+    dips = [dip(r) for a in (2, 3, 4, 5) for r in COARSE_BAND[INC[a].key]]
+    return [
+        compare("A.figure_8.inc_dip", dips),
+        *checks_exponents(COARSE, COARSE_BAND, "A.figure_8"),
+    ]
 
 
 FIGURE = Figure(

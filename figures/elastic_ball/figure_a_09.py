@@ -6,36 +6,21 @@ exponent, the softer the contact at these penetrations, and the more energy its 
 """
 
 from shared.figure import Figure
-from shared.measures import dip, mean
+from shared.measures import dip, mean, smallest_factor
 from shared.methods import INC
-from shared.paper_numbers import numbers
-from shared.rows import checks_of_runs, loses_row, order_row
+from shared.paper_numbers import compare
 
 from .common import FINE, FINE_BAND
 from .exponents import checks_exponents, draw_exponents, runs_and_bands
 
-LOST = numbers("A.figure_9")["snc_lost"]
-
 
 def checks():
-    snc = loses_row(
-        "SNC",
-        FINE_BAND["snc"],
-        f"{100 * LOST:g} %",
-        (0.001, 0.02),
-        "between 0.1 and 2 % at each position",
-    )
-    rows, runs = checks_exponents(FINE, FINE_BAND, snc)
-    dips = [mean([100 * dip(r) for r in FINE_BAND[INC[a].key]]) for a in (2, 3, 4, 5)]
-    rows.append(
-        order_row(
-            "mean dip for alpha = 2, 3, 4, 5",
-            dips,
-            "grows from each to the next",
-            "strictly increasing; large above alpha = 4",
-        )
-    )
-    return rows + checks_of_runs(runs)
+    dips = [mean([dip(r) for r in FINE_BAND[INC[a].key]]) for a in (2, 3, 4, 5)]
+    return [
+        compare("A.figure_9.grows", smallest_factor(dips)),
+        compare("A.figure_9.large", dips[-1]),
+        *checks_exponents(FINE, FINE_BAND, "A.figure_9"),
+    ]
 
 
 FIGURE = Figure(

@@ -5,11 +5,14 @@ Energy relative to the start for linear viscosities. Without viscosity it is con
 the viscosity, the more is dissipated, and the energy never rises.
 """
 
+import numpy as np
+
 from shared.curves import curve, energy_axes, legend_above
-from shared.figure import Figure, check
-from shared.measures import energy, lost
+from shared.figure import Figure
+from shared.measures import change, energy, lost, smallest_factor
 from shared.methods import SCALE
-from shared.rows import checks_of_runs, constant_row, dissipative_row, order_row
+from shared.paper_numbers import compare
+from shared.rows import checks_of_runs, dissipative_row
 
 from .common import AGAINST, FINE, STEP, run
 
@@ -29,31 +32,20 @@ def draw():
 
 
 def checks():
-    losses = [100 * lost(r) for r in RUNS.values()]
-    rows = [constant_row("no viscosity", RUNS[0])]
-    rows.append(dissipative_row("with viscosity", [r for eta, r in RUNS.items() if eta]))
-    for eta, one in RUNS.items():
-        if eta:
-            table = one.read()
-            part = table["viscous_dissipation"][-1] / (table["energy"][0] - table["energy"][-1])
-            rows.append(
-                check(
-                    f"eta = {eta:g} Pa s: viscous dissipation / energy lost - 1",
-                    f"{part - 1:.1e}",
-                    abs(part - 1) < 1e-9,
-                    "< 1e-9: nothing else dissipates",
-                    exact="0",
-                )
-            )
-    rows.append(
-        order_row(
-            "energy lost for eta = 0, 0.1, 1, 10 MPa s",
-            losses,
-            "grows with eta",
-            "grows with eta",
-        )
-    )
-    return rows + checks_of_runs(RUNS.values())
+    damped = {eta: one for eta, one in RUNS.items() if eta}
+    losses = {eta: lost(one) for eta, one in damped.items()}
+    parts = []
+    for one in damped.values():
+        table = one.read()
+        taken = table["viscous_dissipation"][-1] / (table["energy"][0] - table["energy"][-1])
+        parts.append(abs(taken - 1))
+    return [
+        compare("B.figure_6.without", change([RUNS[0]])),
+        compare("B.figure_6.grows", smallest_factor(list(losses.values()))),
+        compare("B.figure_6.of_the_model", max(parts)),
+        *(compare(f"B.figure_6.lost_1e{np.log10(eta):.0f}", part) for eta, part in losses.items()),
+        dissipative_row("with viscosity", damped.values()),
+    ] + checks_of_runs(RUNS.values())
 
 
 FIGURE = Figure("B-6", __doc__, list(RUNS.values()), draw, checks)

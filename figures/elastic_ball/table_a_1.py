@@ -5,11 +5,11 @@ Largest penetration with steps of 1 ms, for ten positions of the impact within a
 table 1 of the paper.
 """
 
-from shared.figure import Figure, Table, check
+from shared.figure import Figure, Table
 from shared.measures import penetration, scientific, scientific_span
 from shared.methods import INC, PERSISTENT, SIGNORINI, SNC, TWO_STEP
-from shared.paper_numbers import numbers
-from shared.rows import checks_of_runs, factor_row
+from shared.paper_numbers import compare, numbers
+from shared.rows import checks_of_runs
 
 from .common import FINE, FINE_BAND, with_bands
 
@@ -30,24 +30,9 @@ def table():
 
 
 def checks():
-    rows = []
-    for method in METHODS:
-        paper = PAPER[method.key]
-        values = [penetration(r) for r in FINE_BAND[method.key]]
-        if method is SIGNORINI:
-            rows.append(
-                check(
-                    "largest penetration, Signorini (m)",
-                    f"{max(values):.1e}",
-                    max(values) < 1e-12,
-                    "< 1e-12, round-off",
-                    "0",
-                    "0",
-                )
-            )
-        else:
-            rows.append(factor_row(method.name, values, paper, "no position comes within it"))
-    return rows + checks_of_runs(RUNS)
+    return [
+        compare(f"A.table_1.{m.key}", [penetration(r) for r in FINE_BAND[m.key]]) for m in METHODS
+    ] + checks_of_runs(RUNS)
 
 
 FIGURE = Figure("A-T1", __doc__, RUNS, None, checks, table=table)

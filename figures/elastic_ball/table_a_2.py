@@ -8,12 +8,12 @@ machine, the exponents hardly.
 
 from shared.figure import Figure, Table
 from shared.methods import INC, PERSISTENT, SIGNORINI, SNC
-from shared.paper_numbers import numbers
+from shared.paper_numbers import series
 from shared.rows import checks_of_runs
 from shared.runs import QUIET, Run
 from shared.timing import cost_checks, timing_of_steps
 
-PAPER = numbers("A.table_2")
+PAPER = series("A.table_2")
 METHODS = (SIGNORINI, PERSISTENT, INC[3], SNC)
 FAMILY = {16: 25, 32: 96, 64: 392, 128: 1580, 256: 6260}
 RUNS = {
@@ -51,7 +51,7 @@ def table():
 
 
 def checks():
-    return cost_checks(METHODS, RUNS, FAMILY, PAPER) + checks_of_runs(
+    return cost_checks("A.table_2", METHODS, RUNS, FAMILY) + checks_of_runs(
         RUNS.values(), 1e-8, "< 1e-8: round-off of 15 m of flight, as large before the impact"
     )
 

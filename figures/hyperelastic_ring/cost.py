@@ -2,11 +2,13 @@
 """Cost against degrees of freedom: figure A-12 and table A-T4."""
 
 from shared.methods import INC, PERSISTENT, SIGNORINI, SNC
-from shared.paper_numbers import numbers
+from shared.paper_numbers import series
 
 from .common import run
 
-PAPER = numbers("A.table_4")
+PAPER = series("A.table_4")
+# Of the paper: 10 s in steps of 10 ms.
+PAPER_STEPS = 1000
 COST_METHODS = (SIGNORINI, PERSISTENT, INC[3], SNC)
 FAMILY = {32: (32, 3), 64: (64, 3), 128: (128, 7), 256: (256, 9), 512: (512, 15)}
 NODES = {n: a * b for n, (a, b) in FAMILY.items()}

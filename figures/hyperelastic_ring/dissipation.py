@@ -2,11 +2,12 @@
 """Energy with viscosity and with friction: figures B-9 to B-11."""
 
 from shared.curves import energy_axes
-from shared.measures import lost
+from shared.measures import lost, smallest_factor
 from shared.methods import SCALE
-from shared.rows import checks_of_runs, constant_row, dissipative_row, order_row
+from shared.paper_numbers import compare
+from shared.rows import checks_of_runs, dissipative_row
 
-from .common import draw_lines, run, share_row
+from .common import draw_lines, run
 
 B9 = {eta: run("B-9", f"eta_{eta}") for eta in (0, 100, 400, 1600)}
 B10 = {"0": B9[0]}
@@ -22,17 +23,21 @@ def draw_family(runs, label):
     return figure
 
 
-def checks_family(runs, what, paper):
-    """Constant without, falling with viscosity or friction, and ever more of it."""
-    (_, first), *rest = runs.items()
-    rows = [
-        constant_row("neither viscosity nor friction", first),
-        dissipative_row("with viscosity or friction", [one for _, one in rest], tolerance=1e-12),
-        order_row(
-            f"energy lost, {what}", [100 * lost(one) for one in runs.values()], "grows", paper
-        ),
-    ]
-    for key, one in rest:
-        name = f"mu = {key[0]}, eta = {key[1]}" if isinstance(key, tuple) else f"{key}"
-        rows.append(share_row(name, one, "friction_work", "viscous_dissipation"))
-    return rows + checks_of_runs(runs.values())
+def taken(one):
+    """What friction and viscosity took, over the initial energy."""
+    table = one.read()
+    return (table["friction_work"] + table["viscous_dissipation"])[-1] / table["energy"][0]
+
+
+def checks_family(place, runs, names):
+    """Rows of the numbers of `place`: what is lost, ever more, to friction and viscosity alone.
+
+    `names`: of the numbers of what is lost, by the keys of the runs.
+    """
+    rest = list(runs.values())[1:]
+    return [
+        compare(f"{place}.grows", smallest_factor([lost(one) for one in rest])),
+        compare(f"{place}.of_the_model", max(abs(taken(one) - lost(one)) for one in rest)),
+        *(compare(f"{place}.{name}", lost(runs[key])) for key, name in names.items()),
+        dissipative_row("with viscosity or friction", rest),
+    ] + checks_of_runs(runs.values())

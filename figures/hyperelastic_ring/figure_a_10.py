@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Hyperelastic ring: deformed body and contact forces.
 
-The ring before, during and after the impact, with improved normal compliance (alpha = 2) on
-128 x 7 nodes; all pictures have the same scale. Arrows are nodal contact forces. The sides of the ring pass through each other
+The ring before, during and after the impact, with improved normal compliance
+(alpha = 2); all pictures have the same scale. Arrows are nodal contact forces. The sides of the ring pass through each other
 between 1.5 and 2.5 s, since there is no contact between them.
 """
 
@@ -17,7 +17,7 @@ RUN = Run(
     "hyperelastic_ring",
     "hyperelastic_ring/figure_A10.prm",
     ("Output/Log every=0",),
-    cost=6,
+    cost=20,
 )
 STEPS = (0, 50, 100, 150, 250, 600)
 

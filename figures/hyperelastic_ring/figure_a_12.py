@@ -12,7 +12,7 @@ from shared.curves import FULL_WIDTH, legend_above
 from shared.figure import Figure
 from shared.timing import timing_of_steps
 
-from .cost import COST_METHODS, FAMILY, NODES, PAPER, RUNS
+from .cost import COST_METHODS, FAMILY, NODES, PAPER, PAPER_STEPS, RUNS
 
 
 def draw():
@@ -25,7 +25,7 @@ def draw():
         )
         axes.loglog(
             dofs,
-            np.array(PAPER[method.key]) / PAPER["steps"],
+            np.array(PAPER[method.key]) / PAPER_STEPS,
             "s--",
             color=method.colour,
             alpha=0.5,

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Hyperelastic ring: persistent contact with viscosity.
 
-Energy relative to the start for Curnier's viscosity, steps of 1/300 s. The mesh has 64 x 5 nodes.
+Energy relative to the start for Curnier's viscosity, steps of 1/300 s. The paper prints no
+viscosity.
 """
 
 from shared.figure import Figure
@@ -13,5 +14,5 @@ FIGURE = Figure(
     __doc__,
     list(B9.values()),
     lambda: draw_family(B9, lambda eta: rf"$\eta$ = {eta} Pa s"),
-    lambda: checks_family(B9, "eta = 0, 100, 400, 1600 Pa s", "grows with eta"),
+    lambda: checks_family("B.figure_9", B9, {eta: f"lost_{eta}" for eta in (100, 400, 1600)}),
 )

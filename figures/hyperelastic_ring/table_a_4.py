@@ -23,7 +23,7 @@ def table():
 
 
 def checks():
-    return cost_checks(COST_METHODS, RUNS, NODES, PAPER) + checks_of_runs(RUNS.values())
+    return cost_checks("A.table_4", COST_METHODS, RUNS, NODES) + checks_of_runs(RUNS.values())
 
 
 FIGURE = Figure("A-T4", __doc__, list(RUNS.values()), None, checks, timed=True, table=table)

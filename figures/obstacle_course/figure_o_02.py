@@ -10,7 +10,8 @@ potential.
 import matplotlib.pyplot as plt
 import numpy as np
 
-from shared.figure import Figure, check, info
+from shared.figure import Figure, check
+from shared.paper_numbers import compare
 from shared.pictures import colour_bar, scale_bar
 from shared.rows import checks_of_runs
 
@@ -107,7 +108,7 @@ def checks():
             exact="<= 0",
         )
     )
-    rows.append(info(f"{BOWLS['signorini'][2]}: energy lost", f"{-100 * signorini[-1]:.3f} %"))
+    rows.append(compare("own.bowl.signorini", -signorini[-1]))
     for one, _, text, *_ in BOWLS.values():
         time = one.read()["time"]
         ours, exact = turn(time, path(one)[0]), turn(time, pendulum(time))

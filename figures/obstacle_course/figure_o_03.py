@@ -10,7 +10,8 @@ moment and the motion; the largest difference until 0.6 s falls with the square 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from shared.figure import Figure, check, info
+from shared.figure import Figure, check
+from shared.paper_numbers import compare
 from shared.pictures import colour_bar, snapshot
 from shared.rows import checks_of_runs
 
@@ -65,7 +66,7 @@ def checks():
         values = [difference(key, step) for step in STEPS]
         ratios = [a / b for a, b in zip(values[:-1], values[1:])]
         total = works(MOVES[key, STEPS[-1]])[1][-1]
-        rows.append(info(f"{key}: work of the obstacle until {UNTIL:g} s (J)", f"{total:.1f}"))
+        rows.append(compare(f"own.drum.work_{key}", total))
         rows.append(
             check(
                 f"{key}: balance against resultants (J), steps of 4, 2, 1 ms",
@@ -91,12 +92,7 @@ def checks():
                 exact="<= 0",
             )
         )
-        rows.append(
-            info(
-                f"{key}: work against friction (J), the same steps",
-                ", ".join(f"{value:.1f}" for value in taken),
-            )
-        )
+        rows.append(compare(f"own.drum.taken_{key}", taken[-1]))
     rows.append(plate_row())
     return rows + checks_of_runs(list(MOVES.values()))
 

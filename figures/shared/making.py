@@ -6,8 +6,10 @@ import time
 
 import matplotlib.pyplot as plt
 
-from . import report, runs
-from .figure import NO, NOTE, YES
+from ricochet import RicochetError
+
+from . import paper_numbers, report, runs
+from .figure import DIFFERS, NO, YES
 
 LOOK = {
     "figure.dpi": 100,
@@ -38,6 +40,25 @@ def _draw(figure, folder):
         print(f"  output/figures/{figure.animation}", flush=True)
 
 
+def _checks(figure):
+    """The rows of a figure.
+
+    Raises:
+        RicochetError: they leave out a number that is written down for the figure, or have one
+            of another.
+    """
+    rows = figure.checks()
+    asked, written = {row.number for row in rows if row.number}, paper_numbers.of_figure(figure.name)
+    if asked != written:
+        raise RicochetError(
+            f"{figure.name} does not check what figures/numbers has for it: "
+            f"{', '.join(sorted(asked ^ written))}."
+        )
+    for row in rows:
+        row.figure = figure.name
+    return rows
+
+
 def make(figures, build_dir, jobs, force):
     """Make the figures; return whether all numbers are as they should be."""
     start = time.monotonic()
@@ -54,9 +75,7 @@ def make(figures, build_dir, jobs, force):
     checks = []
     for figure in figures:
         _draw(figure, folder)
-        for check in figure.checks():
-            check.figure = figure.name
-            checks.append(check)
+        checks += _checks(figure)
 
     report.write_csv(checks, folder / "checks.csv")
     report.write_html(figures, checks, folder / "index.html")
@@ -64,7 +83,8 @@ def make(figures, build_dir, jobs, force):
     report.print_table(checks)
     count = collections.Counter(check.status for check in checks)
     print(
-        f"\n{count[YES]} checks passed, {count[NO]} failed, {count[NOTE]} notes; "
+        f"\n{count[YES]} checks passed, {count[NO]} failed, "
+        f"{count[DIFFERS]} differ from the paper as written down; "
         f"{time.monotonic() - start:.0f} s; see output/figures/index.html"
     )
     return count[NO] == 0

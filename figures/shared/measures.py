@@ -3,6 +3,9 @@
 
 import re
 
+import numpy as np
+from ricochet import RicochetError
+
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -20,6 +23,32 @@ def lost(run):
 def dip(run):
     """Part of the energy that is gone when it is least."""
     return 1 - energy(run).min()
+
+
+def change(runs, column="energy"):
+    """The largest change of energy of some runs, relative to the start."""
+    return max(np.abs(energy(run, column) - 1).max() for run in runs)
+
+
+def missing_after(runs):
+    """The largest part of the energy that is gone in a step in which no point penetrates.
+
+    Raises:
+        RicochetError: a run ends before it is free again.
+    """
+    worst = 0.0
+    for run in runs:
+        values = energy(run)
+        free = np.flatnonzero(run.read()["active_points_foundation"] == 0)
+        if free[-1] <= values.argmin():
+            raise RicochetError(f"The run {run.name} ends in contact.")
+        worst = max(worst, np.abs(values[free] - 1).max())
+    return worst
+
+
+def smallest_factor(values):
+    """The smallest factor from a value to the next: above 1 where they grow strictly."""
+    return min(after / before for before, after in zip(values, values[1:]))
 
 
 def penetration(run):

@@ -20,6 +20,7 @@ from .figure import DIFFERS, NO, YES, Check
 FOLDER = CHECKOUT / "figures" / "numbers"
 
 # What a place and a number of it can have.
+SERIES = "series"  # of a place: lists of numbers of the paper that are drawn beside ours
 PLACE_KEYS = {"figure", "source", "about", "band", "within"}
 NUMBER_KEYS = {"of", "paper", "holds", "exact", "ours", "band", "tolerance", "within", "why"} | {
     "tried"
@@ -163,7 +164,11 @@ def everything():
     for path in sorted(FOLDER.glob("*.toml")):
         for place, values in _read(path).items():
             general = {key: value for key, value in values.items() if not isinstance(value, dict)}
-            numbers = {key: value for key, value in values.items() if isinstance(value, dict)}
+            numbers = {
+                key: value
+                for key, value in values.items()
+                if isinstance(value, dict) and key != SERIES
+            }
             _refuse_unknown(general, PLACE_KEYS, f"figures/numbers/{path.name}: [{place}]")
             for needed in ("figure", "source"):
                 if needed not in general:
@@ -205,6 +210,12 @@ def numbers(place):
     if not found:
         raise RicochetError(f"figures/numbers has no place '{place}'.")
     return found
+
+
+def series(place):
+    """The lists of a place, such as the seconds of a table, by their names."""
+    paper, _, part = place.partition(".")
+    return _read(FOLDER / f"{paper}.toml")[part][SERIES]
 
 
 def compare(name, values):

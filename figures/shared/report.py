@@ -58,7 +58,7 @@ table { border-collapse: collapse; font-size: 85% }
 td, th { padding: .2em .7em; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top }
 table.numbers { font-size: 100% } table.numbers td, table.numbers th { padding: .3em .8em }
 table.numbers td { white-space: nowrap }
-td.yes { color: #060 } td.NO { background: #c00; color: #fff } td.note { background: #fe9 }
+td.yes { color: #060 } td.NO { background: #c00; color: #fff } td.differs { background: #fe9 }
 """
 
 
@@ -88,8 +88,7 @@ def write_html(figures, checks, path):
         f"<title>Ricochet: figures</title><style>{STYLE}</style></head><body>",
         "<h1>Figures of the papers, computed by Ricochet</h1>",
         f"<p>{len(figures)} figures, {len(checks)} numbers, {failed} of them off. A row marked "
-        "<em>note</em> is a statement of the paper that our results do not bear out; "
-        "<em>info</em> is a number without a criterion. The table is also in "
+        "<em>differs</em> is what we know to be different from the paper, with the reason. The table is also in "
         '<a href="checks.csv">checks.csv</a>.</p>',
         "<ul>",
         *(f'<li><a href="#{f.name}">{text(f.name)}</a> {text(f.title)}</li>' for f in figures),

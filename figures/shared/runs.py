@@ -85,12 +85,15 @@ def with_overrides(run, *overrides):
     return dataclasses.replace(run, overrides=(*run.overrides, *overrides))
 
 
+@functools.cache
+def _checksum(path, _time):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
 def _fingerprint(run, build_dir):
     """All that the result of a run depends on.
 
-    The program and the library count by their time stamps, since a build writes
-    them anew; parameter files and meshes by what is in them, since a checkout touches
-    them.
+    All files count by what is in them: a build or a checkout may write the same anew.
     """
     program = build_dir / run.program
     if not program.is_file():
@@ -119,7 +122,7 @@ def _fingerprint(run, build_dir):
     return {
         "command": run.command(build_dir),
         "parameters": parameters.hexdigest(),
-        "binaries": {path.name: path.stat().st_mtime_ns for path in binaries},
+        "binaries": {path.name: _checksum(path, path.stat().st_mtime_ns) for path in binaries},
     }
 
 

@@ -3,8 +3,7 @@
 
 import numpy as np
 
-from .figure import check, info
-from .rows import statement
+from .paper_numbers import compare
 
 
 def timing_of_steps(run):
@@ -13,66 +12,28 @@ def timing_of_steps(run):
     return results.seconds_in_steps, len(results.table) - 1
 
 
-def timing_exponent(dofs, seconds, last=3):
+def timing_exponent(dofs, seconds, last):
     """Slope of log(seconds) against log(degrees of freedom), on the finest meshes."""
     return np.polyfit(np.log(dofs[-last:]), np.log(seconds[-last:]), 1)[0]
 
 
-def cost_checks(methods, runs, family, paper):
-    """Cost of a step against degrees of freedom, on meshes of one family."""
-    rows = []
+def cost_checks(place, methods, runs, family):
+    """Rows of the numbers of `place`, "A.table_2" or "A.table_4": seconds of a method.
+
+    Machines differ: what can be compared is a method against Signorini's multipliers on the same
+    mesh, and how the seconds grow from the coarsest mesh to the finest.
+    """
     dofs = [2 * nodes for nodes in family.values()]
+    seconds = {m.key: [timing_of_steps(runs[m.key, n])[0] for n in family] for m in methods}
+    rows = []
     for method in methods:
-        timings = [timing_of_steps(runs[method.key, n]) for n in family]
-        for n, (seconds, steps), cpu in zip(family, timings, paper[method.key]):
-            rows.append(
-                info(
-                    f"{method.name}, {n} nodes on the circle: steps (s), a step (ms)",
-                    f"{seconds:.3g}, {1e3 * seconds / steps:.3g}",
-                    f"{cpu:g} s",
-                )
-            )
-        seconds = [t[0] for t in timings]
-        slope = timing_exponent(dofs, seconds, last=len(dofs))
-        theirs = timing_exponent(dofs, paper[method.key], last=len(dofs))
+        ours = seconds[method.key]
+        if method.key != "signorini":
+            rows += [
+                compare(f"{place}.{method.key}_{n}", one / reference)
+                for n, one, reference in zip(family, ours, seconds["signorini"])
+            ]
         rows.append(
-            check(
-                f"{method.name}: exponent of the cost in degrees of freedom, all meshes",
-                f"{slope:.2f}",
-                slope < 1.3,
-                "< 1.3",
-                f"{theirs:.2f}",
-            )
+            compare(f"{place}.{method.key}_exponent", timing_exponent(dofs, ours, len(dofs)))
         )
-        rows.append(
-            info(
-                f"{method.name}: the same, three finest meshes",
-                f"{timing_exponent(dofs, seconds):.2f}",
-                f"{timing_exponent(dofs, paper[method.key]):.2f}",
-            )
-        )
-    finest = {m.key: timing_of_steps(runs[m.key, list(family)[-1]])[0] for m in methods}
-    ratio = finest["inc3"] / finest["snc"]
-    theirs = paper["inc3"][-1] / paper["snc"][-1]
-    rows.append(
-        check(
-            "finest mesh, INC over SNC, both with alpha = 3",
-            f"{ratio:.2f}",
-            ratio < 1.3,
-            "< 1.3",
-            f"{theirs:.2f}",
-        )
-    )
-    ratio = finest["signorini"] / finest["persistent"]
-    theirs = paper["signorini"][-1] / paper["persistent"][-1]
-    rows.append(
-        statement(
-            "finest mesh, Signorini multipliers over persistent contact",
-            f"{ratio:.2f}",
-            ratio > 1,
-            "more than 1",
-            f"{theirs:.1f}",
-            "a sparse direct solver takes the few multipliers of the active nodes in its stride",
-        )
-    )
     return rows

@@ -12,7 +12,8 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Rectangle
 
-from shared.figure import Figure, check, info
+from shared.figure import Figure, check
+from shared.paper_numbers import compare
 from shared.pictures import GROUND, bare, colour_bar, draw_cells, outline, scale_bar, snapshot
 from shared.rows import checks_of_runs
 
@@ -161,15 +162,10 @@ def checks():
         )
     )
     table = ON_SLOPE["0.51", False].read()
-    rows.append(
-        info(
-            "the same without viscosity: velocity at 1 s (m/s), part of the steps off the strip",
-            f"{table['momentum_x_block'][-1] / BLOCK_MASS:.2f}, "
-            f"{100 * np.mean(table['active_points_block'][1:] == 0):.0f} %",
-            exact="0",
-            remark="it hops, and each hop takes from the slope: it never sticks",
-        )
-    )
+    rows += [
+        compare("own.slope.velocity", table["momentum_x_block"][-1] / BLOCK_MASS),
+        compare("own.slope.off", np.mean(table["active_points_block"][1:] == 0)),
+    ]
     return rows + checks_of_runs([*LEVEL.values(), *ON_SLOPE.values()])
 
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shared.paper_numbers import numbers
 from shared.runs import Run
 
 RADIUS, SPEED = 20.0, np.sqrt(2 * 0.1 * 2)  # of the sphere, and at the impact
@@ -43,7 +42,6 @@ class Sphere:
     time_step: float
     picture: float
     first_bounce: float  # s, when the first bounce is over for certain
-    reference: dict  # touches, lifts off, touches again (s); largest force of the first bounce (N)
 
     def run(self, scheme):
         step = round(self.picture / self.time_step)
@@ -62,8 +60,8 @@ class Sphere:
         return {scheme.key: self.run(scheme) for scheme in SCHEMES}
 
 
-SOFT = Sphere("soft", 16, 0.25, 16.0, 33.0, numbers("C.reference_soft"))
-HARD = Sphere("hard", 17, 0.05, 6.8, 12.0, numbers("C.reference_hard"))
+SOFT = Sphere("soft", 16, 0.25, 16.0, 33.0)
+HARD = Sphere("hard", 17, 0.05, 6.8, 12.0)
 SPHERES = (SOFT, HARD)
 CURVED = Run(
     "C-17",

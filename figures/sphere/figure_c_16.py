@@ -2,8 +2,7 @@
 """Sphere: soft, two bounces.
 
 Displacement and velocity of the lowest point, contact force, and the energy that a scheme should
-keep, with Nitsche's method (left) and the augmented Lagrangian (right). 14112 unknowns. The
-column paper holds the reference run, which was on curved cells.
+keep, with Nitsche's method (left) and the augmented Lagrangian (right). 14112 unknowns.
 """
 
 from shared.figure import Figure

@@ -2,8 +2,8 @@
 """Sphere: hard, two bounces.
 
 Displacement and velocity of the lowest point, contact force, and the energy that a scheme should
-keep, with Nitsche's method (left) and the augmented Lagrangian (right). 14112 unknowns. The
-column paper holds the reference run, which was on curved cells: so is one of the curves.
+keep, with Nitsche's method (left) and the augmented Lagrangian (right). 14112 unknowns. One
+curve is on curved cells.
 """
 
 from shared.figure import Figure

@@ -11,7 +11,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from ricochet import pictures
-from shared.figure import Figure, check, info
+from shared.figure import Figure
+from shared.paper_numbers import compare
 
 from .common import HARD, SPHERES
 
@@ -57,22 +58,9 @@ def checks():
         table = sphere.runs["nitsche_hht"].read()
         k = np.abs(table["time"] - sphere.picture).argmin()
         active.append(table["active_points_foundation"][k])
-        rows.append(
-            info(
-                f"{sphere.name}, t = {sphere.picture:g} s: contact force (N), active points",
-                f"{table['contact_force_foundation'][k]:.4g}, " f"{active[-1]:.0f}",
-            )
-        )
-    rows.append(
-        check(
-            "active contact points, soft over hard",
-            f"{active[0] / active[1]:.3g}",
-            active[0] > 10 * active[1],
-            "more than 10",
-            paper="contact surface more limited for the hard sphere",
-        )
-    )
-    return rows
+        force = table["contact_force_foundation"][k]
+        rows.append(compare(f"own.sphere_pictures.force_{sphere.name}", force))
+    return [*rows, compare("C.figure_18.surface", active[0] / active[1])]
 
 
 FIGURE = Figure("C-18", __doc__, [sphere.runs["nitsche_hht"] for sphere in SPHERES], draw, checks)

@@ -12,10 +12,21 @@ def conserved(table):
 
 
 def change_of_energy(table):
-    """Its change at the end and its largest gain in a step, of the largest energy."""
-    scale = np.abs(table["energy"]).max()
+    """Its change at the end, of the largest energy."""
     kept = conserved(table)
-    return (kept[-1] - kept[0]) / scale, np.diff(kept).max() / scale
+    return (kept[-1] - kept[0]) / np.abs(table["energy"]).max()
+
+
+def largest_gain(table):
+    """Its largest gain in a step, of the largest energy."""
+    return np.diff(conserved(table)).max() / np.abs(table["energy"]).max()
+
+
+def change_before_contact(table):
+    """Its largest change before the first touch, of the largest energy."""
+    first = (table["contact_force_foundation"] > 0).argmax()
+    kept = conserved(table)[:first]
+    return np.abs(kept - kept[0]).max() / np.abs(table["energy"]).max()
 
 
 def touches(table):

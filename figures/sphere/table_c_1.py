@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Sphere: Newton iterations of the schemes.
 
-Totals of a run and their ratio to Crank-Nicolson with Nitsche's method. Seconds:
-benchmarks/README.md.
+Totals of a run and their ratio to Crank-Nicolson with Nitsche's method. The paper does not say which
+sphere its table is for; its totals need some 475 steps, which are those of the hard one (500).
+Seconds: C-T2.
 """
 
-from shared.figure import Figure, Table, check
-from shared.paper_numbers import numbers
+from shared.figure import Figure, Table
+from shared.paper_numbers import compare, numbers
 
-from .common import NITSCHE, SCHEMES, SPHERES
+from .common import HARD, NITSCHE, SCHEMES, SPHERES
 
 PAPER = numbers("C.table_1")
 
@@ -40,21 +41,15 @@ def table():
 
 
 def checks():
-    rows = []
-    ratios_of_spheres = [totals(sphere)[1] for sphere in SPHERES]
-    for scheme in SCHEMES:
-        ours = [ratios[scheme.key] for ratios in ratios_of_spheres]
-        paper = paper_ratio(scheme)
-        rows.append(
-            check(
-                f"{scheme.label}: iterations over those of Nitsche, Crank-Nicolson, soft and hard",
-                f"{ours[0]:.2f}, {ours[1]:.2f}",
-                max(ours) < 1.2 * paper,
-                "at most 1.2 times the paper's ratio",
-                paper=f"{paper:.2f}",
-            )
-        )
-    return rows
+    counts, ratios = totals(HARD)
+    return [
+        *(compare(f"C.table_1.{scheme.key}", counts[scheme.key]) for scheme in SCHEMES),
+        *(
+            compare(f"C.table_1_ratios.{scheme.key}", ratios[scheme.key])
+            for scheme in SCHEMES
+            if scheme is not NITSCHE[0]
+        ),
+    ]
 
 
 FIGURE = Figure(

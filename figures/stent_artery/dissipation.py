@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Energy with viscosity and with friction: figures B-15 and B-16."""
 
-import numpy as np
-
-from shared.figure import check
 from shared.methods import SCALE
 
-from .common import STENTS, change, dissipation, largest_energy, ledger_rows
+from .common import change, dissipation
 
 
 def draw_steps(left, right, runs, name):
@@ -20,31 +17,3 @@ def draw_steps(left, right, runs, name):
     for panel in (left, right):
         panel.set_xlim(0, 1)
         panel.set_xlabel("time (s)")
-
-
-def stent_rows(runs):
-    """Nothing is gained, and what is missing is what friction and viscosity took."""
-    rise = max(change(one).max() / largest_energy(one) for one in runs.values())
-    return [
-        check(
-            f"largest change of energy less work in a step, {len(runs)} runs",
-            f"{rise:.1e}",
-            rise <= 1e-12,
-            "at most 1e-12 of the largest energy: round-off",
-            "always negative",
-            "<= 0",
-        )
-    ] + ledger_rows(runs.values())
-
-
-def conserving_row():
-    one = STENTS["0", "0"]
-    worst = np.abs(change(one)).max() / largest_energy(one)
-    return check(
-        "mu = 0, eta = 0: max |change of energy less work| in a step",
-        f"{worst:.1e}",
-        worst <= 1e-9,
-        "at most 1e-9 of the largest energy: Newton's tolerance",
-        "practically zero",
-        "0",
-    )

@@ -6,12 +6,22 @@ right: what viscosity has taken. The paper's viscosities have no unit.
 """
 
 import matplotlib.pyplot as plt
+import numpy as np
 
 from shared.figure import Figure
-from shared.rows import order_row
+from shared.measures import smallest_factor
+from shared.paper_numbers import compare
 
-from .common import ETAS, dissipation, family
-from .dissipation import conserving_row, draw_steps, stent_rows
+from .common import (
+    ETAS,
+    change,
+    dissipation,
+    family,
+    largest_change,
+    largest_energy,
+    ledger_rows,
+)
+from .dissipation import draw_steps
 
 
 def draw():
@@ -22,17 +32,20 @@ def draw():
 
 def checks():
     runs = family(etas=ETAS)
-    damped = {key: one for key, one in runs.items() if key != ("0", "0")}
+    damped = {eta: one for (_, eta), one in runs.items() if eta != "0"}
+    taken = {eta: dissipation(one)[-1] for eta, one in damped.items()}
+    conserving = runs["0", "0"]
     return [
-        conserving_row(),
-        order_row(
-            "dissipated (mJ), eta = 0, 0.001, 0.01, 0.03 MPa s",
-            [dissipation(one)[-1] for one in runs.values()],
-            "grows with eta",
-            "grows with eta",
-            "{:.4f}",
+        compare(
+            "B.figure_15.without", np.abs(change(conserving)).max() / largest_energy(conserving)
         ),
-        *stent_rows(damped),
+        compare("B.figure_15.negative", largest_change(damped.values())),
+        compare("B.figure_15.grows", smallest_factor(list(taken.values()))),
+        *(
+            compare(f"B.figure_15.taken_{eta.replace('.', '')}", value)
+            for eta, value in taken.items()
+        ),
+        *ledger_rows(runs.values()),
     ]
 
 

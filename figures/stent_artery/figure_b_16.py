@@ -2,18 +2,28 @@
 """Stent and artery: friction.
 
 Left: change of energy less the work of the imposed displacement, in each step; right: what
-friction and viscosity have taken. Above: without viscosity; below: with, as in the paper, whose
-eta = 1 has no unit.
+friction and viscosity have taken. Above: without viscosity; below: with eta = 1, as in the paper,
+which has no unit; here MPa s.
 """
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 from shared.figure import Figure
-from shared.rows import order_row, statement
+from shared.measures import smallest_factor
+from shared.paper_numbers import compare
 
-from .common import ETA_WITH_FRICTION, MUS, change, dissipation, family
-from .dissipation import conserving_row, draw_steps, stent_rows
+from .common import (
+    ETA_WITH_FRICTION,
+    MUS,
+    change,
+    dissipation,
+    family,
+    halvings,
+    largest_change,
+    ledger_rows,
+)
+from .dissipation import draw_steps
 
 
 def draw():
@@ -30,33 +40,30 @@ def fluctuation(one):
 
 
 def checks():
-    rows = [conserving_row()]
-    for eta in ("0", ETA_WITH_FRICTION):
-        runs = family(MUS, (eta,))
-        rows.append(
-            order_row(
-                f"eta = {eta}: dissipated (mJ), mu = 0, 0.1, 0.2, 0.4",
-                [dissipation(one)[-1] for one in runs.values()],
-                "grows with mu",
-                "grows with mu",
-                "{:.4f}",
+    runs = family(MUS, (ETA_WITH_FRICTION,))
+    taken = {mu: dissipation(one)[-1] for (mu, _), one in runs.items()}
+    frictional = family(MUS[1:], ("0", ETA_WITH_FRICTION))
+    return [
+        compare("B.figure_16.viscosity", taken["0"]),
+        compare("B.figure_16.grows", smallest_factor(list(taken.values()))),
+        compare(
+            "B.figure_16.fluctuations",
+            smallest_factor([fluctuation(one) for one in runs.values()]),
+        ),
+        compare("B.figure_16.negative", largest_change(runs.values())),
+        *(
+            compare(f"B.figure_16.taken_{mu.replace('.', '')}", taken[mu])
+            for mu in MUS[1:]
+        ),
+        *(
+            compare(
+                f"B.figure_16.without_{mu.replace('.', '')}", dissipation(frictional[mu, "0"])[-1]
             )
-        )
-        values = [fluctuation(one) for one in runs.values()]
-        rows.append(
-            statement(
-                f"eta = {eta}: total variation of the change in a step (uJ)",
-                ", ".join(f"{value:.1f}" for value in values),
-                bool((np.diff(values) > 0).all()),
-                "grows with mu",
-                "fluctuations grow with mu",
-                "does not grow from each mu to the next",
-            )
-        )
-    dissipative = {
-        key: one for key, one in family(MUS, ("0", ETA_WITH_FRICTION)).items() if key[0] != "0"
-    }
-    return rows + stent_rows(dissipative)
+            for mu in MUS[1:]
+        ),
+        compare("own.stent.halvings", halvings([*runs.values(), *frictional.values()])),
+        *ledger_rows([*runs.values(), *frictional.values()]),
+    ]
 
 
 FIGURE = Figure("B-16", __doc__, list(family(MUS, ("0", ETA_WITH_FRICTION)).values()), draw, checks)

@@ -5,6 +5,7 @@ they need. What they show is checked by figures/make.py itself."""
 import collections
 import pathlib
 import tempfile
+import unittest.mock
 
 from common import *
 
@@ -14,7 +15,7 @@ sys.path.insert(0, str(FIGURES))
 try:
     import matplotlib
     matplotlib.use("Agg")
-    from shared import finding, measures, paper_numbers, report
+    from shared import finding, measures, numbers_table, paper_numbers, report
     from ricochet import RicochetError
 except ImportError:
     matplotlib = None
@@ -74,23 +75,54 @@ class Figures(unittest.TestCase):
         self.assertEqual([line.split()[0] for line in result.stdout.splitlines()],
                          list(self.figures))
 
-    def test_paper_numbers(self):
-        """Each place has a source; what is not there is an error that tells what is."""
-        numbers = paper_numbers.numbers
+    def test_numbers_are_of_figures(self):
+        """Each belongs to a figure, has a source, and ours beside it."""
         everything = paper_numbers.everything()
-        self.assertEqual(set(everything), {"A", "B", "C"})
-        for paper, places in everything.items():
-            for place in places:
-                self.assertIn("section", numbers(f"{paper}.{place}")["source"])
-        self.assertEqual(numbers("A.table_1")["persistent"], 1.54e-2)
-        for place, name, message in (
-                ("A.table_1", "inc7", "no 'inc7' in [A.table_1] of figures/paper_numbers.toml; "
-                 "there are source, signorini,"),
-                ("A.table_9", "", "no 'table_9' in [A] of figures/paper_numbers.toml"),
-                ("D.table_1", "", "no 'D' in figures/paper_numbers.toml; there are A, B, C.")):
-            with self.assertRaises(RicochetError) as context:
-                numbers(place)[name]
-            self.assertIn(message, str(context.exception))
+        self.assertEqual({name.partition(".")[0] for name in everything},
+                         {"A", "B", "C", "own"})
+        for name, number in everything.items():
+            with self.subTest(name):
+                self.assertIn(number.figure, self.figures)
+                self.assertTrue(number.source.startswith(
+                    "our own" if name.startswith("own.") else "section "))
+                self.assertIsNotNone(number.ours)
+                self.assertFalse((number.why or number.tried) and number.paper is None)
+        with self.assertRaises(RicochetError) as context:
+            paper_numbers.compare("A.table_1.inc7", 1.)
+        self.assertIn("no number 'A.table_1.inc7'", str(context.exception))
+        self.assertGreater(sum(number.paper is not None for number in everything.values()), 120)
+
+    def test_numbers_fail_on_both_sides(self):
+        """A number out of its band fails, and so does a reason that is not needed, or is missing."""
+        number = paper_numbers.PaperNumber
+        common = ("A.x.y", "A-1", "section 1", "y")
+        met = number(*common, paper=2., ours=2.02)
+        differs = number(*common, paper=3., ours=2.02, why="another machine")
+        statement = number(*common, paper="less", holds=[0, 1], ours=[.5, .9])
+        for which, ours, passes in (
+                (met, 2.02, True), (met, 2.05, False), (met, 1.99, False),
+                (differs, 2.02, True), (differs, 2.05, False),
+                (number(*common, paper=2., ours=2.02, why="not so"), 2.02, False),
+                (number(*common, paper=3., ours=2.02), 2.02, False),
+                (number(*common, ours=2.02), 2.02, True),
+                (number(*common, ours=None), 2.02, False),
+                (statement, [.5, .9], True), (statement, [.5, .8], False),
+                (number(*common, paper="less", holds=[0, 1], ours=[.5, 1.1]), [.5, 1.1], False),
+                (number(*common, paper=[.6, .7], ours=[.5, .9]), [.5, .9], True),
+                (number(*common, paper=0, ours=0, tolerance=1e-9), 1e-12, True),
+                (number(*common, paper=0, ours=0, tolerance=1e-9), -1e-8, False)):
+            with self.subTest(number=which, ours=ours), \
+                    unittest.mock.patch.object(paper_numbers, "paper_number", lambda _: which):
+                row = paper_numbers.compare("A.x.y", ours)
+                self.assertEqual(row.status != "NO", passes, row)
+        self.assertEqual(met.verdict, "equal within 1 %")
+        self.assertEqual(differs.verdict, "differs: another machine")
+        self.assertEqual(statement.verdict, "holds")
+
+    def test_table_of_numbers(self):
+        """doc/benchmarks.md has the table that figures/make.py --table would write."""
+        page = numbers_table.FILE.read_text(encoding="utf-8")
+        self.assertEqual(page, numbers_table.with_table(page))
 
 
 if __name__ == "__main__":

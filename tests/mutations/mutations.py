@@ -52,6 +52,11 @@ class Test:
             self.check_unit(source)
         elif self.kind == "integration":
             self.check_integration(source)
+        elif self.kind == "figure":
+            letter, _, number = self.words[0].lower().partition("-")
+            file = (f"table_{letter}_{number[1:]}" if number.startswith("t")
+                    else f"figure_{letter}_{number:0>2}")
+            self.require(list(source.glob(f"figures/*/{file}.py")))
         elif self.kind == "ctest":
             stem = self.words[0].removesuffix(".release")
             self.require((source / f"tests/{stem}.prm").exists())
@@ -90,6 +95,9 @@ class Test:
             if self.n_ranks > 1:
                 words = ["mpirun", "-n", str(self.n_ranks)] + words
             return words
+        if self.kind == "figure":
+            return ["/usr/bin/python3", str(source / "figures/make.py"), self.words[0],
+                    "--build-dir", str(build)]
         if self.kind == "ctest":
             return ["ctest", "--test-dir", str(build), "--no-tests=error",
                     "-R", f"^{re.escape(self.words[0])}$"]
