@@ -93,7 +93,8 @@ def _checksum(path, _time):
 def _fingerprint(run, build_dir):
     """All that the result of a run depends on.
 
-    All files count by what is in them: a build or a checkout may write the same anew.
+    Programs and meshes count by what is in them, and parameter files by the values that they
+    set: a build or a checkout may write the same anew.
     """
     program = build_dir / run.program
     if not program.is_file():
@@ -110,8 +111,7 @@ def _fingerprint(run, build_dir):
         if not path.is_file():
             raise RicochetError(f"There is no parameter file {path}, which {run.name} needs.")
         text = prm.read(path)
-        for file in text.files:
-            parameters.update(file.read_bytes())
+        parameters.update(repr(sorted(text.values.items())).encode())
         folder = path.parent
         values += text.values.values()
     # Some values are names of meshes.

@@ -9,7 +9,7 @@ namespace Ricochet
   /**
    * SUNDIALS' ARKODE: an explicit Runge-Kutta method with its own, error
    * controlled steps, for the semi-discrete Nitsche and penalty systems. They
-   * are Lipschitz differential equations (paper C, (11), (15)), so that an
+   * are Lipschitz differential equations (paper C, (11), and so (15)), so that an
    * independent code can check the hand-written schemes.
    *
    * It starts afresh in each step of the output, so that a run that is resumed

@@ -71,9 +71,9 @@
 // A point that passes a vertex during the step gets the mean of the rows of
 // both facets, by the part of its way on each, and a small couple for the
 // change of the angle between them, so that the first equation stays exact
-// (`lib/contact/surfaces/facet_chain.h`). B (3.6) prints the change of the
-// distance in the middle of the step, which is not the same once the normal
-// turns.
+// (`lib/contact/surfaces/facet_chain.h`). B (3.6) has the same change of the gap,
+// but the force of B (3.4) is along the normal in the middle of the step, and its
+// work is not the same once the normal turns.
 //
 // ## One step of this program
 //

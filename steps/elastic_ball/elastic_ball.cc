@@ -97,7 +97,7 @@
 // the ball lacks during the impact is in the spring, and it comes back
 // (A (3.16)). (`lib/contact/laws/normal_compliance.h`)
 //
-// **Persistent contact** (B (3.7)): where the gap that is expected in the
+// **Persistent contact** (B (3.7), 5.3): where the gap that is expected in the
 // middle of the step, $g_0 + \tfrac{\Delta t}{2} \dot g$ with the mean rate
 // $\dot g$ of the step before, is not positive, $g_1 - g_0 \ge 0$, $p \ge 0$
 // and $p\, (g_1 - g_0) = 0$. Its work is zero, at any time. The price: a gap
@@ -119,12 +119,12 @@
 //
 // ## Numbers
 //
-// The impact lasts some 25 ms, in which waves run up and down the ball twice.
-// Two numbers of the papers are misprints. With $E$ = 100 GPa the impact would
-// last 5 ms and the tables could not be reproduced; they follow from $E$ = 10
-// GPa and $c_\nu$ = 2.6e12 Pa/m^(alpha-1), which are the defaults here
-// (as_printed.prm has the printed ones). And the initial gap is 15 m, since
-// contact starts at 1.5 s. Where within a step the impact falls matters, by
+// The impact lasts some 26 ms, in which waves run up and down the ball twice. Table 1 of paper A
+// does not follow from the printed numbers: with $E$ = 100 GPa the impact lasts 9 ms, and
+// $c_\nu$ = 1000 has no unit (as_printed.prm has this $E$, and reads MPa). We take $E$ = 10 GPa and
+// $c_\nu$ = 2.6e12 Pa/m^(alpha-1), which come near the table. Nor does a printed height fit: the
+// gap is 50 m, or 90 m by the coordinates, while 2 s at 10 m/s are 20 m. We take 15 m, since the
+// impact is over at 1.52 s. Where within a step the impact falls matters, by
 // $4 s (1 - s)$ above: 15 m is a whole number of steps of 1 ms, and hides most
 // of what happens; the default of 15.005 m falls in the middle of a step.
 //

@@ -33,7 +33,7 @@
 //
 // with the second Piola-Kirchhoff stress $S$, of which $S_v$ is the viscous
 // part: $S_v = 2 \eta \dot C$ by Curnier,
-// $\eta\, [\mathrm{tr}\, C - 3]_+ \dot C$ by Pioletti (B 2.2.1). In plane
+// $\eta\, [\mathrm{tr}\, C - 3]_+ \dot C$ by Pioletti (B (2.14), not clipped there). In plane
 // stress $C_{33}$ follows from the condition that there is no stress across the
 // sheet, $\partial W / \partial C_{33} = 0$, which has a closed solution here
 // (with trace and determinant of the part of $C$ in the plane):
@@ -219,8 +219,8 @@ HyperelasticRing::add_parameters(ParameterHandler &prm)
     "Self",
     touches_itself,
     "Whether the ring feels itself: its circles touch each other and "
-    "themselves, by the same treatment as the foundation. The ring of "
-    "the papers does not, and passes through itself.",
+    "themselves, by the same treatment as the foundation. In papers A and B "
+    "contact is with the foundation only.",
     Patterns::Bool());
   prm.leave_subsection();
 }

@@ -3,8 +3,8 @@
 // # Obstacle course
 //
 // A disk or a block falls, slides or rolls, under its weight, on a rigid
-// obstacle that may be curved and may move. In the benchmarks of papers A to C
-// the obstacle is a plane, and the gap is an affine function of the
+// obstacle that may be curved and may move. In the benchmarks of papers A to C a
+// rigid obstacle is a plane, and the gap is an affine function of the
 // displacement. Here it is not, and the direction of the contact force turns
 // while the body moves along the surface. The introduction of the program
 // elastic_ball comes first, that of hyperelastic_ring has friction.

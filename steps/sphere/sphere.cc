@@ -2,10 +2,10 @@
 
 // # The sphere
 //
-// An elastic ball of diameter 40 falls from a height of 2 on a rigid
-// foundation, the half space below $x_3 = 0$, and bounces. All numbers are
-// without unit, as in paper C, section 4.3, of which this is the benchmark in
-// three dimensions. It has the contact treatments and the time schemes of the
+// An elastic ball of diameter 40 falls from a height of 2 on a rigid foundation, the half space
+// below $x_3 = 0$, and bounces: the benchmark of paper C, section 4.3, without units as there. (The
+// height is our reading of its centre at (0, 0, 2), which would be 18 deep in the foundation.)
+// It has the contact treatments and the time schemes of the
 // bars (begin with the program bar_sd) on a body with some ten thousand
 // unknowns, where what a step costs begins to matter.
 //
@@ -17,8 +17,8 @@
 //    \sigma = \lambda \,\mathrm{tr}(\varepsilon)\, I + 2 \mu\, \varepsilon , $$
 //
 // with the acceleration of gravity $b = (0, 0, -0.1)$, from rest (C (1)). On
-// the lower half of its surface, with the gap $g = x_3 + u_3$ and the contact
-// pressure $p = -\sigma_n$,
+// the lower half of its surface (the paper: "the lower part"), with the gap
+// $g = x_3 + u_3$ and the contact pressure $p = -\sigma_n$,
 //
 // $$ g \ge 0, \qquad p \ge 0, \qquad p\, g = 0 . $$
 //

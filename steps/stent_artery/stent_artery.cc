@@ -4,8 +4,8 @@
 //
 // A longitudinal section, in plane stress, of a soft tube and of a stent that
 // is pressed against its wall: two deformable bodies, both of which move, with
-// friction. This is the last example of paper B (section 7). The paper gives no
-// drawing to scale; what is here shows what its figures 13 to 16 show. The
+// friction. This is the last example of paper B (section 7), whose text prints no lengths and no
+// path but "towards the walls of the artery": one wall, and a motion along it, too, are ours. The
 // programs hyperelastic_ring (material, Gonzalez' stress, friction) and
 // colliding_disks (gap between bodies) explain what is used here; what is new
 // is a motion that is prescribed, and its work.
@@ -56,9 +56,9 @@
 //
 // $R$ is zero but in the unknowns that are prescribed: there $U_1$ is known,
 // and $R$ is what the equation leaves over, the force of whatever moves the
-// stent. Which nodes may touch is decided once in a step (B (3.7)): those whose
-// gap in the middle of the step is not positive, if the rate of the step before
-// goes on, and those that were pressed in the step before. For them
+// stent. Which nodes may touch is decided once in a step: those whose gap in the middle of
+// the step is not positive, if the rate of the step before goes on (B (3.7), 5.3), and, which
+// B does not have, those that were pressed in the step before. For them
 // $\Delta g \ge 0$, $p \ge 0$ and $p\, \Delta g = 0$, by active sets within
 // Newton's method (B 5.3). Multiplied by $U_1 - U_0$:
 //
@@ -148,8 +148,8 @@ StentArtery::StentArtery()
   impact.scheme.name       = "midpoint";
 
   impact.contact.treatment              = "persistent contact";
-  impact.contact.compliance_coefficient = 1e5;
-  impact.contact.tangential_compliance  = 100.;
+  impact.contact.compliance_coefficient = 1e5;  // The numbers of B's c_nu
+  impact.contact.tangential_compliance  = 100.; // and c_tau of active sets.
   impact.contact.augmentation           = 5.;
   impact.contact.penalty_epsilon_0      = 1e-5;
 }

@@ -2,8 +2,8 @@
 """SUNDIALS' adaptive integrator and Crank-Nicolson with tiny steps agree.
 
 The semi-discrete Nitsche and penalty systems are Lipschitz differential
-equations (paper C, (11), (15)) with one solution on one mesh. ARKODE knows
-nothing of our time schemes.
+equations (paper C, (11), (15); it says so of the first) with one solution on one
+mesh. ARKODE knows nothing of our time schemes.
 """
 
 from common import *

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The error in L^2(0, T; H^1) falls under refinement with dt = h (C, fig. 10).
 
-Figure 10 itself goes down to h = 0.1/64; here the coarse half is enough. The
+Our figure C-10 goes down to h = 0.1/64 (the paper prints no mesh sizes); here the
+coarse half is enough. The
 exact solution has jumps in its strain, so that no order above 1/2 can be
 expected of a method that smears a jump over one element; the schemes without
 numerical damping are worse.

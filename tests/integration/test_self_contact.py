@@ -316,8 +316,8 @@ class Outline(SelfContactTest):
             self.assertAlmostEqual(area / exact, 1., 5)
 
     def test_without(self):
-        """The ring of the papers passes through itself, and this is seen: its walls
-        are 1 m thick."""
+        """With the foundation only, as in papers A and B, the ring passes through itself,
+        and this is seen: its walls are 1 m thick."""
         self.long_run()
         found = [overlap.overlap_in(file) for _, file in self.pictures("without")]
         self.assertGreater(max(one.depth for one in found), .7)

@@ -81,7 +81,7 @@ namespace Ricochet
     }
 
     /// The derivative of discrete_derivative() with respect to @p new_value
-    /// (paper A, (4.15); its (5.6) prints another denominator).
+    /// (paper A, (4.15), where the tilde lacks a factor alpha; (5.6) has it).
     double
     discrete_derivative_tangent(const double old_value,
                                 const double new_value) const
@@ -117,9 +117,9 @@ namespace Ricochet
 
 
   /**
-   * Standard normal compliance (SNC; paper A, (2.10), (3.4)), in the nodes.
-   * Within the midpoint scheme it is enforced at the end of the step, where it
-   * dissipates.
+   * Standard normal compliance (SNC; paper A, (2.10)), in the nodes. Within the
+   * midpoint scheme it is enforced at the end of the step (A (4.11), (5.2)),
+   * where it dissipates.
    */
   struct StandardNormalCompliance
   {

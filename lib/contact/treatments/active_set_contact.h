@@ -12,8 +12,8 @@ namespace Ricochet
 {
   /**
    * Contact conditions in the nodes by a primal-dual active set, without
-   * multiplier unknowns (papers A and B, section 5; Hüeber, Stadler and
-   * Wohlmuth 2008).
+   * multiplier unknowns (paper B, section 5, for persistent contact; Hüeber,
+   * Stadler and Wohlmuth 2008).
    *
    * A node is active when reaction - r closing > 0, where closing is what the
    * condition keeps at zero (the gap, or its change over the step). In the rows

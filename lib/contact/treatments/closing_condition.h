@@ -9,7 +9,7 @@ namespace Ricochet
   {
     /// Signorini's condition at the end of the step: gap = 0.
     signorini,
-    /// Persistent contact (B (3.7)): where the predictor of the mean gap,
+    /// Persistent contact (B (3.7), 5.3): where the predictor of the mean gap,
     /// gap_old + dt/2 (rate of the step before), is not positive, the gap does
     /// not change. The work of the reaction is exactly zero.
     persistent,

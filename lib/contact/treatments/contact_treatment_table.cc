@@ -119,8 +119,8 @@ namespace Ricochet
          {},
          {},
          {Promise::never_gains,
-          "each of its two means grows by no more than its work where it is taken (paper "
-          "C, theorem on (38))"}},
+          "each of its two means grows by no more than its work where it is taken (Chouly et "
+          "al. 2015, part 2; paper C, A.3, says that it is stable)"}},
         {"penalty",
          Penalty::traits(),
          [](const P &p) { return pointwise(Penalty{p.penalty_epsilon_0}); },

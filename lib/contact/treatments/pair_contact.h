@@ -53,7 +53,7 @@ namespace Ricochet
    * traction as another one, with one equation for each: active nodes (multiplier -
    * r closing > 0) keep zero what the condition closes, the others have no
    * multiplier; active nodes with |traction + r slip| < mu pressure do not slip, the
-   * others have the traction mu pressure along the slip (papers A and B, section 5;
+   * others have the traction mu pressure along the slip (paper B, section 5;
    * Hueeber, Stadler and Wohlmuth 2008).
    */
   template <int dim>
