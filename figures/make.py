@@ -4,7 +4,7 @@
 
     figures/make.py C-6          one figure (several names may be given)
     figures/make.py all
-    figures/make.py short        those that take seconds, one of each kind
+    figures/make.py short        those whose runs take little time: most of the ball, bars, sphere
     figures/make.py timed        those that show seconds, which "all" leaves out
     figures/make.py --list
     figures/make.py --table      write the table of the papers' numbers in doc/benchmarks.md

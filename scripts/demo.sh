@@ -21,7 +21,7 @@ Now the rest, which takes about half an hour.
 
 END
 
-ninja -C build/release
+ninja -C build/release programs
 for program in bar_sd bar_ss elastic_ball hyperelastic_ring sphere; do
   build/release/$program parameter_files/$program/default.prm --quiet
 done

@@ -150,8 +150,8 @@ def smoother_rows(bar, place, curves, runs, quantities):
 def error_rows(bar, place, curves, runs):
     """Errors of displacement and velocity of the ends against the exact solution that is drawn.
 
-    Root of the mean square over the steps; for the velocity, which jumps at whole seconds, over
-    those farther than two steps from a jump.
+    Root of the mean square over the steps, and the largest; for the velocity, which jumps at
+    whole seconds, over those farther than two steps from a jump.
     """
     rows = []
     for curve in curves:
@@ -159,15 +159,17 @@ def error_rows(bar, place, curves, runs):
             table = runs[curve.key, mass].read()
             time = table["time"]
             off_jumps = np.abs(time - np.round(time)) > 2.5 * TIME_STEP
-            squares = {"displacement": [], "velocity": []}
+            errors = {"displacement": [], "velocity": []}
             for end in bar.ends:
-                squares["displacement"].append(
-                    (table[f"displacement_{end.name}"] - end.displacement_at(time)) ** 2
-                )
                 exact = end.piecewise(end.velocity, time + 1e-9)
-                squares["velocity"].append((table[f"velocity_{end.name}"] - exact)[off_jumps] ** 2)
-            rows += [
-                compare(f"{place}.{name}_{curve.key}_{mass}", np.sqrt(np.mean(values)))
-                for name, values in squares.items()
-            ]
+                errors["displacement"].append(
+                    table[f"displacement_{end.name}"] - end.displacement_at(time)
+                )
+                errors["velocity"].append((table[f"velocity_{end.name}"] - exact)[off_jumps])
+            for name, values in errors.items():
+                which = f"{name}_{curve.key}_{mass}"
+                rows += [
+                    compare(f"{place}.{which}", np.sqrt(np.mean(np.square(values)))),
+                    compare(f"{place}.largest_{which}", np.abs(values).max()),
+                ]
     return rows

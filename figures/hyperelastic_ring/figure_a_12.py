@@ -31,7 +31,7 @@ def draw():
             alpha=0.5,
         )
     axes.set_xlabel("degrees of freedom")
-    axes.set_ylabel(f"seconds per step; dashed: the paper, {PAPER['steps']} steps")
+    axes.set_ylabel(f"seconds per step; dashed: the paper, {PAPER_STEPS} steps")
     legend_above(axes)
     return figure
 

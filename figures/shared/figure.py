@@ -66,8 +66,8 @@ class Figure:
 
     @property
     def is_short(self):
-        """Whether its runs take less than a quarter of a minute, all of them together."""
-        return not self.timed and not self.animate and sum(run.cost for run in self.runs) < 15
+        """Whether its runs take less than 80 s, all of them together, on one core."""
+        return not self.timed and not self.animate and sum(run.cost for run in self.runs) < 80
 
     @property
     def image(self):

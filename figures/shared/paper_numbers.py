@@ -19,9 +19,11 @@ from .figure import DIFFERS, NO, YES, Check
 
 FOLDER = CHECKOUT / "figures" / "numbers"
 
+# What a number has from its place where it does not say it itself.
+INHERITED = ("band", "within", "why")
 # What a place and a number of it can have.
 SERIES = "series"  # of a place: lists of numbers of the paper that are drawn beside ours
-PLACE_KEYS = {"figure", "source", "about", "band", "within"}
+PLACE_KEYS = {"figure", "source", "about", *INHERITED}
 NUMBER_KEYS = {"of", "paper", "holds", "exact", "ours", "band", "tolerance", "within", "why"} | {
     "tried"
 }
@@ -97,13 +99,13 @@ class PaperNumber:
     @property
     def verdict(self):
         """How ours stands to the paper's, in words."""
-        if self.paper is None:
+        if self.paper is None or self.ours is None:
             return ""
-        reason = self.why or "not reproduced"
+        verdict = f"differs: {self.why}" if self.why else "not reproduced"
         if self.tried:
-            reason += f"; tried: {self.tried}"
+            verdict += f"; tried: {self.tried}"
         if self.why or self.tried:
-            return f"differs: {reason}"
+            return verdict
         if isinstance(self.paper, str):
             return "holds"
         (least, most), (first, last) = _ends(self.paper), _ends(self.ours)
@@ -114,10 +116,12 @@ class PaperNumber:
         return f"equal within {100 * off:.1g} %"
 
     def is_pinned(self, ours):
-        """Whether ours is what is written down."""
+        """Whether ours is what is written down, but for the band and for round-off."""
+        written = _ends(self.ours)
+        slack = max(self.tolerance, 1e-9 * max(map(abs, written)))
         return all(
-            abs(value - written) <= max(self.band * abs(written), self.tolerance)
-            for value, written in zip(ours, _ends(self.ours))
+            abs(value - end) <= max(self.band * abs(end), slack)
+            for value, end in zip(ours, written)
         )
 
 
@@ -148,7 +152,7 @@ def _number(place, name, values, general):
         general["figure"],
         general["source"],
         ": ".join(part for part in about if part),
-        **{key: general[key] for key in ("band", "within") if key in general and key not in values},
+        **{key: general[key] for key in INHERITED if key in general and key not in values},
         **{key: value for key, value in values.items() if key != "of"},
     )
 

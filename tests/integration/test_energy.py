@@ -37,7 +37,7 @@ class Energy(ProgramTest):
                 self.assertAlmostEqual(energy[n] / energy[n - 1], 1.,
                                        delta=1e-12)
 
-    def test_crank_nicolson_gains_at_contact_what_the_paper_says(self):
+    def test_crank_nicolson_gains_little_at_contact(self):
         """C 4.1.1 says that it is bounded; one per cent over four periods is ours."""
         energy = self.sd()["modified_energy"]
         self.assertLess(max(energy) / energy[0], 1.02)
