@@ -3,8 +3,9 @@
 
 One period of the exact solution. Characteristics x + t and x - t = const. leave the ends at whole
 seconds; between them the displacement u (m) is linear, with the formula in the region. Colours are
-the pressure in the bar, of which there is none, or tension, while it flies. The bars along the ends say what an end does: it is free, touches its
-obstacle without pressure (grazing contact), or presses on it.
+the pressure in the bar, of which there is none, or tension, while it flies. The bars along the
+ends say what an end does: it is free, touches its obstacle without pressure (grazing contact), or
+presses on it.
 """
 
 import matplotlib.pyplot as plt

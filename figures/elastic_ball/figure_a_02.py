@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Elastic ball: mesh.
 
-The mesh of the papers: 7820 nodes, by paper B 128 of them on the circle, which is finer inside than at its
-boundary. Right: the framed part; dots are the nodes that can touch the foundation. The ball
-is set down on it here; it starts 15 m above, at 10 m/s.
+The mesh of the papers: 7820 nodes, by paper B 128 of them on the circle, which is finer inside
+than at its boundary. Right: the framed part; dots are the nodes that can touch the foundation. The
+ball is set down on it here; it starts 15 m above, at 10 m/s.
 """
 
 import matplotlib.pyplot as plt

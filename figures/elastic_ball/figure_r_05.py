@@ -2,9 +2,9 @@
 """Elastic ball: what Young's modulus and c_nu mean.
 
 Steps of 1 ms, impact in the middle of a step. Left: how long the ball is on the foundation, by its
-modulus (Signorini's condition); the text of papers A and B has the impact over 20 ms after a start 15 m
-above (dashed), and prints 100 GPa. Right: largest penetration against c_nu with the default of 10 GPa;
-dashed: the numbers of paper A's table 1, which prints 1000 without a unit.
+modulus (Signorini's condition); the text of papers A and B has the impact over 20 ms after a start
+15 m above (dashed), and prints 100 GPa. Right: largest penetration against c_nu with the default
+of 10 GPa; dashed: the numbers of paper A's table 1, which prints 1000 without a unit.
 """
 
 import matplotlib.pyplot as plt

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Hyperelastic ring: deformed body and contact forces.
 
-The ring before, during and after the impact, with improved normal compliance
-(alpha = 2); all pictures have the same scale. Arrows are nodal contact forces. The sides of the ring pass through each other
-between 1.5 and 2.5 s, since there is no contact between them.
+The ring before, during and after the impact, with improved normal compliance (alpha = 2); all
+pictures have the same scale. Arrows are nodal contact forces. The sides of the ring pass through
+each other between 1.5 and 2.5 s, since there is no contact between them.
 """
 
 from shared.figure import Figure

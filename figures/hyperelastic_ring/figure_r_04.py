@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Hyperelastic ring: the two viscosities of paper B.
 
-Energy relative to the start with persistent contact, steps of 1/300 s. Curnier's power is that of the
-rate of C alone; Pioletti's has the factor (tr C - 3)/2 besides, so that a ring that is hardly strained
-is hardly damped: with sixteen times the eta it takes a little less.
+Energy relative to the start with persistent contact, steps of 1/300 s. Curnier's power is that of
+the rate of C alone; Pioletti's has the factor (tr C - 3)/2 besides, so that a ring that is hardly
+strained is hardly damped: with sixteen times the eta it takes a little less.
 """
 
 from shared.curves import energy_axes

@@ -48,7 +48,8 @@ def _checks(figure):
             of another.
     """
     rows = figure.checks()
-    asked, written = {row.number for row in rows if row.number}, paper_numbers.of_figure(figure.name)
+    asked = {row.number for row in rows if row.number}
+    written = paper_numbers.of_figure(figure.name)
     if asked != written:
         raise RicochetError(
             f"{figure.name} does not check what figures/numbers has for it: "

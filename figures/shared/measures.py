@@ -59,11 +59,6 @@ def mean(values):
     return sum(values) / len(values)
 
 
-def span(values, form="{:.2e}"):
-    """The range of some numbers, as text."""
-    return f"{form.format(min(values))} to {form.format(max(values))}"
-
-
 def scientific(value, digits=3):
     """A number as a table has it, 1.54·10⁻²; 0 for what is round-off of metres."""
     if abs(value) < 1e-12:
@@ -76,10 +71,6 @@ def scientific_span(values, digits=3):
     """The range of some numbers, as a table has it."""
     ends = [scientific(value, digits) for value in (min(values), max(values))]
     return ends[0] if ends[0] == ends[1] else " to ".join(ends)
-
-
-def percent(values):
-    return span([100 * value for value in values], "{:.2f}") + " %"
 
 
 def wall_clock(run):

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Sphere: Newton iterations in each step.
 
-Hard sphere, whose number of steps is that of the totals of table 1; grey: it touches. In free flight a stage takes one iteration, since the equations are
-linear and the predicted state is not taken for the solution; TR-BDF2 has two stages.
+Hard sphere, whose number of steps is that of the totals of table 1; grey: it touches. In free
+flight a stage takes one iteration, since the equations are linear and the predicted state is not
+taken for the solution; TR-BDF2 has two stages.
 """
 
 from shared.curves import name_panel, small_panels
