@@ -28,7 +28,7 @@ RUNS = {
         (f"Contact/Self={str(felt).lower()}", "Output/Fields every=10", "Output/Log every=0"),
         cost=cost,
     )
-    for felt, key, cost in ((True, "feels_itself", 40), (False, "passes_through", 25))
+    for felt, key, cost in ((True, "feels_itself", 55), (False, "passes_through", 30))
 }
 STEPS = (270, 320, 400, 470)
 RED = "#E31A1C"
