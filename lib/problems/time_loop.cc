@@ -167,6 +167,10 @@ namespace Ricochet
     add("round_off", "J");
     add("newton_iterations", "1");
     add("linear_solves", "1");
+    add("solver", "1");
+    add("outer_iterations", "1");
+    add("inner_iterations", "1");
+    add("tangents", "1");
     add("step_halvings", "1");
     add("passing_halvings", "1");
     for (const auto &[name, ids] : this->contact_names)
@@ -550,8 +554,13 @@ namespace Ricochet
                {checked.balance_residual,
                 checked.promise_residual,
                 report.round_off,
-                static_cast<double>(report.newton_iterations),
-                static_cast<double>(report.linear_solves),
+                static_cast<double>(report.solver.newton_iterations),
+                static_cast<double>(report.solver.newton_iterations +
+                                    report.other_linear_solves),
+                static_cast<double>(report.solver.strategies),
+                static_cast<double>(report.solver.outer_iterations),
+                static_cast<double>(report.solver.inner_iterations),
+                static_cast<double>(report.solver.n_tangents),
                 static_cast<double>(sums.n_halvings),
                 static_cast<double>(sums.n_passing_halvings)});
     const auto summaries = system.contact.summary(
@@ -697,7 +706,7 @@ namespace Ricochet
     char line[200];
     std::snprintf(line,
                   sizeof(line),
-                  "%8s/%-8s %12s %14s %14s %10s %12s %7s %7s",
+                  "%8s/%-8s %12s %14s %14s %10s %12s %7s %7s  %s",
                   "step",
                   "of",
                   with_unit("time", "s").c_str(),
@@ -706,7 +715,8 @@ namespace Ricochet
                   "balance",
                   with_unit("force", "N").c_str(),
                   "active",
-                  "Newton");
+                  "Newton",
+                  "solver");
     return line;
   }
 
@@ -745,7 +755,7 @@ namespace Ricochet
     char line[200];
     std::snprintf(line,
                   sizeof(line),
-                  "%8u/%-8u %12.6g %14.7e %14s %10.2e %12.4e %7.0f %7.0f%s",
+                  "%8u/%-8u %12.6g %14.7e %14s %10.2e %12.4e %7.0f %7.0f  %s%s",
                   step,
                   n_steps,
                   value("time"),
@@ -755,6 +765,9 @@ namespace Ricochet
                   force,
                   active,
                   value("newton_iterations"),
+                  SolverReport::short_text(
+                    static_cast<unsigned int>(value("solver")))
+                    .c_str(),
                   remaining);
     folder.log(line);
   }
@@ -858,18 +871,23 @@ namespace Ricochet
   TimeLoop::log_newton_tables()
   {
     system.newton_observer =
-      [this](const std::vector<NewtonSolver::Iteration> &history) {
+      [this](const std::vector<NewtonSolver::Iteration>      &history,
+             const std::optional<SolverReport::Strategy> &strategy) {
+        const std::string suffix = strategy
+          ? "   " + SolverReport::short_text(*strategy)
+          : "";
         for (unsigned int k = 0; k < history.size(); ++k)
           {
-            char line[120];
+            char line[160];
             std::snprintf(line,
                           sizeof(line),
                           "      Newton %3u   residual %10.3e   step %6.4f   "
-                          "active %s",
+                          "active %s%s",
                           k,
                           history[k].relative_residual,
                           history[k].step_length,
-                          history[k].active_set.c_str());
+                          history[k].active_set.c_str(),
+                          suffix.c_str());
             folder.log(line);
           }
       };
@@ -908,6 +926,20 @@ namespace Ricochet
 
 
   void
+  TimeLoop::log_solver()
+  {
+    // The first row is that of the initial state.
+    std::vector<unsigned int> steps;
+    const unsigned int        column = ledger.column_number("solver");
+    for (std::size_t k = 1; k < ledger.rows().size(); ++k)
+      steps.push_back(static_cast<unsigned int>(ledger.rows()[k][column]));
+    if (const std::string text = SolverReport::summary(steps); !text.empty())
+      folder.log("steps by how they were solved: " + text);
+  }
+
+
+
+  void
   TimeLoop::conclude(TimerOutput &timer, std::ostringstream &timing_table)
   {
     for (const std::string &line : check.verdict())
@@ -925,6 +957,7 @@ namespace Ricochet
               ledger.rows().back()[i] > 0.)
             folder.log("contact " + name + ": " +
                        to_text(ledger.rows().back()[i]) + " " + text);
+    log_solver();
     if (const unsigned int n = system.n_multigrid_failures())
       folder.log("note: multigrid did not converge for " + std::to_string(n) +
                  " linear systems, which were factored instead");

@@ -218,6 +218,10 @@ namespace Ricochet
     void
     account(const State &new_state, const StepReport &report, double &energy);
 
+    /// Say in the log how the steps were solved.
+    void
+    log_solver();
+
     /// What to say at the end: the balance, and where the time went.
     void
     conclude(dealii::TimerOutput &timer, std::ostringstream &timing_table);

@@ -33,6 +33,12 @@ namespace Ricochet
       return tangent.body.has_value();
     }
 
+    SolverReport::Strategy
+    strategy() const override
+    {
+      return SolverReport::corrected;
+    }
+
     /// @return true.
     /// @throws NewtonFailure when the body's matrix cannot be factored.
     bool

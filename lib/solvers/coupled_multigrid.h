@@ -45,6 +45,12 @@ namespace Ricochet
 
     ~CoupledMultigrid() override;
 
+    SolverReport::Strategy
+    strategy() const override
+    {
+      return SolverReport::multigrid;
+    }
+
     /// @return true.
     /// @return false when it does not converge.
     bool

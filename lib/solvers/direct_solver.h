@@ -23,6 +23,12 @@ namespace Ricochet
       , n_kept(n_kept)
     {}
 
+    SolverReport::Strategy
+    strategy() const override
+    {
+      return SolverReport::direct;
+    }
+
     /// @return true.
     /// @throws NewtonFailure when the matrix cannot be factored.
     bool

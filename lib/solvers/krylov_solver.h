@@ -35,6 +35,12 @@ namespace Ricochet
       return !contact.couplings_change;
     }
 
+    SolverReport::Strategy
+    strategy() const override
+    {
+      return SolverReport::corrected;
+    }
+
     /// @return whether GMRES converged.
     bool
     solve(const Tangent &tangent,

@@ -213,7 +213,7 @@ namespace Ricochet
 
 
 
-  void
+  unsigned int
   LinearSolver::solve(const Tangent &tangent,
                       const Vector  &right_hand_side,
                       Vector        &solution,
@@ -222,7 +222,8 @@ namespace Ricochet
   {
     // After a way that failed, the next one begins anew. Multigrid that did not converge
     // is not tried again in its stage.
-    bool reuse = may_reuse;
+    bool         reuse      = may_reuse;
+    unsigned int strategies = 0;
     for (unsigned int w = 0; w < ways.size(); ++w)
       if (ways[w]->takes(tangent) && !(multigrid_failed && w == 0))
         {
@@ -231,9 +232,10 @@ namespace Ricochet
             {
               multigrid_failed = type == "multigrid" && w > 0;
               n_taken_over += multigrid_failed;
-              return;
+              return strategies | ways[w]->strategy();
             }
-          reuse = false;
+          reuse      = false;
+          strategies = SolverReport::iterative_failed;
         }
     throw NewtonFailure(
       "Multigrid does not converge. A thin body takes Linear solver/Type = direct "

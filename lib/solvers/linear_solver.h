@@ -80,9 +80,10 @@ namespace Ricochet
      * @param may_reuse the last tangent without a name will do, if there is one.
      * @param tolerance of the residual, relative to @p right_hand_side, where
      * the solution is iterative.
+     * @return what has solved it, a sum of SolverReport::Strategy.
      * @throws NewtonFailure when the matrix cannot be factored.
      */
-    void
+    unsigned int
     solve(const Tangent &tangent,
           const Vector  &right_hand_side,
           Vector        &solution,

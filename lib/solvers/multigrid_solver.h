@@ -25,6 +25,12 @@ namespace Ricochet
                     const dealii::IndexSet &clamped,
                     CoarseSpace             coarse_space);
 
+    SolverReport::Strategy
+    strategy() const override
+    {
+      return SolverReport::multigrid;
+    }
+
     /// @return true.
     /// @return false when it does not converge.
     bool

@@ -3,6 +3,7 @@
 #define ricochet_solvers_tangent_solver_h
 
 #include <solvers/condensed_system.h>
+#include <solvers/solver_report.h>
 #include <solvers/tangent.h>
 
 namespace Ricochet
@@ -25,6 +26,10 @@ namespace Ricochet
     };
 
     virtual ~TangentSolver() = default;
+
+    /// What solve() is in a report.
+    virtual SolverReport::Strategy
+    strategy() const = 0;
 
     /// Whether it is made for such tangents.
     virtual bool

@@ -83,7 +83,7 @@ namespace Ricochet
         system.total_force(y.block(0), contact_force, time, force);
         force *= -1.;
         system.solve_mass(force, rate.block(1));
-        ++report.linear_solves;
+        ++report.other_linear_solves;
         return 0;
       };
     deal_II_exceptions::disable_abort_on_exception();

@@ -191,6 +191,7 @@ namespace Ricochet
   void
   CondensedStage::solve(NewtonSolver &newton,
                         Vector       &solution,
+                        SolverReport &report,
                         const double  sufficient)
   {
     const unsigned int n_own = forces.size() + 1;
@@ -227,6 +228,7 @@ namespace Ricochet
     const auto             remember   = [&]() {
       // Where an attempt begins, one before ended.
       const auto &latest = newton.iterations();
+      report.inner_iterations += latest.empty() ? 0 : latest.size() - 1;
       history.insert(history.end(),
                      latest.begin() +
                        (history.empty() || latest.empty() ? 0 : 1),
@@ -247,6 +249,7 @@ namespace Ricochet
           if (attempt == n_attempts || newton.iterations().size() < 3 ||
               !std::isfinite(newton.iterations().back().relative_residual))
             throw;
+          report.add(SolverReport::condensed_restarted);
           // Iterates behind the one that is gone back to tell nothing.
           const unsigned int end = newton.end_iteration();
           if (end + 1 < newton.iterations().size())

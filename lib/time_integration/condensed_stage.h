@@ -5,6 +5,7 @@
 #include <contact/contact_operator.h>
 #include <solvers/condensed_system.h>
 #include <solvers/newton.h>
+#include <solvers/solver_report.h>
 
 #include <cstdint>
 #include <optional>
@@ -66,12 +67,16 @@ namespace Ricochet
      * Solve with @p newton, from the guess @p solution to @p solution; where it gets
      * stuck or lost, it begins anew a few times (NewtonSolver::end_iteration()).
      *
+     * @param report gets the iterations, also where it fails.
      * @param sufficient a residual (N) that will do, besides what Newton's method
      * tolerates.
      * @throws NewtonFailure; the guess remains.
      */
     void
-    solve(NewtonSolver &newton, Vector &solution, const double sufficient = 0.);
+    solve(NewtonSolver &newton,
+          Vector       &solution,
+          SolverReport &report,
+          const double  sufficient = 0.);
 
     /// Those of solve(), also where it failed: all attempts one behind the other, without
     /// the iterate of an earlier one that an attempt begins at.

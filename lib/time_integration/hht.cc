@@ -52,8 +52,7 @@ namespace Ricochet
                            .5 * dt * dt,
                            old_state.acceleration);
     StepReport report;
-    report.newton_iterations = system.solve_stage(stage, old_state, new_state);
-    report.linear_solves     = report.newton_iterations;
+    report.solver = system.solve_stage(stage, old_state, new_state);
 
     copy_values(new_state.solution, new_state.acceleration);
     new_state.acceleration -= stage.inertia_origin;

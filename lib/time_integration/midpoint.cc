@@ -33,8 +33,7 @@ namespace Ricochet
     // The guess is free flight.
     new_state.solution.add(dt, old_state.velocity);
     StepReport report;
-    report.newton_iterations = system.solve_stage(stage, old_state, new_state);
-    report.linear_solves     = report.newton_iterations;
+    report.solver = system.solve_stage(stage, old_state, new_state);
 
     copy_values(new_state.solution, work);
     work -= old_state.solution;

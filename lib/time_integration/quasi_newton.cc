@@ -86,10 +86,12 @@ namespace Ricochet
         });
         entries(step) *= -1.;
         problem.forces_to_rows(step);
-        problem.add_iterations(1);
+        ++problem.report.newton_iterations;
+        ++problem.report.outer_iterations;
         CondensedStage condensed = problem.condensed(newton_problem, step);
         condensed.solve(condensed_newton,
                         solution,
+                        problem.report,
                         rest_of_contact * norm * newton_problem.scale());
         problem.hold_clamped(solution);
       }

@@ -247,18 +247,20 @@ namespace Ricochet
     newton_problem.residual(solution, residual);
     if (!std::isfinite(newton_problem.norm(residual)))
       return false;
+    problem.report.add(SolverReport::condensed);
     CondensedStage condensed = problem.condensed(newton_problem, residual);
     const auto     report    = [&]() {
       const auto &iterations = condensed.iterations();
       if (iterations.empty())
         return;
-      problem.add_iterations(iterations.size() - 1);
+      problem.report.newton_iterations += iterations.size() - 1;
+      ++problem.report.outer_iterations;
       if (newton_observer)
-        newton_observer(iterations);
+        newton_observer(iterations, SolverReport::condensed);
     };
     try
       {
-        condensed.solve(condensed_newton, solution);
+        condensed.solve(condensed_newton, solution, problem.report);
       }
     catch (const NewtonFailure &)
       {
@@ -277,7 +279,10 @@ namespace Ricochet
                                     KeptTangent  &kept)
   {
     if (!kept.serves(stage.time_step))
-      kept.begin(stage.end_time, stage.time_step, old_solution);
+      {
+        kept.begin(stage.end_time, stage.time_step, old_solution);
+        ++problem.report.n_tangents;
+      }
     copy_values(kept.solution, kept_guess);
     if (unknowns.impose)
       unknowns.impose(kept.record.end_time, kept_guess);
@@ -319,6 +324,7 @@ namespace Ricochet
             if (!body_is_condensed)
               condense_body(problem, stage, start.solution, kept);
             body_is_condensed   = true;
+            problem.report.add(SolverReport::frozen_tangent);
             is_old              = kept.exists();
             is_solved           = quasi_newton.solve(problem,
                                            newton_problem,
@@ -328,7 +334,7 @@ namespace Ricochet
             const auto &history = quasi_newton.iterations();
             n_iterations_with_tangent += history.size() - 1;
             if (newton_observer)
-              newton_observer(history);
+              newton_observer(history, SolverReport::frozen_tangent);
             if (!is_solved && !is_old &&
                 (has_multipliers || !(history.back().relative_residual < 1e-3)))
               solution = first_guess;
@@ -343,6 +349,7 @@ namespace Ricochet
           }
         if (is_solved || !is_old)
           return is_solved;
+        problem.report.add(SolverReport::tangent_renewed);
         kept.forget();
         body_is_condensed         = false;
         n_iterations_with_tangent = 0;
@@ -350,7 +357,7 @@ namespace Ricochet
       }
   }
 
-  unsigned int
+  SolverReport
   SemiDiscreteSystem::solve_stage(const Stage &stage,
                                   const State &old_state,
                                   State       &new_state)
@@ -417,6 +424,7 @@ namespace Ricochet
                                             new_state);
                   if (is_solved)
                     continue;
+                  problem.report.add(SolverReport::condensed_failed);
                   condenses = bulk.is_linear();
                   // Where constraints are nearly the same, multipliers may have grown
                   // beyond all forces, which are what residuals are measured by.
@@ -425,6 +433,7 @@ namespace Ricochet
                 }
               catch (const NewtonFailure &)
                 {
+                  problem.report.add(SolverReport::condensed_failed);
                   condenses = false;
                   // Perhaps the whole system can be solved, which measures its steps
                   // by all of its forces; if not, it says why.
@@ -433,7 +442,7 @@ namespace Ricochet
             }
           const auto &history = newton.solve(newton_problem, solution);
           if (newton_observer)
-            newton_observer(history);
+            newton_observer(history, std::nullopt);
       } while (contact.next_pass());
     };
     try
@@ -446,6 +455,7 @@ namespace Ricochet
         // that there is no way out; the last state is a body that exists.
         if (bulk.is_linear())
           throw;
+        problem.report.add(SolverReport::stage_repeated);
         const std::string first_reason = bulk.failure();
         solution                       = safe_guess;
         try
@@ -476,7 +486,7 @@ namespace Ricochet
     stage_round_off = newton_problem.round_off();
     copy_values(contact.contact_force(), new_state.contact_force);
     take_shares(new_state);
-    return problem.n_iterations();
+    return problem.report;
   }
 
   double

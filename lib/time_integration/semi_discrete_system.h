@@ -135,10 +135,10 @@ namespace Ricochet
    * Solve @p stage. The solution of @p new_state holds the initial guess and gets
    * the result, its forces of contact those at the result.
    *
-   * @return the number of Newton iterations (linear solves).
+   * @return how it was solved.
    * @throws NewtonFailure
    */
-    unsigned int
+    SolverReport
     solve_stage(const Stage &stage, const State &old_state, State &new_state);
 
     /// The forces of contact at the instant of @p state, from its solution alone.
@@ -276,9 +276,11 @@ namespace Ricochet
                                       const Vector &end)>
       works_of_bodies;
 
-    /// Called after each stage with Newton's table: residuals, step lengths,
-    /// active sets.
-    std::function<void(const std::vector<NewtonSolver::Iteration> &)>
+    /// Called after each solution with Newton's table (residuals, step lengths, active
+    /// sets) and with what was solved: the whole system with its tangent, or the one of a
+    /// SolverReport::Strategy.
+    std::function<void(const std::vector<NewtonSolver::Iteration> &,
+                       const std::optional<SolverReport::Strategy> &)>
       newton_observer;
 
   private:

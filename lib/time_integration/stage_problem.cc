@@ -269,7 +269,8 @@ namespace Ricochet
                       const bool    may_reuse,
                       const double  tolerance)
   {
-    ++iterations;
+    ++report.newton_iterations;
+    ++report.outer_iterations;
     const Tangent       current    = tangent(here());
     const bool          has_name   = current.body && current.contact;
     const std::uint64_t active_set = parts.contact.active_set_signature();
@@ -277,7 +278,9 @@ namespace Ricochet
       may_reuse && !has_name && factored_active_set == active_set;
     if (!has_name)
       factored_active_set = active_set;
-    parts.linear_solver.solve(current,
+    if (!has_name && !reuse)
+      ++report.n_tangents;
+    report.strategies |= parts.linear_solver.solve(current,
                               right_hand_side,
                               update,
                               reuse,

@@ -8,6 +8,7 @@
 #include <solvers/body_matrix.h>
 #include <solvers/linear_solver.h>
 #include <solvers/newton.h>
+#include <solvers/solver_report.h>
 #include <solvers/tangent_region.h>
 #include <time_integration/condensed_stage.h>
 #include <time_integration/stage.h>
@@ -112,19 +113,8 @@ namespace Ricochet
     void
     forces_to_rows(Vector &forces) const;
 
-    /// Count @p n linear solves made elsewhere.
-    void
-    add_iterations(const unsigned int n)
-    {
-      iterations += n;
-    }
-
-    /// Linear solves made, those of a first attempt that failed included.
-    unsigned int
-    n_iterations() const
-    {
-      return iterations;
-    }
+    /// How the stage was solved so far, attempts that failed included.
+    SolverReport report;
 
   private:
     void
@@ -176,7 +166,6 @@ namespace Ricochet
     const Stage  &stage;
     const Vector &old_solution, &solution, &safe_guess;
     double        constant_scale = 0., force_scale = 0., contact_scale = 0.;
-    unsigned int  iterations = 0;
     // Known when asked for.
     std::optional<double> bulk_round_off;
     // Which points are active in the tangent without a name, if there is one.

@@ -50,10 +50,11 @@ namespace Ricochet
     /// contact acts over a step. The time loop adds it.
     std::vector<ContactStep> contact_steps = {};
     /// Sums that a program asked the time loop for.
-    std::vector<double> own_sums          = {};
-    unsigned int        newton_iterations = 0;
-    /// Solutions of linear systems, back-substitutions included.
-    unsigned int linear_solves = 0;
+    std::vector<double> own_sums = {};
+    /// How the stages were solved.
+    SolverReport solver = {};
+    /// Solutions of linear systems that are in no stage.
+    unsigned int other_linear_solves = 0;
 
     StepReport &
     operator+=(const StepReport &other);

@@ -104,8 +104,8 @@ namespace Ricochet
     viscous_dissipation += other.viscous_dissipation;
     numerical_dissipation += other.numerical_dissipation;
     obstacle_work += other.obstacle_work;
-    newton_iterations += other.newton_iterations;
-    linear_solves += other.linear_solves;
+    solver += other.solver;
+    other_linear_solves += other.other_linear_solves;
     return *this;
   }
 

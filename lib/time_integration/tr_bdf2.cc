@@ -50,10 +50,7 @@ namespace Ricochet
     system.external_load(new_state.time, stage.load);
 
     new_state.solution.add((1. - gamma) * dt, middle.velocity);
-    const unsigned int iterations =
-      system.solve_stage(stage, middle, new_state);
-    report.newton_iterations += iterations;
-    report.linear_solves += iterations;
+    report.solver += system.solve_stage(stage, middle, new_state);
 
     copy_values(new_state.solution, new_state.acceleration);
     new_state.acceleration -= stage.inertia_origin;

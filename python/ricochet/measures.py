@@ -273,6 +273,8 @@ class Summary:
     newton_iterations: int
     #: How often a step was halved.
     step_halvings: int
+    #: How many steps were solved by each strategy, and needed each fallback.
+    solvers: dict[str, int]
     #: See `measures.largest_balance_residual`.
     largest_balance_residual: float
     #: See `measures.largest_promise_residual`.
@@ -301,10 +303,34 @@ class Summary:
             f"{'largest penetration':<26} {self.largest_penetration:.6g} {length}",
             f"{'contact lasts':<26} {self.contact_duration:.6g} {time}",
             f"{'Newton iterations':<26} {self.newton_iterations}, {self.step_halvings} halvings",
+            f"{'solved by':<26} {', '.join(f'{k} {n}' for k, n in self.solvers.items()) or '-'}",
             f"{'largest balance residual':<26} {self.largest_balance_residual:.3g}",
             f"{'largest promise residual':<26} {self.largest_promise_residual:.3g}",
         ]
         return "\n".join(lines)
+
+
+#: The numbers whose sum is the column `solver`, as in `lib/solvers/solver_report.cc`; those from 32
+#: on are fallbacks.
+SOLVERS = {
+    1: "direct",
+    2: "multigrid",
+    4: "corrected",
+    8: "condensed",
+    16: "frozen tangent",
+    32: "tangent made anew within the step",
+    64: "condensed iterations begun anew",
+    128: "whole system instead of the condensed one",
+    256: "factored instead of iterated",
+    512: "stage begun again from the last state",
+}
+
+
+def solvers(table: Table) -> dict[str, int]:
+    """How many steps were solved by each strategy, and needed each fallback."""
+    numbers = table["solver"][1:].astype(int) if "solver" in table else np.zeros(0, int)
+    counts = {name: int(np.count_nonzero(numbers & number)) for number, name in SOLVERS.items()}
+    return {name: count for name, count in counts.items() if count}
 
 
 def _unit(units: dict[str, str], begin: str) -> str:
@@ -347,6 +373,7 @@ def summarise(table: Table, log: str = "", turns: bool = True) -> Summary:
         newton_iterations=int(column("newton_iterations").sum()),
         # This column counts from the start.
         step_halvings=int(column("step_halvings").max()),
+        solvers=solvers(table),
         largest_balance_residual=largest_balance_residual(table),
         largest_promise_residual=largest_promise_residual(table),
         contacts=each,

@@ -53,7 +53,8 @@ NO_FIELDS = ["Output/Fields every=0", "Output/Log every=0"]
 
 # Columns that are round-off by themselves, and counts that can differ by one where a
 # residual sits at the tolerance.
-NOISE = ("newton_iterations", "linear_solves", "balance_residual", "promise_residual",
+NOISE = ("newton_iterations", "linear_solves", "solver", "outer_iterations",
+         "inner_iterations", "tangents", "balance_residual", "promise_residual",
          "round_off")
 
 arguments = None

@@ -80,6 +80,10 @@ class PythonPackage(ProgramTest):
         self.assertEqual(summary.largest_penetration, max(ledger["penetration_foundation"]))
         self.assertEqual(summary.newton_iterations, sum(ledger["newton_iterations"]))
         self.assertEqual(summary.largest_balance_residual, largest(ledger["balance_residual"]))
+        # The program's own words for the numbers in the column are those of the package.
+        line = re.search("steps by how they were solved: (.+)", self.ball.log).group(1)
+        self.assertEqual(line, ", ".join(f"{k} {n}" for k, n in summary.solvers.items()))
+        self.assertEqual(sum(summary.solvers.values()), summary.steps)
         self.assertAlmostEqual(summary.contact_duration, 1e-3 * sum(f > 0 for f in force))
         self.assertGreater(summary.contact_duration, 0.02)
         momentum = ledger["momentum_y"]

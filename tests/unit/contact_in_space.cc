@@ -1233,7 +1233,8 @@ BOOST_AUTO_TEST_CASE(degenerate_configurations)
         double       old = first, deepest = 0., largest_residual = 0.;
         bool         touched = false;
         impact.system.newton_observer =
-          [&](const std::vector<NewtonSolver::Iteration> &history) {
+          [&](const std::vector<NewtonSolver::Iteration> &history,
+              const auto &) {
             // The guess may be far off where nothing else acts.
             for (unsigned int k = 1; k < history.size(); ++k)
               largest_residual =

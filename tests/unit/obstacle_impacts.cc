@@ -337,7 +337,8 @@ BOOST_AUTO_TEST_CASE(newton_converges_quadratically)
           unsigned int n_seen = 0;
           double       worst  = 0.;
           cube.impact->system.newton_observer =
-            [&](const std::vector<NewtonSolver::Iteration> &history) {
+            [&](const std::vector<NewtonSolver::Iteration> &history,
+                const auto &) {
               for (unsigned int k = 2; k < history.size(); ++k)
                 {
                   const double before = history[k - 1].relative_residual;

@@ -148,7 +148,7 @@ namespace
         impact->scheme->step(impact->system, state, time_step, next);
       next.time = state.time + time_step;
       touched   = touched || next.contact_force.l2_norm() > 0.;
-      iterations += report.newton_iterations;
+      iterations += report.solver.newton_iterations;
       state = next;
       return report;
     }
@@ -383,7 +383,7 @@ BOOST_AUTO_TEST_CASE(newton_converges_quadratically)
       Collision disks(treatment, 0.);
       double    constant = 0.;
       disks.impact->system.newton_observer =
-        [&](const std::vector<NewtonSolver::Iteration> &history) {
+        [&](const std::vector<NewtonSolver::Iteration> &history, const auto &) {
           // The last three residuals that are not round-off.
           for (unsigned int k = 2; k + 1 < history.size(); ++k)
             {

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_solver_report_h
+#define ricochet_solvers_solver_report_h
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Ricochet
+{
+  /// How the nonlinear systems of a step were solved, so that a run that has fallen back
+  /// shows it.
+  struct SolverReport
+  {
+    /// Strategies and fallbacks. Their numbers are powers of two, so that a sum has
+    /// several of them: the column `solver` of energy.csv.
+    enum Strategy : unsigned int
+    {
+      /// The whole tangent is factored.
+      direct = 1,
+      /// Linear systems of the whole tangent are solved by multigrid.
+      multigrid = 2,
+      /// The factorisation of the body is corrected for contact.
+      corrected = 4,
+      /// The stage of a linear body is condensed to contact.
+      condensed = 8,
+      /// The stage is condensed to contact, with a frozen tangent of the body.
+      frozen_tangent = 16,
+      /// Fallback: the tangent of earlier steps did not serve, and was made anew within
+      /// the step.
+      tangent_renewed = 32,
+      /// Fallback: the iterations of a condensed stage began anew, from where they had
+      /// got stuck.
+      condensed_restarted = 64,
+      /// Fallback: the condensed stage was not solved, and the whole system took over.
+      condensed_failed = 128,
+      /// Fallback: an iterative linear solver did not converge, and the whole tangent was
+      /// factored.
+      iterative_failed = 256,
+      /// Fallback: Newton's method failed, and the stage began again from the last state.
+      stage_repeated = 512
+    };
+
+    /// Sum of #Strategy.
+    unsigned int strategies = 0;
+    /// Iterations of Newton's method: of a linear body that is condensed to contact the
+    /// inner ones, otherwise the outer ones.
+    unsigned int newton_iterations = 0;
+    /// Iterations with the residual of the whole system.
+    unsigned int outer_iterations = 0;
+    /// Iterations of condensed stages.
+    unsigned int inner_iterations = 0;
+    /// Tangents at states of this step. Those of earlier steps that serve again, and those
+    /// that are made of a linear body's constant matrices, are none: so that the number
+    /// is the same in a run that was resumed.
+    unsigned int n_tangents = 0;
+
+    void
+    add(const Strategy strategy)
+    {
+      strategies |= strategy;
+    }
+
+    /// Those of both.
+    SolverReport &
+    operator+=(const SolverReport &other);
+
+    /// Each strategy's number with a short name.
+    static const std::vector<std::pair<unsigned int, std::string>> &
+    names();
+
+    /// Whether @p strategies have a fallback.
+    static bool
+    has_fallback(const unsigned int strategies)
+    {
+      return strategies >= tangent_renewed;
+    }
+
+    /// The strategies that are no fallbacks in short, and an exclamation mark if there is
+    /// one: "frozen tangent+direct!".
+    static std::string
+    short_text(const unsigned int strategies);
+
+    /// How many of the @p steps (their strategies) have each strategy, in words; empty
+    /// where there is none.
+    static std::string
+    summary(const std::vector<unsigned int> &steps);
+  };
+} // namespace Ricochet
+
+#endif
