@@ -28,7 +28,7 @@ unshare -m bash -c '
     cd /src
     apt-get update -qq
     DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends mold
-    bash -c \"source scripts/setup.sh; build Release\"
+    bash -c \"source scripts/setup.sh; build release\"
     source scripts/setup.sh
     build/release/tests/unit_tests
     scripts/compare_outputs.sh build/release"

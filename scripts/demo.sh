@@ -6,7 +6,7 @@
 
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
-configure Release
+configure release
 ninja -C build/release hyperelastic_ring
 ring=output/hyperelastic_ring/first_look
 build/release/hyperelastic_ring parameter_files/hyperelastic_ring/feels_itself.prm \

@@ -25,7 +25,7 @@ packages="python3-sphinx python3-myst-parser python3-nbsphinx python3-ipykernel
 [ "$api" = no ] || packages="$packages doxygen"
 install_packages
 if [ -z "$programs" ]; then
-  build Release
+  build release
   programs="$PWD/build/release"
 fi
 

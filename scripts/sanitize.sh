@@ -4,7 +4,7 @@
 # the unit tests and a short run of each program. Any report ends it with an error.
 
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
-build Sanitize -DRICOCHET_SANITIZE=ON
+build sanitize
 
 # Leaks are those of MPI and Gmsh; containers that the libraries (which are not
 # instrumented) made or filled would be taken for overflows.

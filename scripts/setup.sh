@@ -31,34 +31,18 @@ install_packages()
     apt-get install -y -qq --no-install-recommends $missing >/dev/null
 }
 
-# The folder of build NAME.
-folder_of()
-{
-  echo "build/$(echo "$1" | tr '[:upper:]' '[:lower:]')"
-}
-
-# configure NAME [OPTION...]: prepare the build in build/name. NAME is the build type,
-# Release or Debug, or any other with the options of CMake after it.
+# configure PRESET: prepare the build of that name in CMakePresets.json, in build/PRESET.
 configure()
 {
-  local folder type="$1"
-  folder="$(folder_of "$1")"
-  shift
-  [ "$#" -eq 0 ] || type="Release"
-  # A new folder is for a build from scratch; one that exists keeps its options.
-  [ -e "$folder/CMakeCache.txt" ] || set -- "$@" -DRICOCHET_UNITY=ON
-  # Debian's interpreter is the one that sees Debian's matplotlib and h5py.
-  mkdir -p "$folder"
-  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE="$type" "$@" \
-    -DPython3_EXECUTABLE=/usr/bin/python3 >"$folder/configure.log" ||
-    { cat "$folder/configure.log"; exit 1; }
+  local log
+  log="$(cmake --preset "$1")" || { echo "$log"; exit 1; }
 }
 
-# build NAME [OPTION...]: configure and build.
+# build PRESET: configure and build.
 build()
 {
-  configure "$@"
-  ninja -C "$(folder_of "$1")"
+  configure "$1"
+  ninja -C "build/$1"
 }
 
 # One thread per process; Open MPI as root and with more ranks than cores.

@@ -8,7 +8,7 @@
 #                     and makes the short ones of the figures, whose numbers are
 #                     checked; the site without the API
 #   test.sh --quick   while you work: the release build, unit tests, stored outputs,
-#                     bad input, files (meant to take 8 minutes with the build)
+#                     bad input, format, files (meant to take 8 minutes with the build)
 #   test.sh --full    once before an issue is closed (some hours): all of the above, the
 #                     tests of the release build with the kernels of OpenBLAS for other
 #                     processors and without AVX2, all figures, sanitizers, hostile inputs
@@ -21,15 +21,17 @@ case "${1:-}" in
   *) echo "usage: test.sh [--quick | --full]" >&2; exit 1 ;;
 esac
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+packages="clang-format"
+install_packages
 
 if [ "${1:-}" = "--quick" ]; then
-  build Release
+  build release
   ctest --test-dir build/release --output-on-failure -j 2 -L quick
   exit
 fi
 
-build Debug
-build Release
+build debug
+build release
 # With kernels of OpenBLAS that round in different ways: those of an old processor and those
 # of this one.
 OPENBLAS_CORETYPE=Nehalem ctest --test-dir build/debug --output-on-failure -j 2
@@ -43,7 +45,7 @@ if [ "${1:-}" = "--full" ]; then
     echo "kernels of OpenBLAS: ${kernels%:*}"
     OPENBLAS_CORETYPE="${kernels%:*}" ctest --test-dir build/release --output-on-failure -j 2
   done
-  build without_avx2 -D RICOCHET_AVX2=OFF
+  build without_avx2
   ctest --test-dir build/without_avx2 --output-on-failure -j 2
   figures/make.py all
   figures/hertz_impact.py

@@ -584,7 +584,7 @@ namespace Ricochet
   {
     // A step of several facets leads away from those around the old place.
     std::vector<Index> indices = rows(p).unknowns;
-    const auto         add = [&](const auto &node) {
+    const auto         add     = [&](const auto &node) {
       indices.insert(indices.end(), node.unknowns.begin(), node.unknowns.end());
     };
     for (const Index index : own_points[p].multipliers)
