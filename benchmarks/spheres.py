@@ -14,6 +14,12 @@ from measuring import exponent, measure
 TOUCH = ["Spheres/Distance=2.001", "Time/Final time=0.016"]
 
 
+def touching(mesh_size):
+    """The parameters of both spheres with cells of this size (m)."""
+    return TOUCH + [f"Spheres/Mesh size of the {side} sphere={mesh_size}"
+                    for side in ("left", "right")]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build-dir", default="build/release")
@@ -27,9 +33,7 @@ def main():
     points = []
     for size in (.13, .09) if arguments.quick else (.09, .066, .046, .0415):
         for n_ranks in (1, 2):
-            run = measure(program,
-                          TOUCH + [f"Spheres/Mesh size of the {side} sphere={size}"
-                                   for side in ("left", "right")], n_ranks=n_ranks)
+            run = measure(program, touching(size), n_ranks=n_ranks)
             print(f"| {size} | {run['solver']} | {n_ranks} | {run['unknowns']} "
                   f"| {run['seconds'] / run['steps']:.2f} "
                   f"| {run['iterations'] / run['steps']:.1f} | " +

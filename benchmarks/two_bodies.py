@@ -7,6 +7,7 @@ Besides, one of them that meets a round obstacle instead of the plane.
 """
 
 import argparse
+import functools
 import pathlib
 import tempfile
 
@@ -87,6 +88,19 @@ def scene(dim, body, places, speed, treatment, steps, radius=None):
                    f"  set Final time = {time_step * n_steps}\nend\n")
 
 
+def disks(rings, n_bodies, radius=None):
+    """The scene of disks with so many rings of nodes, 200 steps of 1 ms."""
+    body = DISK.format(around=6 * rings, nodes=3 * rings * (rings + 1) + 1)
+    return scene(2, body, (1.01, -1.01)[:n_bodies], 1, PERSISTENT, (1e-3, 200), radius)
+
+
+def spheres(n_bodies, radius=None):
+    """The scene of soft spheres, 240 steps of 0.1 s."""
+    # The mesh stands 2 m above the plane, the other one as much below it.
+    return scene(3, SPHERE.format(meshes=MESHES), (0., -44.)[:n_bodies], 1, PENALTY,
+                 (.1, 240), radius)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build-dir", default="build/release")
@@ -96,24 +110,19 @@ def main():
     parser.add_argument("--threads", type=int, default=1, help="threads of each rank")
     arguments = parser.parse_args()
     program = str(pathlib.Path(arguments.build_dir) / "ricochet")
-    cases = []
-    for rings in (20, 45) if arguments.quick else (20, 45, 90):
-        disk = DISK.format(around=6 * rings, nodes=3 * rings * (rings + 1) + 1)
-        cases.append(("disks", 2, disk, (1.01, -1.01), PERSISTENT, (1e-3, 200), 5))
+    cases = [("disks", functools.partial(disks, rings), 5)
+             for rings in ((20, 45) if arguments.quick else (20, 45, 90))]
     if not arguments.quick:
-        # Its mesh stands 2 m above the plane, the other one as much below it.
-        sphere = SPHERE.format(meshes=MESHES)
-        cases.append(("spheres", 3, sphere, (0., -44.), PENALTY, (.1, 240), 60))
+        cases.append(("spheres", spheres, 60))
     print("| bodies | unknowns of one | of two | s in steps, one | two | ratio "
           "| Newton iterations, one | two | s, one before a round obstacle "
           "| iterations |\n|---|---|---|---|---|---|---|---|---|---|")
-    for name, dim, body, places, treatment, steps, radius in cases:
+    for name, scene_of, radius in cases:
         runs = []
         for n_bodies, of_obstacle in ((1, None), (2, None), (1, radius)):
             with tempfile.TemporaryDirectory() as folder:
                 file = pathlib.Path(folder) / "scene.prm"
-                file.write_text(scene(dim, body, places[:n_bodies], 1, treatment,
-                                      steps, of_obstacle))
+                file.write_text(scene_of(n_bodies=n_bodies, radius=of_obstacle))
                 runs.append(measure(program, [], str(file), arguments.ranks,
                                     arguments.threads))
         one, two, before_round = runs
