@@ -8,13 +8,14 @@
 #                     and makes the short ones of the figures, whose numbers are
 #                     checked; the site without the API
 #   test.sh --quick   while you work: the release build, unit tests, stored outputs,
-#                     bad input, format, files (meant to take 8 minutes with the build)
+#                     bad input, files (meant to take 8 minutes with the build), format,
+#                     and clang-tidy on the C++ that has changed (20 s of a core a file)
 #   test.sh --full    once before an issue is closed (some hours): all of the above, the
 #                     tests of the release build with the kernels of OpenBLAS for other
-#                     processors and without AVX2, all figures, sanitizers, hostile inputs
-#                     and kills, and deliberate errors in the library, all of which the
-#                     tests must find. They come in portions: TEST_PORTION=2/3 for the
-#                     second third.
+#                     processors and without AVX2, all figures, sanitizers, clang-tidy on
+#                     all C++, hostile inputs and kills, and deliberate errors in the
+#                     library, all of which the tests must find. They come in portions:
+#                     TEST_PORTION=2/3 for the second third.
 
 case "${1:-}" in
   "" | --quick | --full) ;;
@@ -22,11 +23,13 @@ case "${1:-}" in
 esac
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 packages="clang-format"
+[ -z "${1:-}" ] || packages="$packages clang-tidy"
 install_packages
 
 if [ "${1:-}" = "--quick" ]; then
   build release
   ctest --test-dir build/release --output-on-failure -j 2 -L quick
+  scripts/tidy.py
   exit
 fi
 
@@ -51,6 +54,7 @@ if [ "${1:-}" = "--full" ]; then
   figures/hertz_impact.py
   examples/check.py
   bash scripts/sanitize.sh
+  scripts/tidy.py --all
   tests/hostile/hostile.py --programs build/release --inputs 2000 --kills 300
   tests/mutations/mutations.py --source . --build-dir build/mutations \
     --portion "${TEST_PORTION:-1/3}"

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The checks of style see what they are there for, in a small tree that was made up."""
+
+import importlib.util
+import shlex
+
+from common import *
+
+specification = importlib.util.spec_from_file_location("tidy", ROOT / "scripts" / "tidy.py")
+tidy = importlib.util.module_from_spec(specification)
+specification.loader.exec_module(tidy)
+
+SOURCES = ["lib/a.cc", "lib/user.cc", "lib/other.cc"]
+
+
+class Style(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        for folder in tidy.FOLDERS + ("scripts",):
+            (self.folder / folder).mkdir()
+        self.write("lib/a.h", "using A = int;\n")
+        self.write("lib/a.cc", '#include "a.h"\n')
+        self.write("lib/alone.h", "using B = int;\n")
+        self.write("lib/user.cc", "#include <lib/alone.h>\n")
+        self.write("lib/other.cc", "using C = int;\n")
+
+    def write(self, path, text):
+        (self.folder / path).write_text(text)
+
+    def git(self, *words):
+        subprocess.run(["git", "-c", "user.name=a", "-c", "user.email=a@example.org", *words],
+                       cwd=self.folder, check=True, capture_output=True)
+
+    def format(self, *words):
+        for name in (".clang-format", "scripts/format.sh"):
+            shutil.copy(ROOT / name, self.folder / name)
+        result = subprocess.run(["bash", "scripts/format.sh", *words], cwd=self.folder,
+                                capture_output=True, text=True)
+        if result.returncode == 77:
+            self.skipTest("no clang-format 14")
+        return result
+
+    def test_format(self):
+        """What is not formatted is named, with what to do; and then it is formatted."""
+        self.assertEqual(self.format().returncode, 0)
+        self.write("examples/ugly.h", "using  B=int ;\n")
+        result = self.format()
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("examples/ugly.h:1", result.stderr)
+        self.assertIn("scripts/format.sh --fix", result.stderr)
+        self.assertEqual(self.format("--fix").returncode, 0)
+        self.assertEqual(self.format().returncode, 0)
+
+    def test_changed_files(self):
+        """Those of the last commit and of the working tree, or of all that upstream lacks."""
+        self.assertIsNone(tidy.changed_files(self.folder))  # no git
+        self.git("init", "-b", "main")
+        self.assertEqual(tidy.changed_files(self.folder),
+                         ["lib/a.cc", "lib/a.h", "lib/alone.h", "lib/other.cc",
+                          "lib/user.cc"])  # no commit
+        self.git("add", ".")
+        self.git("commit", "-m", "first")
+        self.assertEqual(tidy.changed_files(self.folder), [])  # nothing before it
+        self.git("branch", "upstream")
+        for name in ("a", "other"):
+            self.write(f"lib/{name}.cc", "using D = int;\n")
+            self.git("commit", "-am", name)
+        self.write("lib/new.h", "")
+        self.assertEqual(tidy.changed_files(self.folder), ["lib/new.h", "lib/other.cc"])
+        self.git("branch", "--set-upstream-to", "upstream")
+        self.assertEqual(tidy.changed_files(self.folder),
+                         ["lib/a.cc", "lib/new.h", "lib/other.cc"])
+
+    def test_headers_are_seen_within_a_source(self):
+        """That of their name, or the first one that includes them."""
+        def chosen(*changed):
+            return tidy.to_check(self.folder, SOURCES, list(changed))
+
+        self.assertEqual(chosen("lib/a.h"), ["lib/a.cc"])
+        self.assertEqual(chosen("lib/alone.h"), ["lib/user.cc"])
+        self.assertEqual(chosen("lib/alone.h", "lib/user.cc"), ["lib/user.cc"])
+        self.assertEqual(chosen("lib/gone.cc", "README.md", "lib/nobody.h"), [])
+
+    def test_commands(self):
+        """Only what says how a source is to be read is passed on, and only of our own."""
+        entries = [{"directory": "/b", "file": str(self.folder / path), "command": shlex.join(
+            ["c++", "-DNAME=\"x y\"", "-I/lib", "-isystem", "/their", "-include", "pch.hxx",
+             "-mmove-max=256", "-mavx2", "-std=c++17", "-O2", "-Werror"])}
+                   for path in ("lib/a.cc", "build/pch.cxx")]
+        commands = tidy.commands_for_clang(entries, self.folder)
+        self.assertEqual([entry["file"] for entry in commands], [entries[0]["file"]])
+        self.assertEqual(commands[0]["arguments"],
+                         ["clang++", "-DNAME=\"x y\"", "-I/lib", "-isystem", "/their",
+                          "-mavx2", "-std=c++17", "-w", "-c", entries[0]["file"]])
+
+    def test_findings(self):
+        """A finding in a header of ours is told of; one in a header of others is not."""
+        program = tidy.clang_tidy()
+        if program is None:
+            self.skipTest("no clang-tidy")
+        shutil.copy(ROOT / ".clang-tidy", self.folder)
+        (self.folder / "their").mkdir()
+        overriding = ("struct {0} {{ virtual void f(); }};\n"
+                      "struct {1} : {0} {{ virtual void f(); }};\n")
+        self.write("their/their.h", overriding.format("A", "B"))
+        self.write("lib/a.h", "#include <their.h>\n")
+
+        def check():
+            commands = [{"directory": str(self.folder), "file": str(self.folder / "lib/a.cc"),
+                         "command": f"c++ -isystem {self.folder}/their "
+                                    f"-I{self.folder}/lib -c lib/a.cc"}]
+            (self.folder / "compile_commands.json").write_text(
+                tidy.json.dumps(tidy.commands_for_clang(commands, self.folder)))
+            return tidy.check(program, self.folder, self.folder, "lib/a.cc")
+
+        is_clean, text = check()
+        self.assertTrue(is_clean, msg=text)
+        self.assertEqual(text, "")
+        self.write("lib/a.h", overriding.format("C", "D"))
+        is_clean, text = check()
+        self.assertFalse(is_clean)
+        self.assertIn("modernize-use-override", text)
+        self.assertIn("lib/a.h:2", text)
+
+
+if __name__ == "__main__":
+    main()
