@@ -133,7 +133,7 @@ namespace Ricochet
   {
     std::vector<UnusedParameter> unused;
     const auto need = [&](const std::string &owner, const auto &...names) {
-      for (const std::string name : {names...})
+      for (const char *name : {names...})
         unused.push_back(
           {section + "/" + name, owner + "; " + section + "/Law is " + law});
     };

@@ -75,7 +75,7 @@ namespace Ricochet
 
 
   template <int dim>
-  const std::vector<typename SurfacePair<dim>::Position> &
+  const std::vector<typename PointsBeforeFacets<dim>::Position> &
   PointsBeforeFacets<dim>::gather_all(const unsigned int p,
                                       const Chain       &chain,
                                       const Positions   &positions) const
@@ -573,7 +573,7 @@ namespace Ricochet
 
 
   template <int dim>
-  const typename SurfacePair<dim>::Rows &
+  const typename PointsBeforeFacets<dim>::Rows &
   PointsBeforeFacets<dim>::rows(const unsigned int p) const
   {
     update(p);
@@ -583,7 +583,7 @@ namespace Ricochet
 
 
   template <int dim>
-  const typename SurfacePair<dim>::Derivatives &
+  const typename PointsBeforeFacets<dim>::Derivatives &
   PointsBeforeFacets<dim>::derivatives(const unsigned int p,
                                        const double       pressure,
                                        const Tangential  &traction,
@@ -628,7 +628,7 @@ namespace Ricochet
 
 
   template <int dim>
-  std::vector<typename SurfacePair<dim>::Index>
+  std::vector<typename PointsBeforeFacets<dim>::Index>
   PointsBeforeFacets<dim>::unknowns_nearby(const unsigned int p) const
   {
     const Step        &step = steps[p];
