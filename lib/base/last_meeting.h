@@ -2,6 +2,8 @@
 #ifndef ricochet_base_last_meeting_h
 #define ricochet_base_last_meeting_h
 
+#include <base/one_rank.h>
+
 #include <mpi.h>
 
 #include <chrono>
@@ -35,12 +37,13 @@ namespace Ricochet
     LastMeeting &
     operator=(const LastMeeting &) = delete;
 
-    /// Whether all ranks come here within five seconds. After one failed meeting there is
+    /// Whether all ranks come here within five seconds; those that wait for one that is
+    /// alone need not. After one failed meeting there is
     /// no other.
     static bool
     is_complete()
     {
-      return !current || current->wait();
+      return !current || OneRank::is_alone() || current->wait();
     }
 
   private:

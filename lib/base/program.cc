@@ -2,6 +2,7 @@
 #include <base/exceptions.h>
 #include <base/last_meeting.h>
 #include <base/parameter_file.h>
+#include <base/one_rank.h>
 #include <base/program.h>
 #include <base/threads.h>
 
@@ -197,12 +198,15 @@ namespace Ricochet
 
 
 
+    /// Thrown on ranks that have nothing to do.
+    struct Waits
+    {};
+
     /// @return what is open at the end of the run, see RunFolder::leave_open().
     std::vector<std::string>
     execute(const int argc, char **argv, const Program &program)
     {
-      namespace fs                = std::filesystem;
-      const MPI_Comm communicator = MPI_COMM_WORLD;
+      namespace fs = std::filesystem;
 
       const CommandLine command_line = parse_command_line(argc, argv);
       if (command_line.help)
@@ -298,25 +302,42 @@ namespace Ricochet
           (command_line.parameter_file.empty()
              ? "without_file"
              : fs::path(command_line.parameter_file).stem().string());
-      RunFolder folder({output_dir,
-                        program.name,
-                        command_line.parameter_file,
-                        command_line.resume,
-                        command_line.overwrite,
-                        command_line.quiet},
-                       communicator);
-      folder.all_parameters         = all_parameters.str();
-      folder.parameters_that_matter = parameters_that_matter(parameters);
-      folder.log(
-        program.name + ", Ricochet " + RICOCHET_VERSION + " (" +
-        RICOCHET_BUILD_TYPE + "), deal.II " + DEAL_II_PACKAGE_VERSION + ", " +
-        std::to_string(dealii::Utilities::MPI::n_mpi_processes(communicator)) +
-        " MPI rank(s)");
-      for (const std::string &note : notes)
-        folder.log(note);
-      program.run(folder);
-      folder.end();
-      return folder.what_is_open();
+      const RunFolder::Options options{output_dir,
+                                       program.name,
+                                       command_line.parameter_file,
+                                       command_line.resume,
+                                       command_line.overwrite,
+                                       command_line.quiet};
+      const auto               run = [&](const std::string &note_of_ranks) {
+        RunFolder folder(options, OneRank::communicator());
+        folder.all_parameters = all_parameters.str();
+        folder.parameters_that_matter = parameters_that_matter(parameters);
+        folder.log(program.name + ", Ricochet " + RICOCHET_VERSION + " (" +
+                   RICOCHET_BUILD_TYPE + "), deal.II " +
+                   DEAL_II_PACKAGE_VERSION + ", " +
+                   std::to_string(dealii::Utilities::MPI::n_mpi_processes(
+                     folder.communicator)) +
+                   " MPI rank(s)" + note_of_ranks);
+        for (const std::string &note : notes)
+          folder.log(note);
+        program.run(folder);
+        folder.end();
+        return folder.what_is_open();
+      };
+      try
+        {
+          return run("");
+        }
+      catch (const OneRankSuffices &one_rank)
+        {
+          OneRank::begin();
+          if (!OneRank::is_alone())
+            throw Waits();
+          Threads::begin();
+          return run(": the others wait, as one is faster than several with " +
+                     std::to_string(one_rank.n_unknowns) +
+                     " unknowns (Linear solver/Distribute = true takes all)");
+        }
     }
 
 
@@ -405,48 +426,62 @@ namespace Ricochet
           report(kind, text);
         return all_failed ? code : stop_all_ranks(code);
       };
+    const auto run = [&]() {
+      try
+        {
+          const std::vector<std::string> open = execute(argc, argv, program);
+          if (!open.empty())
+            {
+              std::string lines;
+              for (const std::string &line : open)
+                lines += (lines.empty() ? "" : "\n") + line;
+              if (is_root)
+                report(
+                  "the run is complete, but its energy is not what it says.",
+                  lines);
+              return 4;
+            }
+        }
+      catch (const StoppedBySignal &stop)
+        {
+          if (is_root)
+            report("stopped by a signal.", stop.what());
+          return 128 + stop.signal;
+        }
+      catch (const InputError &error)
+        {
+          return fail(1, "the input is not valid.", error.what());
+        }
+      catch (const ComputationError &error)
+        {
+          return fail(2, "the computation stopped.", error.what());
+        }
+      catch (const std::bad_alloc &)
+        {
+          std::cerr << "\n"
+                    << program.name << ": the computation stopped.\n"
+                    << "There is not enough memory.\n"
+                    << std::endl;
+          return stop_all_ranks(2);
+        }
+      catch (const std::exception &error)
+        {
+          std::cerr << program.name << ": an error that should not happen.\n"
+                    << error.what() << std::endl;
+          return stop_all_ranks(3);
+        }
+      return 0;
+    };
     try
       {
-        const std::vector<std::string> open = execute(argc, argv, program);
-        if (!open.empty())
-          {
-            std::string lines;
-            for (const std::string &line : open)
-              lines += (lines.empty() ? "" : "\n") + line;
-            if (is_root)
-              report("the run is complete, but its energy is not what it says.",
-                     lines);
-            return 4;
-          }
+        const int code = run();
+        if (OneRank::is_alone())
+          OneRank::release(code);
+        return code;
       }
-    catch (const StoppedBySignal &stop)
+    catch (const Waits &)
       {
-        if (is_root)
-          report("stopped by a signal.", stop.what());
-        return 128 + stop.signal;
+        return OneRank::wait();
       }
-    catch (const InputError &error)
-      {
-        return fail(1, "the input is not valid.", error.what());
-      }
-    catch (const ComputationError &error)
-      {
-        return fail(2, "the computation stopped.", error.what());
-      }
-    catch (const std::bad_alloc &)
-      {
-        std::cerr << "\n"
-                  << program.name << ": the computation stopped.\n"
-                  << "There is not enough memory.\n"
-                  << std::endl;
-        return stop_all_ranks(2);
-      }
-    catch (const std::exception &error)
-      {
-        std::cerr << program.name << ": an error that should not happen.\n"
-                  << error.what() << std::endl;
-        return stop_all_ranks(3);
-      }
-    return 0;
   }
 } // namespace Ricochet

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/one_rank.h>
 #include <base/threads.h>
 
 #include <deal.II/base/mpi.h>
@@ -32,7 +33,7 @@ namespace Ricochet
     n_ranks_here()
     {
       MPI_Comm here;
-      MPI_Comm_split_type(MPI_COMM_WORLD,
+      MPI_Comm_split_type(OneRank::communicator(),
                           MPI_COMM_TYPE_SHARED,
                           0,
                           MPI_INFO_NULL,

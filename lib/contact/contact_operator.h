@@ -171,18 +171,12 @@ namespace Ricochet
     virtual void
     complete_tangent(Matrix &tangent) const = 0;
 
-    /// Complete @p tangent as if all points were open.
-    virtual void
-    complete_open_tangent(Matrix &tangent) const = 0;
-
     /// Where the structure has functionals: complete @p tangent with what
     /// complete_tangent() adds besides tangent_change(), at any state. For most contact
     /// that is what open points add.
     virtual void
-    complete_constant_tangent(Matrix &tangent) const
-    {
-      complete_open_tangent(tangent);
-    }
+    complete_constant_tangent(Matrix & /*tangent*/) const
+    {}
 
     /// What complete_tangent() couples at the last complete_residual() beyond the
     /// couplings of the body; null if it never does. Collective.
@@ -193,8 +187,7 @@ namespace Ricochet
     }
 
     /// How complete_tangent() enters a tangent: contact spreads by initial gap.
-    /// It is symmetric if it keeps a symmetric tangent symmetric, but for
-    /// friction.
+    /// It is symmetric if it keeps a symmetric tangent symmetric.
     virtual ContactStructure
     tangent_structure() const = 0;
 

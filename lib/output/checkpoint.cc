@@ -20,24 +20,24 @@ namespace Ricochet
 
   namespace
   {
-    const std::string magic     = "Ricochet checkpoint, format 12\n";
+    const std::string magic     = "Ricochet checkpoint, format 13\n";
     const std::string file_name = "checkpoint.bin";
 
-    /// The vectors of a state, in the order in which they are stored.
-    template <typename StateType, typename Visitor>
+    /// The vectors of a checkpoint, in the order in which they are stored.
+    template <typename CheckpointType, typename Visitor>
     void
-    for_each_vector(StateType &state, const Visitor &visit)
+    for_each_vector(CheckpointType &checkpoint, const Visitor &visit)
     {
-      visit(state.solution);
-      visit(state.velocity);
-      visit(state.acceleration);
-      visit(state.contact_force);
-      visit(state.mean_velocity);
-      visit(state.scheme_force);
-      for (auto &share : state.contact_shares)
+      visit(checkpoint.state.solution);
+      visit(checkpoint.state.velocity);
+      visit(checkpoint.state.acceleration);
+      visit(checkpoint.state.contact_force);
+      visit(checkpoint.state.mean_velocity);
+      visit(checkpoint.state.scheme_force);
+      for (auto &share : checkpoint.state.contact_shares)
         visit(share);
-      if (state.tangent.exists())
-        visit(state.tangent.solution);
+      if (checkpoint.tangent.exists())
+        visit(checkpoint.tangent.solution);
     }
 
     /// The beginning of a line that may be anything.
@@ -56,14 +56,14 @@ namespace Ricochet
     /// What is in the file, apart from magic, size and checksum.
     struct Payload
     {
-      std::string         parameters;
-      std::uint64_t       mesh = 0;
-      unsigned int        step = 0;
-      double              time = 0.;
-      std::vector<double> sums;
-      unsigned int        n_rows   = 0;
-      std::uint32_t       checksum = 0;
-      KeptTangent::Record tangent;
+      std::string           parameters;
+      std::uint64_t         mesh = 0;
+      unsigned int          step = 0;
+      double                time = 0.;
+      std::vector<double>   sums;
+      unsigned int          n_rows   = 0;
+      std::uint32_t         checksum = 0;
+      FrozenTangent::Record tangent;
       /// The vectors, in the canonical order of the unknowns.
       std::vector<std::vector<double>> values;
 
@@ -90,11 +90,11 @@ namespace Ricochet
                     sums,
                     ledger.n_rows,
                     ledger.checksum,
-                    state.tangent.record,
+                    tangent.record,
                     {}};
     const auto positions_of_rank =
       Utilities::MPI::gather(folder.communicator, mesh.positions);
-    for_each_vector(state, [&](const Vector &vector) {
+    for_each_vector(*this, [&](const Vector &vector) {
       const double *mine           = vector.trilinos_vector()[0];
       const auto    values_of_rank = Utilities::MPI::gather(
         folder.communicator,
@@ -189,13 +189,13 @@ namespace Ricochet
       }
 
     Checkpoint checkpoint;
-    checkpoint.step                 = payload.step;
-    checkpoint.sums                 = payload.sums;
-    checkpoint.ledger               = {payload.n_rows, payload.checksum};
-    checkpoint.state.time           = payload.time;
-    checkpoint.state.tangent.record = payload.tangent;
-    unsigned int n_without_shares   = 0;
-    for_each_vector(checkpoint.state, [&](Vector &) { ++n_without_shares; });
+    checkpoint.step               = payload.step;
+    checkpoint.sums               = payload.sums;
+    checkpoint.ledger             = {payload.n_rows, payload.checksum};
+    checkpoint.state.time         = payload.time;
+    checkpoint.tangent.record     = payload.tangent;
+    unsigned int n_without_shares = 0;
+    for_each_vector(checkpoint, [&](Vector &) { ++n_without_shares; });
     if (payload.values.size() < n_without_shares)
       fail(strange);
     if (payload.mesh != mesh.checksum)
@@ -205,7 +205,7 @@ namespace Ricochet
     checkpoint.state.contact_shares.resize(payload.values.size() -
                                            n_without_shares);
     auto stored = payload.values.begin();
-    for_each_vector(checkpoint.state, [&](Vector &vector) {
+    for_each_vector(checkpoint, [&](Vector &vector) {
       vector.reinit(empty_vector);
       if (stored->size() != vector.size())
         fail("has " + std::to_string(stored->size()) +

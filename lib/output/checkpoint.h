@@ -32,6 +32,8 @@ namespace Ricochet
     /// What the table of energies is known by.
     EnergyLedger::Seal ledger;
     State              state;
+    /// SemiDiscreteSystem::frozen_tangent
+    FrozenTangent tangent;
 
     /**
      * Write to @p folder / checkpoint.bin, so that there is a whole checkpoint at

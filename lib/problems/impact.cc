@@ -341,13 +341,12 @@ namespace Ricochet
                                         Utilities::MPI::n_mpi_processes(
                                           body.communicator));
       // Ghosts stand where multipliers would, multigrid's smoothers need entries, and
-      // before each other bodies are factored for each iteration if they do not condense.
+      // against each other bodies that are not linear are factored for each iteration.
       const bool is_plain = !between_bodies && !body.has_multipliers();
       const bool has_room = !body.has_multipliers() ||
         Utilities::MPI::n_mpi_processes(body.communicator) == 1;
       const bool has_blocks = is_plain ? !multigrid || setup.degree > 1
-                                       : !multigrid && is_linear && has_room &&
-          parameters.linear_solver.condense;
+                                       : !multigrid && is_linear && has_room;
       return has_blocks ? MatrixStorage::blocks : MatrixStorage::entries;
     }
 

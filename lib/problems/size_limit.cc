@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/one_rank.h>
 #include <base/parameter_file.h>
 #include <problems/size_limit.h>
 
@@ -28,7 +29,7 @@ namespace Ricochet
     memory_of_machines()
     {
       MPI_Comm machine;
-      MPI_Comm_split_type(MPI_COMM_WORLD,
+      MPI_Comm_split_type(OneRank::communicator(),
                           MPI_COMM_TYPE_SHARED,
                           0,
                           MPI_INFO_NULL,
@@ -37,7 +38,8 @@ namespace Ricochet
       MPI_Comm_free(&machine);
       const double mine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
         static_cast<double>(sysconf(_SC_PAGE_SIZE));
-      return dealii::Utilities::MPI::sum(first ? mine : 0., MPI_COMM_WORLD);
+      return dealii::Utilities::MPI::sum(first ? mine : 0.,
+                                         OneRank::communicator());
     }
   } // namespace
 

@@ -781,7 +781,11 @@ namespace Ricochet
   {
     if (!mesh)
       mesh.emplace(system.unknowns);
-    Checkpoint{step, sums_of_state.to_list(), ledger.seal(), state}
+    Checkpoint{step,
+               sums_of_state.to_list(),
+               ledger.seal(),
+               state,
+               system.frozen_tangent}
       .write(folder, *mesh);
   }
 
@@ -832,8 +836,9 @@ namespace Ricochet
           throw InputError(
             "The run cannot be resumed: its checkpoint is damaged, "
             "with other sums, rows or times than this run has.");
-        state = checkpoint.state;
-        sums  = Sums::from_list(checkpoint.sums, contact_names.size());
+        state                 = checkpoint.state;
+        system.frozen_tangent = checkpoint.tangent;
+        sums = Sums::from_list(checkpoint.sums, contact_names.size());
         if (step > n_steps)
           throw InputError(
             "The run cannot be resumed: its checkpoint is at t "
@@ -871,11 +876,10 @@ namespace Ricochet
   TimeLoop::log_newton_tables()
   {
     system.newton_observer =
-      [this](const std::vector<NewtonSolver::Iteration>      &history,
+      [this](const std::vector<NewtonSolver::Iteration>  &history,
              const std::optional<SolverReport::Strategy> &strategy) {
-        const std::string suffix = strategy
-          ? "   " + SolverReport::short_text(*strategy)
-          : "";
+        const std::string suffix =
+          strategy ? "   " + SolverReport::short_text(*strategy) : "";
         for (unsigned int k = 0; k < history.size(); ++k)
           {
             char line[160];

@@ -56,13 +56,15 @@ namespace Ricochet
       }
     assemble(tangent, entry.matrix);
     if (!entry.factorisation)
-      entry.factorisation = factorisations.make(false);
+      entry.factorisation =
+        std::make_unique<Factorisation>(factorisations.name());
     const Stopwatch stopwatch(spent.factorising);
     ++spent.n_factorisations;
     bool is_regular = entry.factorisation->factorise(entry.matrix, keep_pivots);
     if (!is_regular && soften_constraints(entry.matrix))
       {
-        entry.factorisation = factorisations.make(false);
+        entry.factorisation =
+          std::make_unique<Factorisation>(factorisations.name());
         is_regular = entry.factorisation->factorise(entry.matrix, false);
       }
     if (!is_regular)

@@ -2,6 +2,7 @@
 #ifndef ricochet_solvers_direct_solver_h
 #define ricochet_solvers_direct_solver_h
 
+#include <solvers/factorisation.h>
 #include <solvers/factorisation_choice.h>
 #include <solvers/tangent_solver.h>
 

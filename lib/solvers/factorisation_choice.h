@@ -2,36 +2,27 @@
 #ifndef ricochet_solvers_factorisation_choice_h
 #define ricochet_solvers_factorisation_choice_h
 
-#include <solvers/factorisation.h>
-
-#include <memory>
+#include <cstddef>
 #include <string>
 
 namespace Ricochet
 {
-  /// Which factorisation is used for which matrices.
+  /// Which LU factorisation is used for whole tangents.
   struct FactorisationChoice
   {
-    /// "automatic", "CHOLMOD", "KLU" or "MUMPS".
+    /// "automatic", "KLU" or "MUMPS".
     std::string  wanted;
     unsigned int dim        = 0;
     std::size_t  n_unknowns = 0;
-    unsigned int n_ranks    = 1;
 
-    /// @param symmetric the matrix is, or its symmetric part will do.
+    /// "KLU" or "MUMPS".
     std::string
-    name(const bool symmetric) const;
-
-    /// Whether one of several ranks does it for all.
-    bool
-    is_gathered(const bool symmetric) const
+    name() const
     {
-      return n_ranks > 1 && name(symmetric) == "CHOLMOD";
+      if (wanted != "automatic")
+        return wanted;
+      return dim < 3 && n_unknowns < 20000 ? "KLU" : "MUMPS";
     }
-
-    /// @param approximate the symmetric part of the matrix will do.
-    std::unique_ptr<Factorisation>
-    make(const bool symmetric, const bool approximate = false) const;
   };
 } // namespace Ricochet
 

@@ -2,10 +2,8 @@
 #ifndef ricochet_solvers_functionals_h
 #define ricochet_solvers_functionals_h
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/types.h>
 
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -60,26 +58,6 @@ namespace Ricochet
   void
   sum_columns(std::vector<FunctionalRow> &rows);
 
-  /// A number, and the rows there of several matrices.
-  struct NumberedRows
-  {
-    unsigned int                 number;
-    std::array<FunctionalRow, 3> rows;
-  };
-
-  /// The @p rows of all ranks, by their numbers. What several ranks have of a row is summed.
-  /// Collective.
-  std::vector<NumberedRows>
-  sum_of_all_ranks(std::vector<NumberedRows> rows, const MPI_Comm communicator);
-
-  /// The same of two square matrices between functionals that have these @p numbers, in
-  /// which a rank has rows and columns of all functionals that it knows: those that are not
-  /// empty.
-  std::vector<NumberedRows>
-  rows_of_all_ranks(const std::vector<FunctionalRow> &first,
-                    const std::vector<FunctionalRow> &second,
-                    const std::vector<unsigned int>  &numbers,
-                    const MPI_Comm                    communicator);
 } // namespace Ricochet
 
 #endif

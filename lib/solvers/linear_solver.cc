@@ -1,15 +1,54 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
-#include <solvers/corrected_solver.h>
+#include <base/kept.h>
+#include <base/one_rank.h>
 #include <solvers/coupled_multigrid.h>
 #include <solvers/direct_solver.h>
-#include <solvers/krylov_solver.h>
 #include <solvers/linear_solver.h>
 #include <solvers/multigrid_solver.h>
 
 namespace Ricochet
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// Whether stages are condensed where nobody says how they are to be solved.
+    bool
+    condensing_pays(const ContactStructure &contact,
+                    const bool              linear_body,
+                    const unsigned int      dim,
+                    const std::size_t       n_unknowns)
+    {
+      // The tangent of a linear body changes with contact only. Between bodies its
+      // factorisation would be a new one in each iteration.
+      if (linear_body)
+        return n_unknowns > 1000 || contact.couplings_change;
+      // Of nonlinear bodies in 3D, factorisations take more of the time, and multigrid
+      // is faster by itself.
+      return n_unknowns > 1000 && (dim < 3 || !contact.couplings_change);
+    }
+
+    /// Whether the reference is multigrid where nobody says so.
+    bool
+    multigrid_pays(const LinearSolver::Parameters &parameters,
+                   const ContactStructure         &contact,
+                   const bool                      linear_body,
+                   const unsigned int              dim,
+                   const std::size_t               n_unknowns,
+                   const unsigned int              n_ranks)
+    {
+      if (contact.couplings_change && !(linear_body && contact.functionals))
+        // Factorisations of small bodies are faster, but not by much.
+        return dim == 3 && parameters.factorisation == "automatic" &&
+          n_unknowns > 5000;
+      return linear_body &&
+        (!contact.has_multipliers || contact.couplings_change) &&
+        LinearSolver::chooses_multigrid(parameters, dim, n_unknowns, n_ranks);
+    }
+  } // namespace
+
+
 
   LinearSolver::LinearSolver(const Parameters                   &parameters,
                              const ContactStructure             &contact,
@@ -20,105 +59,63 @@ namespace Ricochet
                              const std::size_t                   n_unknowns,
                              const unsigned int                  n_ranks)
     : linear_body(linear_body)
-    , may_condense(parameters.condense)
-    , factorisations{parameters.factorisation, dim, n_unknowns, n_ranks}
-    , type(parameters.type)
+    , contact(contact)
+    , factorisations{parameters.factorisation, dim, n_unknowns}
+    , n_kept(parameters.n_kept)
   {
-    if (parameters.factorisation == "CHOLMOD" && parameters.type == "direct")
+    const bool is_automatic = parameters.type == "automatic";
+    has_multigrid           = parameters.type == "multigrid" ||
+      (is_automatic &&
+       multigrid_pays(parameters,
+                      contact,
+                      linear_body,
+                      dim,
+                      n_unknowns,
+                      n_ranks));
+    is_condensed = parameters.type == "condensed" ||
+      (is_automatic && !has_multigrid && contact.functionals &&
+       condensing_pays(contact, linear_body, dim, n_unknowns));
+
+    if (parameters.type == "condensed" && !contact.functionals)
       throw InputError(
-        "CHOLMOD factors symmetric matrices only: with Linear "
-        "solver/Type = direct choose KLU, MUMPS or automatic.");
-    if (contact.couplings_change && !(linear_body && contact.functionals))
+        "Contact on cut faces cannot be condensed: choose Linear solver/Type = "
+        "direct, multigrid or automatic instead of condensed.");
+    if (is_condensed && n_ranks > 1)
       {
-        const std::string which = !linear_body ? "bodies that are not linear"
-          : n_ranks > 1
-          ? "bodies on cut faces, or on several MPI ranks where another contact "
-            "prescribes displacements of the same nodes,"
-          : "bodies on cut faces";
-        if (type == "corrected")
+        // Where factorisations grow faster than the ranks do, all of them are taken.
+        const std::size_t n_for_one_rank = dim < 3 ? 100000 : 30000;
+        if (!parameters.distribute &&
+            (!is_automatic || n_unknowns < n_for_one_rank))
+          throw OneRankSuffices(n_unknowns);
+        if (!is_automatic)
           throw InputError(
-            "Contact between bodies couples unknowns that the bodies do not "
-            "couple: for " +
-            which +
-            " choose Linear solver/Type = direct, multigrid or automatic "
-            "instead of corrected.");
-        if (parameters.factorisation == "CHOLMOD")
-          throw InputError(
-            "CHOLMOD factors symmetric matrices only: with contact between " +
-            which + " choose KLU, MUMPS or automatic.");
-        // Factorisations of small bodies are faster, but not by much.
-        if (type == "automatic")
-          type = dim == 3 && parameters.factorisation == "automatic" &&
-              n_unknowns > 5000
-            ? "multigrid"
-            : "direct";
+            "What is condensed to contact is on one MPI rank: with Linear "
+            "solver/Distribute = true choose Type = direct, multigrid or "
+            "automatic instead of condensed.");
+        is_condensed = false;
       }
-    if (type == "automatic")
-      {
-        // A nonlinear body gains where it is condensed to contact; otherwise by the
-        // symmetry only, and where a factorisation costs more than the iterations that
-        // it saves. Linear bodies before each other need a new one whenever contact
-        // changes.
-        const bool is_condensed = may_condense && contact.functionals;
-        const bool gains        = linear_body
-                 ? n_unknowns > 1000 || contact.couplings_change
-                 : n_unknowns > (is_condensed ? 1000 : 5000) &&
-            factorisations.name(true) == "CHOLMOD";
-        type = gains || parameters.factorisation == "CHOLMOD" ? "corrected"
-                                                              : "direct";
-        if (linear_body &&
-            (!contact.has_multipliers || contact.couplings_change) &&
-            chooses_multigrid(parameters, dim, n_unknowns, n_ranks))
-          type = "multigrid";
-      }
-    if (type == "multigrid" && contact.has_multipliers &&
-        !contact.couplings_change)
+    if (has_multigrid && contact.has_multipliers && !contact.couplings_change)
       throw InputError(
         "Multigrid cannot solve for multipliers. With Linear solver/Type = "
         "multigrid choose a treatment without: Nitsche, Nitsche-hybrid, "
         "penalty, normal compliance or an active set.");
-    if (type == "multigrid" && parameters.factorisation != "automatic")
+    if (has_multigrid && parameters.factorisation != "automatic")
       throw InputError(
         "Multigrid factors nothing: with Linear solver/Type = multigrid leave "
         "Linear solver/Factorisation at automatic.");
 
-    // Bodies that are not linear, before each other, condensed to contact; what takes
-    // over solves with all of it. In space it gains little, since factorisations take
-    // more of the time, and multigrid is faster by itself.
-    condenses_only = parameters.type == "automatic" && type == "direct" &&
-      contact.couplings_change && contact.functionals && !linear_body &&
-      may_condense && dim == 2 && n_unknowns > 1000 &&
-      factorisations.name(true) == "CHOLMOD";
-    if (condenses_only)
-      ways.push_back(std::make_unique<KrylovSolver>(factorisations, contact));
-
     // Memory of a factorisation in 3D grows faster than the body does.
     constexpr std::size_t largest_factorised = 200000;
-    const bool            may_fall_back =
-      parameters.type == "automatic" && n_unknowns < largest_factorised;
-    if (type == "multigrid" && contact.couplings_change)
-      ways.push_back(std::make_unique<CoupledMultigrid>(coarse_space()));
-    else if (type == "multigrid")
-      ways.push_back(std::make_unique<MultigridSolver>(contact,
-                                                       linear_body,
-                                                       clamped,
-                                                       coarse_space()));
-    if (type == "multigrid" && may_fall_back)
-      ways.push_back(
+    if (has_multigrid && contact.couplings_change)
+      solvers.push_back(std::make_unique<CoupledMultigrid>(coarse_space()));
+    else if (has_multigrid)
+      solvers.push_back(std::make_unique<MultigridSolver>(contact,
+                                                          linear_body,
+                                                          clamped,
+                                                          coarse_space()));
+    if (!has_multigrid || (is_automatic && n_unknowns < largest_factorised))
+      solvers.push_back(
         std::make_unique<DirectSolver>(factorisations, parameters.n_kept));
-    if (type != "multigrid")
-      {
-        // Where GMRES gives up, a factorisation with pivots will do.
-        if (type == "corrected" && linear_body)
-          ways.push_back(std::make_unique<CorrectedSolver>(factorisations,
-                                                           parameters.n_kept,
-                                                           contact));
-        else if (type == "corrected")
-          ways.push_back(
-            std::make_unique<KrylovSolver>(factorisations, contact));
-        ways.push_back(
-          std::make_unique<DirectSolver>(factorisations, parameters.n_kept));
-      }
   }
 
 
@@ -147,25 +144,24 @@ namespace Ricochet
       "Type",
       type,
       "direct: factor the tangent for each state of contact and keep the last "
-      "few. corrected: factor the body only and treat contact as a correction "
-      "of low rank; for nonlinear materials factor the body's tangent (with "
-      "CHOLMOD its symmetric part), with GMRES for the rest. multigrid: from "
+      "few. condensed: factor the body only, by CHOLMOD on one rank, and solve for contact "
+      "alone; that of a linear body is solved for twice in each stage of a time step, and "
+      "of another one the tangent of a few steps before serves in all iterations of a "
+      "step; where that fails, the whole tangent is factored. multigrid: from "
       "degree 2 to degree 1 and on by aggregation, not for treatments with multipliers "
       "of one body; between bodies by aggregation, with or without. automatic: "
-      "corrected above 1000 unknowns for linear bodies (before each other always), "
-      "as well for nonlinear ones that are condensed to contact, otherwise above 5000, if "
-      "CHOLMOD can be used; multigrid for linear bodies in 3D "
-      "above 50000 unknowns, or 30000 on several ranks, and for others before each "
-      "other in 3D above 5000 unknowns; otherwise direct.",
-      Patterns::Selection("automatic|direct|corrected|multigrid"));
+      "condensed above 1000 unknowns (linear bodies against each other always, nonlinear "
+      "ones in 2D); multigrid for linear bodies in 3D "
+      "above 50000 unknowns, or 30000 on several ranks, and for others against each "
+      "other in 3D above 5000 unknowns; otherwise direct. Results are the same to the "
+      "tolerance of Newton's method.",
+      Patterns::Selection("automatic|direct|condensed|multigrid"));
     parameters.add_parameter(
       "Factorisation",
       factorisation,
-      "CHOLMOD: Cholesky, for Type = corrected; of several MPI ranks one does it for "
-      "all. KLU: LU, fast for bars and plane meshes. MUMPS: LU, fast in 3D and parallel. "
-      "automatic: CHOLMOD where it can be, on several ranks below 100000 unknowns, in 3D "
-      "30000; otherwise KLU for bars and plane meshes below 20000 unknowns.",
-      Patterns::Selection("automatic|CHOLMOD|KLU|MUMPS"));
+      "Of whole tangents. KLU: LU, fast for bars and plane meshes. MUMPS: LU, fast in 3D "
+      "and parallel. automatic: KLU for bars and plane meshes below 20000 unknowns.",
+      Patterns::Selection("automatic|KLU|MUMPS"));
     parameters.add_parameter(
       "Kept factorisations",
       n_kept,
@@ -174,18 +170,11 @@ namespace Ricochet
       "cost memory.",
       Patterns::Integer(1, 1000));
     parameters.add_parameter(
-      "Condense to contact",
-      condense,
-      "With Type = corrected before obstacles, "
-      "and for bodies before each other (those that are not "
-      "linear in the plane, with Type = automatic, above 1000 unknowns), where all "
-      "contacts are of these kinds: Newton's method looks at these alone. A linear "
-      "body is solved for twice in each stage of a time step, instead of twice in each "
-      "iteration; for one that is not linear, the tangent at the last state, or with the "
-      "midpoint scheme that of a few steps before, serves in all "
-      "iterations of a step, which are more and much cheaper, and Newton's method takes "
-      "over where they are too slow. "
-      "Results are the same to the tolerance of Newton's method.");
+      "Distribute",
+      distribute,
+      "Take all MPI ranks, also where the run would be condensed to contact, which one "
+      "rank does with its threads: below 100000 unknowns, in 3D 30000, one is faster than "
+      "several, and the others wait.");
     parameters.leave_subsection();
   }
 
@@ -194,21 +183,16 @@ namespace Ricochet
   std::string
   LinearSolver::description() const
   {
-    if (type == "multigrid")
-      return n_taken_over == 0 ? "multigrid"
-                               : "multigrid; where it did not converge, " +
-          factorisations.name(false) + " in " + std::to_string(n_taken_over) +
-          " solutions";
-    const std::string name = factorisations.name(type == "corrected");
-    if (condenses_only)
-      return factorisations.name(true) +
-        ", kept for some steps and condensed to contact; where that fails, " +
-        name;
-    if (type == "direct")
-      return name + " for each state of contact";
-    return name +
-      (linear_body ? ", corrected for contact"
-                   : ", kept for several iterations of GMRES");
+    const std::string direct = factorisations.name();
+    if (is_condensed)
+      return std::string("CHOLMOD, condensed to contact") +
+        (linear_body ? "" : " with a frozen tangent") + "; where that fails, " +
+        direct;
+    if (!has_multigrid)
+      return direct + " for each state of contact";
+    return n_taken_over == 0 ? "multigrid"
+                             : "multigrid; where it did not converge, " +
+        direct + " in " + std::to_string(n_taken_over) + " solutions";
   }
 
 
@@ -220,58 +204,64 @@ namespace Ricochet
                       const bool     may_reuse,
                       const double   tolerance)
   {
-    // After a way that failed, the next one begins anew. Multigrid that did not converge
-    // is not tried again in its stage.
+    // After a solver that failed, the next one begins anew. Multigrid that did not
+    // converge is not tried again in its stage.
     bool         reuse      = may_reuse;
     unsigned int strategies = 0;
-    for (unsigned int w = 0; w < ways.size(); ++w)
-      if (ways[w]->takes(tangent) && !(multigrid_failed && w == 0))
-        {
-          if (ways[w]
-                ->solve(tangent, right_hand_side, solution, reuse, tolerance))
-            {
-              multigrid_failed = type == "multigrid" && w > 0;
-              n_taken_over += multigrid_failed;
-              return strategies | ways[w]->strategy();
-            }
-          reuse      = false;
-          strategies = SolverReport::iterative_failed;
-        }
+    for (unsigned int s = multigrid_failed ? 1 : 0; s < solvers.size(); ++s)
+      {
+        if (solvers[s]
+              ->solve(tangent, right_hand_side, solution, reuse, tolerance))
+          {
+            multigrid_failed = has_multigrid && s > 0;
+            n_taken_over += multigrid_failed;
+            return strategies | solvers[s]->strategy();
+          }
+        reuse      = false;
+        strategies = SolverReport::iterative_failed;
+      }
     throw NewtonFailure(
       "Multigrid does not converge. A thin body takes Linear solver/Type = direct "
-      "or, against obstacles only, corrected.\n");
+      "or, against obstacles only, condensed.\n");
   }
 
 
 
-  bool
-  LinearSolver::condenses() const
+  std::unique_ptr<ContactSchurComplement>
+  LinearSolver::make_schur_complement(const Tangent &tangent)
   {
-    return may_condense && way_to_condense().condenses();
+    auto complement = std::make_unique<ContactSchurComplement>(
+      *contact.functionals,
+      linear_body ? SparseCholesky::Kind::exact
+                  : SparseCholesky::Kind::frozen_tangent,
+      condensed_costs);
+    complement->factorise(tangent);
+    return complement;
   }
 
 
 
-  CondensedSystem &
+  ContactSchurComplement &
   LinearSolver::condensed(const Tangent &tangent)
   {
-    return way_to_condense().condensed(tangent);
-  }
-
-
-
-  void
-  LinearSolver::forget_condensed()
-  {
-    way_to_condense().forget_condensed();
-  }
-
-
-
-  TangentSolver &
-  LinearSolver::way_to_condense() const
-  {
-    return *ways.front();
+    if (linear_body)
+      return *find_or_make(
+                condensed_bodies,
+                n_kept,
+                [&](const Condensed &entry) {
+                  return entry.body == tangent.body;
+                },
+                [&]() {
+                  return Condensed{tangent.body,
+                                   make_schur_complement(tangent)};
+                })
+                .complement;
+    if (!frozen)
+      frozen = make_schur_complement(tangent);
+    else if (!has_frozen)
+      frozen->factorise(tangent);
+    has_frozen = true;
+    return *frozen;
   }
 
 
@@ -280,8 +270,20 @@ namespace Ricochet
   LinearSolver::begin_stage()
   {
     multigrid_failed = false;
-    for (const auto &way : ways)
-      way->begin_stage();
+    for (const auto &solver : solvers)
+      solver->begin_stage();
+  }
+
+
+
+  template <typename Cost>
+  Cost
+  LinearSolver::sum_of(const Cost TangentSolver::Costs::*cost) const
+  {
+    Cost sum = condensed_costs.*cost;
+    for (const auto &solver : solvers)
+      sum += solver->costs().*cost;
+    return sum;
   }
 
 
@@ -289,10 +291,7 @@ namespace Ricochet
   unsigned int
   LinearSolver::n_factorisations() const
   {
-    unsigned int sum = 0;
-    for (const auto &way : ways)
-      sum += way->costs().n_factorisations;
-    return sum;
+    return sum_of(&TangentSolver::Costs::n_factorisations);
   }
 
 
@@ -300,10 +299,7 @@ namespace Ricochet
   double
   LinearSolver::factorisation_seconds() const
   {
-    double sum = 0.;
-    for (const auto &way : ways)
-      sum += way->costs().factorising;
-    return sum;
+    return sum_of(&TangentSolver::Costs::factorising);
   }
 
 
@@ -311,10 +307,7 @@ namespace Ricochet
   unsigned int
   LinearSolver::n_back_substitutions() const
   {
-    unsigned int sum = 0;
-    for (const auto &way : ways)
-      sum += way->costs().n_substitutions;
-    return sum;
+    return sum_of(&TangentSolver::Costs::n_substitutions);
   }
 
 
@@ -322,9 +315,6 @@ namespace Ricochet
   double
   LinearSolver::back_substitution_seconds() const
   {
-    double sum = 0.;
-    for (const auto &way : ways)
-      sum += way->costs().substituting;
-    return sum;
+    return sum_of(&TangentSolver::Costs::substituting);
   }
 } // namespace Ricochet

@@ -4,12 +4,14 @@
 
 #include <base/types.h>
 #include <solvers/coarse_space.h>
+#include <solvers/contact_schur_complement.h>
 #include <solvers/factorisation_choice.h>
 #include <solvers/tangent_solver.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <functional>
+#include <list>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,38 +19,32 @@
 namespace Ricochet
 {
   /**
-   * Solves with the tangents of Newton's method, and keeps what it can.
+   * The two ways to solve a stage, and which of them a run takes.
    *
-   * "direct" factors a tangent for each state of contact and keeps the last
-   * few; with nonlinear materials and laws it factors each tangent.
+   * The reference assembles the whole tangent and solves with it. "direct" factors a
+   * tangent for each state of contact and keeps the last few; with nonlinear materials
+   * and laws it factors each tangent. "multigrid" solves each system iteratively, for
+   * bodies in 3D whose factorisation takes too long or too much memory; chosen by
+   * "automatic", it leaves systems of less than 200000 unknowns for which it does not
+   * converge to a factorisation.
    *
-   * "corrected" keeps one factorisation of the body and treats contact as a
-   * correction of low rank: for a linear body one factorisation per length of
-   * the time step. With a nonlinear material the symmetric part of each new
-   * tangent is factored, which costs less than half of a factorisation with
-   * pivots, and GMRES does the rest.
-   *
-   * Bodies that are not linear, before each other in the plane, are condensed to
-   * contact, with a factorisation of the bodies that serves for as many steps as it is
-   * worth it; "direct" takes over where that fails.
-   *
-   * "multigrid" solves each system iteratively, for bodies in three dimensions
-   * whose factorisation takes too long or too much memory. Chosen by "automatic", it
-   * leaves systems of less than 200000 unknowns for which it does not converge to a
-   * factorisation.
+   * "condensed" looks at contact alone, by the contact Schur complement of the body: that
+   * of a linear body is made once for each length of the time step, that of another one
+   * with a frozen tangent. It is on one rank; where it does not solve a stage, the
+   * reference takes over.
    */
   class LinearSolver
   {
   public:
     struct Parameters
     {
-      /// "automatic", "direct", "corrected" or "multigrid".
+      /// "automatic", "direct", "condensed" or "multigrid".
       std::string type = "automatic";
-      /// "automatic", "CHOLMOD", "KLU" or "MUMPS".
+      /// "automatic", "KLU" or "MUMPS".
       std::string  factorisation = "automatic";
       unsigned int n_kept        = 8;
-      /// Let Newton's method look at contact alone where it can.
-      bool condense = true;
+      /// Take all MPI ranks, also where one of them is faster.
+      bool distribute = false;
 
       void
       add_parameters(dealii::ParameterHandler &parameters);
@@ -63,6 +59,7 @@ namespace Ricochet
      * fast.
      * @param n_unknowns number of unknowns on all ranks.
      * @throws InputError when the parameters do not go together.
+     * @throws OneRankSuffices when it would condense on one rank.
      */
     LinearSolver(const Parameters                   &parameters,
                  const ContactStructure             &contact,
@@ -90,14 +87,7 @@ namespace Ricochet
           const bool     may_reuse,
           const double   tolerance);
 
-    /// Whether it solves with the whole matrix, with all that contact couples.
-    bool
-    needs_couplings() const
-    {
-      return type != "corrected";
-    }
-
-    /// Whether a linear body without multipliers, before rigid obstacles, is solved
+    /// Whether a linear body without multipliers, against rigid obstacles, is solved
     /// for by multigrid.
     static bool
     chooses_multigrid(const Parameters  &parameters,
@@ -105,22 +95,26 @@ namespace Ricochet
                       const std::size_t  n_unknowns,
                       const unsigned int n_ranks);
 
-    /// Whether there is a condensed() system.
+    /// Whether stages are condensed() first.
     bool
-    condenses() const;
+    condenses() const
+    {
+      return is_condensed;
+    }
 
-    /// The matrix of the linear body of @p tangent condensed to the functionals
-    /// through which contact acts, which serves until the next solve(); of a body that
-    /// is not linear, the symmetric part of the first tangent since
-    /// forget_condensed(). @pre condenses()
+    /// The contact Schur complement of the body of @p tangent; of a body that is not
+    /// linear, that of the first tangent since forget_condensed(). @pre condenses()
     /// @throws NewtonFailure when the body's matrix cannot be factored.
-    CondensedSystem &
+    ContactSchurComplement &
     condensed(const Tangent &tangent);
 
     /// The next condensed() system of a body that is not linear is that of its own
     /// tangent.
     void
-    forget_condensed();
+    forget_condensed()
+    {
+      has_frozen = false;
+    }
 
     /// Between two calls pivots are kept, which is faster; after one, results do
     /// not depend on what came before, so that a resumed run repeats them digit
@@ -132,13 +126,13 @@ namespace Ricochet
     unsigned int
     n_factorisations() const;
 
-    /// Time spent in factoring, in solving for columns of corrections, and in
+    /// Time spent in factoring, in forward solves of the rows of contact, and in
     /// setting up multigrid (s).
     double
     factorisation_seconds() const;
 
-    /// Number of solutions with factorisations, but for what is solved once and
-    /// kept.
+    /// Number of solutions with factorisations; those of the rows of contact, which are
+    /// kept, do not count.
     unsigned int
     n_back_substitutions() const;
 
@@ -153,21 +147,39 @@ namespace Ricochet
       return n_taken_over;
     }
 
-    /// What is used, in words: "CHOLMOD, corrected for contact".
+    /// What is used, in words.
     std::string
     description() const;
 
   private:
-    TangentSolver &
-    way_to_condense() const;
+    /// The sum of one of the costs of all that solves.
+    template <typename Cost>
+    Cost
+    sum_of(const Cost TangentSolver::Costs::*cost) const;
 
-    const bool                linear_body, may_condense;
+    std::unique_ptr<ContactSchurComplement>
+    make_schur_complement(const Tangent &tangent);
+
+    /// The Schur complement of a linear body, with the weights of its matrices.
+    struct Condensed
+    {
+      std::optional<BodyKey>                  body;
+      std::unique_ptr<ContactSchurComplement> complement;
+    };
+
+    const bool                linear_body;
+    const ContactStructure    contact;
     const FactorisationChoice factorisations;
-    std::string               type;
-    // The first way is there to condense, and solves nothing.
-    bool condenses_only = false;
-    // The ways to solve, one after the other until one succeeds.
-    std::vector<std::unique_ptr<TangentSolver>> ways;
+    const unsigned int        n_kept;
+    bool                      is_condensed = false;
+    std::list<Condensed>      condensed_bodies;
+    // Of a body that is not linear.
+    std::unique_ptr<ContactSchurComplement> frozen;
+    bool                                    has_frozen = false;
+    TangentSolver::Costs                    condensed_costs;
+    // The reference: one behind the other until one succeeds.
+    std::vector<std::unique_ptr<TangentSolver>> solvers;
+    bool                                        has_multigrid = false;
     // In this stage; how often something else has taken over.
     bool         multigrid_failed = false;
     unsigned int n_taken_over     = 0;

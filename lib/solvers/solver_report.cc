@@ -24,7 +24,6 @@ namespace Ricochet
     static const std::vector<std::pair<unsigned int, std::string>> list = {
       {direct, "direct"},
       {multigrid, "multigrid"},
-      {corrected, "corrected"},
       {condensed, "condensed"},
       {frozen_tangent, "frozen tangent"},
       {tangent_renewed, "tangent made anew within the step"},

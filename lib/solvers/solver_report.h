@@ -20,25 +20,23 @@ namespace Ricochet
       direct = 1,
       /// Linear systems of the whole tangent are solved by multigrid.
       multigrid = 2,
-      /// The factorisation of the body is corrected for contact.
-      corrected = 4,
       /// The stage of a linear body is condensed to contact.
-      condensed = 8,
+      condensed = 4,
       /// The stage is condensed to contact, with a frozen tangent of the body.
-      frozen_tangent = 16,
+      frozen_tangent = 8,
       /// Fallback: the tangent of earlier steps did not serve, and was made anew within
       /// the step.
-      tangent_renewed = 32,
+      tangent_renewed = 16,
       /// Fallback: the iterations of a condensed stage began anew, from where they had
       /// got stuck.
-      condensed_restarted = 64,
+      condensed_restarted = 32,
       /// Fallback: the condensed stage was not solved, and the whole system took over.
-      condensed_failed = 128,
+      condensed_failed = 64,
       /// Fallback: an iterative linear solver did not converge, and the whole tangent was
       /// factored.
-      iterative_failed = 256,
+      iterative_failed = 128,
       /// Fallback: Newton's method failed, and the stage began again from the last state.
-      stage_repeated = 512
+      stage_repeated = 256
     };
 
     /// Sum of #Strategy.

@@ -26,40 +26,17 @@ namespace Ricochet
     {
       Functionals         functionals;
       std::vector<double> order;
-
-      /// A functional of another rank: which, and its number there.
-      struct Elsewhere
-      {
-        unsigned int rank, number;
-      };
-      /// Those between which contact of this rank may act, too. In changes of tangents
-      /// they have the numbers behind those of this rank.
-      std::vector<Elsewhere> elsewhere;
-
-      /// Functionals that this rank has numbers for.
-      unsigned int
-      n_known() const
-      {
-        return functionals.size() + elsewhere.size();
-      }
     };
     std::optional<ActsThrough> functionals;
 
-    /// What contact adds is symmetric, or nearly so (friction), and may be
-    /// factored together with the body.
-    bool is_nearly_symmetric = false;
-    /// It is symmetric.
+    /// What contact adds is symmetric.
     bool is_symmetric = false;
-    /// Unknowns are clamped: their rows are cleared, their columns are not.
-    bool is_clamped = false;
     /// It brings unknowns of its own.
     bool has_multipliers = false;
     /// It couples unknowns that the body does not couple, and not always the same.
     bool couplings_change = false;
     /// It takes rows of the body out, and puts its own there.
     bool takes_rows = false;
-    /// Coefficients of its functionals are not of one kind: some are not forces.
-    bool has_mixed_functionals = false;
   };
 
   /// What names the body's part of a tangent: the weights of its terms.
@@ -98,8 +75,6 @@ namespace Ricochet
     MatrixSum body_terms;
     /// Add contact.
     std::function<void(Matrix &)> complete_contact;
-    /// Add what contact adds when all points are open.
-    std::function<void(Matrix &)> complete_open_contact;
     /// Add what contact adds besides contact_change.
     std::function<void(Matrix &)> complete_constant_contact;
     /// The difference of that and complete_contact as the rows of a matrix C between the

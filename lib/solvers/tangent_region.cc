@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <base/all_ranks.h>
-#include <solvers/functional_places.h>
 #include <solvers/tangent_region.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <Eigen/KLUSupport>
 #include <Epetra_CrsMatrix.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace Ricochet
@@ -29,7 +26,7 @@ namespace Ricochet
       double       value;
     };
 
-    /// This rank's rows of a matrix, one behind the other.
+    /// The rows of a matrix, one behind the other.
     struct Rows
     {
       explicit Rows(const Matrix &of)
@@ -83,23 +80,17 @@ namespace Ricochet
     UnknownList
     largest(const Vector &vector)
     {
-      const MPI_Comm      communicator = vector.get_mpi_communicator();
-      const double       *own          = vector.trilinos_vector()[0];
-      const std::size_t   n_own        = vector.locally_owned_size();
-      std::vector<double> sizes(own, own + n_own);
+      std::vector<double> sizes(vector.begin(), vector.end());
       for (double &size : sizes)
         size = std::abs(size);
-      std::vector<double> all = of_all_ranks(sizes, communicator);
-      const auto          last =
-        all.begin() + static_cast<std::ptrdiff_t>(region_share * all.size());
-      std::nth_element(all.begin(), last, all.end(), std::greater<>());
-      const IndexSet indices = vector.locally_owned_elements();
-      UnknownList    unknowns;
-      for (std::size_t i = 0; i < n_own; ++i)
+      std::vector<double> sorted(sizes);
+      const auto          last = sorted.begin() +
+        static_cast<std::ptrdiff_t>(region_share * sizes.size());
+      std::nth_element(sorted.begin(), last, sorted.end(), std::greater<>());
+      UnknownList unknowns;
+      for (std::size_t i = 0; i < sizes.size(); ++i)
         if (sizes[i] > *last)
-          unknowns.push_back(indices.nth_index_in_set(i));
-      unknowns = of_all_ranks(unknowns, communicator);
-      sort_and_unite(unknowns);
+          unknowns.push_back(i);
       return unknowns;
     }
 
@@ -116,25 +107,30 @@ namespace Ricochet
         action(functionals.index[k], functionals.value[k]);
     }
 
+    /// The derivatives C and E of contact, by row.
+    using ContactRows = std::array<std::vector<FunctionalRow>, 2>;
+
     /// Add the unknowns that @p contact couples with those of the @p region.
     void
-    add_contact(const std::vector<NumberedRows> &contact,
-                const Functionals               &functionals,
-                UnknownList                     &region)
+    add_contact(const ContactRows &contact,
+                const Functionals &functionals,
+                UnknownList       &region)
     {
       const Places places(region);
       UnknownList  coupled;
-      for (const NumberedRows &row : contact)
+      for (unsigned int f = 0; f < functionals.size(); ++f)
         {
+          if (contact[0][f].empty() && contact[1][f].empty())
+            continue;
           coupled.clear();
           bool       touches = false;
           const auto add     = [&](const auto unknown, const double) {
             coupled.push_back(unknown);
             touches = touches || places(unknown) != not_there;
           };
-          for_each_unknown(functionals, row.number, add);
-          for (const FunctionalRow &of_row : row.rows)
-            for (const auto &entry : of_row)
+          for_each_unknown(functionals, f, add);
+          for (const std::vector<FunctionalRow> &rows : contact)
+            for (const auto &entry : rows[f])
               for_each_unknown(functionals, entry.first, add);
           if (touches)
             region.insert(region.end(), coupled.begin(), coupled.end());
@@ -142,19 +138,19 @@ namespace Ricochet
       sort_and_unite(region);
     }
 
-    /// The entries between unknowns of a region of one of the matrices of @p contact.
+    /// The entries of a matrix between rows of contact that are between unknowns of a
+    /// region.
     std::vector<Entry>
-    entries_of(const std::vector<NumberedRows> &contact,
-               const unsigned int               which,
-               const Functionals               &functionals,
-               const Places                    &places)
+    entries_of(const std::vector<FunctionalRow> &rows,
+               const Functionals                &functionals,
+               const Places                     &places)
     {
       std::vector<Entry> entries;
-      for (const NumberedRows &row : contact)
-        for (const auto &[other, change] : row.rows[which])
+      for (unsigned int f = 0; f < functionals.size(); ++f)
+        for (const auto &[other, change] : rows[f])
           for_each_unknown(
             functionals,
-            row.number,
+            f,
             [&, other = other, change = change](const auto   i,
                                                 const double along_i) {
               const unsigned int place = places(i);
@@ -193,7 +189,7 @@ namespace Ricochet
     Eigen::KLU<Eigen::SparseMatrix<double>> factors;
     Eigen::Index                            n = 0;
 
-    /// An unknown of this rank in the region: its place there and here, and what makes its
+    /// An unknown in the region: its place there and here, and what makes its
     /// equation one of forces.
     struct Own
     {
@@ -202,7 +198,7 @@ namespace Ricochet
     };
     std::vector<Own> own;
 
-    /// K - T: rows of this rank, columns by place.
+    /// K - T: rows here, columns by place.
     std::vector<Entry> difference;
   };
 
@@ -232,36 +228,21 @@ namespace Ricochet
 
 
 
-  std::vector<NumberedRows>
-  TangentRegion::rows_of_contact(const Tangent &contact) const
-  {
-    std::vector<FunctionalRow> change(numbers.size()),
-      excess_change(numbers.size());
-    contact.contact_change(change);
-    contact.contact_excess_change(excess_change);
-    return rows_of_all_ranks(change, excess_change, numbers, communicator);
-  }
-
-
-
   void
   TangentRegion::find(
     const Vector                                             &residual,
     const Tangent                                            &contact,
-    const CondensedSystem                                    &kept,
+    const ContactSchurComplement                             &kept,
     const std::function<void(const UnknownList &, Matrix &)> &add_difference)
   {
     forget();
-    communicator = residual.get_mpi_communicator();
-    if (!functionals)
-      {
-        const auto &own = kept.acts_through();
-        numbers         = FunctionalPlaces(own, communicator).numbers;
-        functionals = functionals_of_all_ranks(own.functionals, communicator);
-      }
-    const auto  of_contact = rows_of_contact(contact);
-    UnknownList region     = largest(residual);
-    add_contact(of_contact, *functionals, region);
+    const Functionals &functionals = kept.rows();
+    ContactRows        of_contact;
+    of_contact.fill(std::vector<FunctionalRow>(kept.n_rows()));
+    contact.contact_change(of_contact[0]);
+    contact.contact_excess_change(of_contact[1]);
+    UnknownList region = largest(residual);
+    add_contact(of_contact, functionals, region);
     if (region.empty())
       return;
     const Places places(region);
@@ -299,10 +280,10 @@ namespace Ricochet
           }
       }
     const Eigen::SparseMatrix<double>
-      body  = sparse_matrix(of_all_ranks(entries, communicator), system->n),
-      put   = sparse_matrix(entries_of(of_contact, 0, *functionals, places),
+      body  = sparse_matrix(entries, system->n),
+      put   = sparse_matrix(entries_of(of_contact[0], functionals, places),
                           system->n),
-      taken = sparse_matrix(entries_of(of_contact, 1, *functionals, places),
+      taken = sparse_matrix(entries_of(of_contact[1], functionals, places),
                             system->n);
     const Eigen::SparseMatrix<double> matrix = body + taken * body + put;
     system->factors.compute(matrix);
@@ -318,7 +299,6 @@ namespace Ricochet
     std::vector<double> residual(small->n, 0.);
     for (const auto &own : small->own)
       residual[own.place] = force[own.local] / own.scaling;
-    Utilities::MPI::sum(residual, communicator, residual);
     const Eigen::VectorXd displacement = small->factors.solve(
       Eigen::Map<const Eigen::VectorXd>(residual.data(), small->n));
     for (const Entry &entry : small->difference)

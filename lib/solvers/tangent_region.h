@@ -2,13 +2,12 @@
 #ifndef ricochet_solvers_tangent_region_h
 #define ricochet_solvers_tangent_region_h
 
-#include <solvers/condensed_system.h>
+#include <solvers/contact_schur_complement.h>
 #include <solvers/functionals.h>
 #include <solvers/tangent.h>
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace Ricochet
@@ -31,8 +30,6 @@ namespace Ricochet
    *     r + (K - T) d,
    *
    * as contact takes its rows out of what that leaves over.
-   *
-   * The small system is factored and solved by all ranks, each of which has all of it.
    */
   class TangentRegion
   {
@@ -43,7 +40,7 @@ namespace Ricochet
     /**
      * Look for the region anew: the unknowns with a twentieth of all entries of @p
      * residual, the largest ones, and what contact couples with them. There is none if the
-     * small system is singular. Collective.
+     * small system is singular.
      *
      * @param residual of the rows of forces (N), after a few steps of T.
      * @param contact has C and E.
@@ -55,7 +52,7 @@ namespace Ricochet
     find(
       const Vector                                             &residual,
       const Tangent                                            &contact,
-      const CondensedSystem                                    &kept,
+      const ContactSchurComplement                             &kept,
       const std::function<void(const UnknownList &, Matrix &)> &add_difference);
 
     void
@@ -64,22 +61,13 @@ namespace Ricochet
     bool
     exists() const;
 
-    /// Make r + (K - T) d of this rank's entries r of a @p force (N). @pre exists().
-    /// Collective.
+    /// Make r + (K - T) d of the entries r of a @p force (N). @pre exists().
     void
     complete(std::vector<double> &force) const;
 
   private:
     struct SmallSystem;
 
-    /// The rows of C and E of all ranks.
-    std::vector<NumberedRows>
-    rows_of_contact(const Tangent &contact) const;
-
-    MPI_Comm communicator = MPI_COMM_SELF;
-    // Of all ranks, and the numbers there of those that this rank knows.
-    std::optional<Functionals>   functionals;
-    std::vector<unsigned int>    numbers;
     std::unique_ptr<SmallSystem> small;
     Matrix                       difference;
   };

@@ -2,7 +2,6 @@
 #ifndef ricochet_solvers_tangent_solver_h
 #define ricochet_solvers_tangent_solver_h
 
-#include <solvers/condensed_system.h>
 #include <solvers/solver_report.h>
 #include <solvers/tangent.h>
 
@@ -31,13 +30,6 @@ namespace Ricochet
     virtual SolverReport::Strategy
     strategy() const = 0;
 
-    /// Whether it is made for such tangents.
-    virtual bool
-    takes(const Tangent & /*tangent*/) const
-    {
-      return true;
-    }
-
     /// See LinearSolver::solve(). @return whether @p solution solves; otherwise
     /// another way has to.
     virtual bool
@@ -46,25 +38,6 @@ namespace Ricochet
           Vector        &solution,
           const bool     may_reuse,
           const double   tolerance) = 0;
-
-    /// Whether it has condensed() systems.
-    virtual bool
-    condenses() const
-    {
-      return false;
-    }
-
-    /// See LinearSolver::condensed().
-    virtual CondensedSystem &
-    condensed(const Tangent & /*tangent*/)
-    {
-      AssertThrow(false, dealii::ExcMessage("It condenses nothing."));
-    }
-
-    /// See LinearSolver::forget_condensed().
-    virtual void
-    forget_condensed()
-    {}
 
     /// See LinearSolver::begin_stage().
     virtual void

@@ -2,6 +2,8 @@
 #include <base/threads.h>
 #include <solvers/triangular_factor.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -134,8 +136,6 @@ namespace Ricochet
     , unknown(columns.order, columns.order + columns.n)
     , block_of(columns.n)
     , inverse_diagonal(columns.n)
-    , root_of_inverse(columns.n)
-    , dense(columns.n, 0.)
   {
     for (int k = 0; k < columns.n; ++k)
       place[columns.order[k]] = k;
@@ -194,9 +194,6 @@ namespace Ricochet
             const double  scale = columns.diagonal_is_of_l ? 1. / *value : 1.;
             inverse_diagonal[column] = columns.sign[columns.order[column]] *
               (columns.diagonal_is_of_l ? scale * scale : 1. / *value);
-            root_of_inverse[column] = columns.diagonal_is_of_l
-              ? std::abs(scale)
-              : std::sqrt(std::abs(inverse_diagonal[column]));
             for (++row, ++value; row != rows_end && *row < end; ++row, ++value)
               values[row_at[*row] + c] = static_cast<Value>(*value * scale);
             for (; row != rows_end; ++row, ++value)
@@ -206,6 +203,7 @@ namespace Ricochet
           block.parent = block_of[block.parent];
       }
     is_needed.assign(blocks.size(), 0);
+    row_of_block.assign(blocks.size(), -1);
 
     int last_parent = -1;
     for (unsigned int b = 0; b < blocks.size(); ++b)
@@ -235,92 +233,96 @@ namespace Ricochet
 
   template <typename Value>
   void
-  TriangularFactor<Value>::eliminate(const Block &block, double *half) const
+  TriangularFactor<Value>::eliminate(const Block &block, double *forward) const
   {
-    with_width(block.width, [half, seen = view(block, half)](const auto width) {
-      const auto [own, triangle, below, rows, rows_end] = seen;
-      const Value *value                                = triangle;
-      for (int i = 1; i < width; ++i)
-        {
-          double sum = 0.;
-          for (int c = 0; c < i; ++c)
-            sum += value[c] * own[c];
-          own[i] -= sum;
-          value += i;
-        }
-      value = below;
-      if constexpr (std::is_same_v<decltype(width), const int>)
-        for (const int *row = rows; row != rows_end; ++row, value += 2 * width)
-          {
-            DoublePair sum = pair(value) * own[0];
-            for (int c = 1; c < width; ++c)
-              sum += pair(value + 2 * c) * own[c];
-            at(half + *row) -= sum;
-          }
-      else
-        {
-          // Two columns at once.
-          DoubleQuad own_twice[width / 2];
-          for (int c = 0; c < width; c += 2)
-            own_twice[c / 2] =
-              DoubleQuad{own[c], own[c], own[c + 1], own[c + 1]};
-          for (const int *row = rows; row != rows_end;
-               ++row, value += 2 * width)
-            {
-              DoubleQuad sum = quad(value) * own_twice[0];
-              for (int c = 1; c < width / 2; ++c)
-                sum += quad(value + 4 * c) * own_twice[c];
-              at(half + *row) -=
-                DoublePair{sum[0], sum[1]} + DoublePair{sum[2], sum[3]};
-            }
-        }
-    });
+    with_width(block.width,
+               [forward, seen = view(block, forward)](const auto width) {
+                 const auto [own, triangle, below, rows, rows_end] = seen;
+                 const Value *value                                = triangle;
+                 for (int i = 1; i < width; ++i)
+                   {
+                     double sum = 0.;
+                     for (int c = 0; c < i; ++c)
+                       sum += value[c] * own[c];
+                     own[i] -= sum;
+                     value += i;
+                   }
+                 value = below;
+                 if constexpr (std::is_same_v<decltype(width), const int>)
+                   for (const int *row = rows; row != rows_end;
+                        ++row, value += 2 * width)
+                     {
+                       DoublePair sum = pair(value) * own[0];
+                       for (int c = 1; c < width; ++c)
+                         sum += pair(value + 2 * c) * own[c];
+                       at(forward + *row) -= sum;
+                     }
+                 else
+                   {
+                     // Two columns at once.
+                     DoubleQuad own_twice[width / 2];
+                     for (int c = 0; c < width; c += 2)
+                       own_twice[c / 2] =
+                         DoubleQuad{own[c], own[c], own[c + 1], own[c + 1]};
+                     for (const int *row = rows; row != rows_end;
+                          ++row, value += 2 * width)
+                       {
+                         DoubleQuad sum = quad(value) * own_twice[0];
+                         for (int c = 1; c < width / 2; ++c)
+                           sum += quad(value + 4 * c) * own_twice[c];
+                         at(forward + *row) -= DoublePair{sum[0], sum[1]} +
+                           DoublePair{sum[2], sum[3]};
+                       }
+                   }
+               });
   }
 
 
 
   template <typename Value>
   void
-  TriangularFactor<Value>::substitute(const Block &block, double *half) const
+  TriangularFactor<Value>::substitute(const Block &block, double *forward) const
   {
-    with_width(block.width, [half, seen = view(block, half)](const auto width) {
-      const auto [own, triangle, below, rows, rows_end] = seen;
-      // As it goes from the last block to the first, so in each of them.
-      const Value *value = below + 2 * width * (rows_end - rows);
-      if constexpr (std::is_same_v<decltype(width), const int>)
-        {
-          DoublePair sums[largest_width] = {};
-          for (const int *row = rows_end; row-- != rows;)
-            {
-              value -= 2 * width;
-              const DoublePair values = at(half + *row);
-              for (int c = 0; c < width; ++c)
-                sums[c] += pair(value + 2 * c) * values;
-            }
-          for (int c = 0; c < width; ++c)
-            own[c] -= sums[c][0] + sums[c][1];
-        }
-      else
-        {
-          DoubleQuad sums[width / 2] = {};
-          for (const int *row = rows_end; row-- != rows;)
-            {
-              value -= 2 * width;
-              const DoublePair two = at(half + *row);
-              const DoubleQuad values{two[0], two[1], two[0], two[1]};
-              for (int c = 0; c < width / 2; ++c)
-                sums[c] += quad(value + 4 * c) * values;
-            }
-          for (int c = 0; c < width; ++c)
-            own[c] -= sums[c / 2][c % 2 * 2] + sums[c / 2][c % 2 * 2 + 1];
-        }
-      for (int i = width - 1; i > 0; --i)
-        {
-          const Value *row = triangle + i * (i - 1) / 2;
-          for (int c = 0; c < i; ++c)
-            own[c] -= row[c] * own[i];
-        }
-    });
+    with_width(
+      block.width,
+      [forward, seen = view(block, forward)](const auto width) {
+        const auto [own, triangle, below, rows, rows_end] = seen;
+        // As it goes from the last block to the first, so in each of them.
+        const Value *value = below + 2 * width * (rows_end - rows);
+        if constexpr (std::is_same_v<decltype(width), const int>)
+          {
+            DoublePair sums[largest_width] = {};
+            for (const int *row = rows_end; row-- != rows;)
+              {
+                value -= 2 * width;
+                const DoublePair values = at(forward + *row);
+                for (int c = 0; c < width; ++c)
+                  sums[c] += pair(value + 2 * c) * values;
+              }
+            for (int c = 0; c < width; ++c)
+              own[c] -= sums[c][0] + sums[c][1];
+          }
+        else
+          {
+            DoubleQuad sums[width / 2] = {};
+            for (const int *row = rows_end; row-- != rows;)
+              {
+                value -= 2 * width;
+                const DoublePair two = at(forward + *row);
+                const DoubleQuad values{two[0], two[1], two[0], two[1]};
+                for (int c = 0; c < width / 2; ++c)
+                  sums[c] += quad(value + 4 * c) * values;
+              }
+            for (int c = 0; c < width; ++c)
+              own[c] -= sums[c / 2][c % 2 * 2] + sums[c / 2][c % 2 * 2 + 1];
+          }
+        for (int i = width - 1; i > 0; --i)
+          {
+            const Value *row = triangle + i * (i - 1) / 2;
+            for (int c = 0; c < i; ++c)
+              own[c] -= row[c] * own[i];
+          }
+      });
   }
 
 
@@ -351,78 +353,146 @@ namespace Ricochet
 
   template <typename Value>
   void
-  TriangularFactor<Value>::go_forwards(const double        *right_hand_side,
-                                       std::vector<double> &half,
-                                       const std::vector<double> *factor) const
+  TriangularFactor<Value>::forward(const double        *right_hand_side,
+                                   std::vector<double> &forward) const
   {
-    half.resize(n());
+    forward.resize(n());
     for_each_part([&](const unsigned int begin, const unsigned int end) {
       for (int k = first_place(begin); k < first_place(end); ++k)
-        half[k] = right_hand_side[unknown[k]];
+        forward[k] = right_hand_side[unknown[k]];
       for (unsigned int b = begin; b < end; ++b)
-        eliminate(blocks[b], half.data());
-      if (factor != nullptr)
-        for (int k = first_place(begin); k < first_place(end); ++k)
-          half[k] *= (*factor)[k];
+        eliminate(blocks[b], forward.data());
     });
   }
 
 
 
-  template <typename Value>
-  typename TriangularFactor<Value>::Half
-  TriangularFactor<Value>::go_forwards(const std::vector<Start> &start) const
+  namespace
   {
-    Half half;
-    for (const Start &entry : start)
+    constexpr unsigned int n_columns = TriangularSolves::n_columns;
+
+    /// The columns of a row.
+    using Row = Eigen::Matrix<double, n_columns, 1>;
+  } // namespace
+
+
+
+  template <typename Value>
+  template <typename ColumnsOf>
+  void
+  TriangularFactor<Value>::eliminate_columns(const Block     &block,
+                                             double          *own,
+                                             const ColumnsOf &columns_of) const
+  {
+    const auto   seen   = view(block, nullptr);
+    const int    width  = block.width;
+    const Value *value  = seen.triangle;
+    const auto   own_at = [own](const int c) {
+      return Eigen::Map<Row>(own + c * n_columns);
+    };
+    for (int i = 1; i < width; ++i)
+      for (int c = 0; c < i; ++c)
+        own_at(i) -= *value++ * own_at(c);
+    value = seen.below;
+    for (const int *row = seen.rows; row != seen.rows_end; ++row)
       {
-        dense[entry.place] += entry.value;
-        mark(block_of[entry.place], half.blocks);
+        Row sums[2] = {Row::Zero(), Row::Zero()};
+        for (int c = 0; c < width; ++c, value += 2)
+          for (int k = 0; k < 2; ++k)
+            sums[k] += value[k] * own_at(c);
+        // A row that fills a pair up may be on no path.
+        for (int k = 0; k < 2; ++k)
+          if (double *const target = columns_of(*row + k))
+            Eigen::Map<Row>(target) -= sums[k];
       }
-    finish(half.blocks);
-    for (const int b : half.blocks)
+  }
+
+
+
+  template <typename Value>
+  TriangularSolves::ForwardColumns
+  TriangularFactor<Value>::forward(
+    const Functionals               &rows,
+    const std::vector<unsigned int> &numbers) const
+  {
+    ForwardColumns columns;
+    const auto     for_each_entry = [&](const auto &action) {
+      for (unsigned int c = 0; c < numbers.size(); ++c)
+        for (std::size_t k = rows.begin[numbers[c]];
+             k < rows.begin[numbers[c] + 1];
+             ++k)
+          action(c, place[rows.index[k]], rows.value[k]);
+    };
+    for_each_entry([&](const unsigned int, const int at, const double) {
+      mark(block_of[at], columns.blocks);
+    });
+    finish(columns.blocks);
+    int n_rows = 0;
+    for (const int b : columns.blocks)
       {
-        const Block &block = blocks[b];
-        eliminate(block, dense.data());
-        half.values.insert(half.values.end(),
-                           dense.begin() + block.first,
-                           dense.begin() + block.first + block.width);
-        std::fill_n(dense.begin() + block.first, block.width, 0.);
+        row_of_block[b] = n_rows;
+        n_rows += blocks[b].width;
       }
-    return half;
+    columns.values.assign(static_cast<std::size_t>(n_rows) * n_columns, 0.);
+    const auto columns_of = [&](const int at) -> double * {
+      const int row = row_of_block[block_of[at]];
+      return row < 0 ? nullptr
+                     : columns.values.data() +
+          static_cast<std::size_t>(row + at - blocks[block_of[at]].first) *
+            n_columns;
+    };
+    for_each_entry([&](const unsigned int c, const int at, const double value) {
+      columns_of(at)[c] += value;
+    });
+    for (const int b : columns.blocks)
+      eliminate_columns(blocks[b], columns_of(blocks[b].first), columns_of);
+    for (const int b : columns.blocks)
+      row_of_block[b] = -1;
+    return columns;
   }
 
 
 
   template <typename Value>
   void
-  TriangularFactor<Value>::go_backwards(const double              *half,
-                                        std::vector<double>       &work,
-                                        double                    *solution,
-                                        const std::vector<double> &factor) const
+  TriangularFactor<Value>::backward(std::vector<double> &forward,
+                                    double              *solution) const
   {
     for_each_part([&](const unsigned int begin, const unsigned int end) {
       for (int k = first_place(begin); k < first_place(end); ++k)
-        work[k] = factor[k] * half[k];
+        forward[k] *= inverse_diagonal[k];
       for (unsigned int b = end; b-- > begin;)
-        substitute(blocks[b], work.data());
+        substitute(blocks[b], forward.data());
       for (int k = first_place(begin); k < first_place(end); ++k)
-        solution[unknown[k]] = work[k];
+        solution[unknown[k]] = forward[k];
     });
   }
 
 
 
   template <typename Value>
+  std::vector<int>
+  TriangularFactor<Value>::region_of(const std::vector<Index> &unknowns) const
+  {
+    std::vector<int> region;
+    for (const Index unknown : unknowns)
+      mark(block_of[place[unknown]], region);
+    finish(region);
+    return region;
+  }
+
+
+
+  template <typename Value>
   void
-  TriangularFactor<Value>::go_backwards(const std::vector<double> &half,
-                                        const std::vector<int>    &region,
-                                        std::vector<double> &solution) const
+  TriangularFactor<Value>::backward(const std::vector<double> &forward,
+                                    const std::vector<int>    &region,
+                                    std::vector<double>       &solution) const
   {
     solution.resize(n());
     for (const int b : region)
       for (int k = blocks[b].first; k < blocks[b].first + blocks[b].width; ++k)
-        solution[k] = inverse_diagonal[k] * half[k];
+        solution[k] = inverse_diagonal[k] * forward[k];
     for (auto b = region.rbegin(); b != region.rend(); ++b)
       substitute(blocks[*b], solution.data());
   }
@@ -430,51 +500,71 @@ namespace Ricochet
 
 
   template <typename Value>
-  double
-  TriangularFactor<Value>::product(const Half                &one,
-                                   const std::vector<double> &other) const
+  void
+  TriangularFactor<Value>::multiply(const ForwardColumns &one,
+                                    const ForwardColumns &other,
+                                    std::vector<double>  &products) const
   {
-    // Two sums do not wait for each other.
-    std::array<double, 2> sums{};
-    const double         *value = one.values.data();
-    for (const int b : one.blocks)
-      {
-        const int end = blocks[b].first + blocks[b].width;
-        int       k   = blocks[b].first;
-        for (; k + 1 < end; k += 2, value += 2)
-          {
-            sums[0] += value[0] * inverse_diagonal[k] * other[k];
-            sums[1] += value[1] * inverse_diagonal[k + 1] * other[k + 1];
-          }
-        if (k < end)
-          sums[0] += *value++ * inverse_diagonal[k] * other[k];
-      }
-    return sums[0] + sums[1];
+    using Columns =
+      Eigen::Matrix<double, Eigen::Dynamic, n_columns, Eigen::RowMajor>;
+    using Products =
+      Eigen::Matrix<double, n_columns, n_columns, Eigen::RowMajor>;
+    Products sum = Products::Zero();
+    Columns  scaled;
+    // Rows that follow each other in both.
+    const auto add_rows = [&](const double *left,
+                              const double *right,
+                              const int     first,
+                              const int     n) {
+      scaled =
+        Eigen::Map<const Eigen::VectorXd>(inverse_diagonal.data() + first, n)
+          .asDiagonal() *
+        Eigen::Map<const Columns>(right, n, n_columns);
+      sum.noalias() +=
+        Eigen::Map<const Columns>(left, n, n_columns).transpose() * scaled;
+    };
+    const double *left = one.values.data(), *right = other.values.data();
+    auto          l = one.blocks.begin(), r = other.blocks.begin();
+    const auto    pass = [&](auto &block, const double *&values) {
+      values += blocks[*block].width * n_columns;
+      ++block;
+    };
+    while (l != one.blocks.end() && r != other.blocks.end())
+      if (*l < *r)
+        pass(l, left);
+      else if (*r < *l)
+        pass(r, right);
+      else
+        {
+          const double *first_left = left, *first_right = right;
+          const int     first = blocks[*l].first;
+          int           end   = first;
+          while (l != one.blocks.end() && r != other.blocks.end() && *l == *r &&
+                 blocks[*l].first == end)
+            {
+              end += blocks[*l].width;
+              pass(l, left);
+              pass(r, right);
+            }
+          add_rows(first_left, first_right, first, end - first);
+        }
+    products.assign(sum.data(), sum.data() + n_columns * n_columns);
   }
 
 
 
   template <typename Value>
   void
-  TriangularFactor<Value>::add(const double         factor,
-                               const Half          &half,
-                               std::vector<double> &other) const
+  TriangularFactor<Value>::add(const ForwardColumns &columns,
+                               const double         *coefficients,
+                               std::vector<double>  &forward) const
   {
-    const double *value = half.values.data();
-    for (const int b : half.blocks)
-      for (int k = blocks[b].first; k < blocks[b].first + blocks[b].width; ++k)
-        other[k] += factor * *value++;
-  }
-
-
-
-  template <typename Value>
-  void
-  TriangularFactor<Value>::clear(const Half          &half,
-                                 std::vector<double> &other) const
-  {
-    for (const int b : half.blocks)
-      std::fill_n(other.begin() + blocks[b].first, blocks[b].width, 0.);
+    const double *value = columns.values.data();
+    for (const int b : columns.blocks)
+      for (int k = blocks[b].first; k < blocks[b].first + blocks[b].width;
+           ++k, value += n_columns)
+        for (unsigned int c = 0; c < n_columns; ++c)
+          forward[k] += coefficients[c] * value[c];
   }
 
 

@@ -3,6 +3,7 @@
 #define ricochet_solvers_triangular_factor_h
 
 #include <base/large_pages.h>
+#include <solvers/functionals.h>
 
 #include <array>
 #include <cstddef>
@@ -11,8 +12,80 @@
 namespace Ricochet
 {
   /**
-   * The factors of a symmetric matrix A = P^T L D L^T P, in the order in which ways
-   * through them read L, from one end to the other: it is memory that limits them.
+   * Solutions with the factors of a symmetric matrix A = P^T L D L^T P, whole or in
+   * part. The forward solve of a sparse right-hand side is made of the few columns of L
+   * on the path of the elimination tree from its unknowns to the last one; entries of
+   * the inverse as seen by two sparse vectors are products of their forward solves.
+   */
+  class TriangularSolves
+  {
+  public:
+    using Index = dealii::types::global_dof_index;
+
+    /// Columns of a ForwardColumns, one beside the other, so that L is read once for
+    /// all of them.
+    static constexpr unsigned int n_columns = 16;
+
+    /// Vectors L^{-1} P b of some sparse b: the blocks of L on their paths, ascending, and
+    /// their values, a row of #n_columns for each unknown.
+    struct ForwardColumns
+    {
+      std::vector<int>    blocks;
+      std::vector<double> values;
+    };
+
+    virtual ~TriangularSolves() = default;
+
+    /// Number of unknowns.
+    virtual unsigned int
+    n() const = 0;
+
+    /// @p forward = L^{-1} P @p right_hand_side.
+    virtual void
+    forward(const double        *right_hand_side,
+            std::vector<double> &forward) const = 0;
+
+    /// The same for the rows @p numbers (at most #n_columns) of a sparse matrix.
+    virtual ForwardColumns
+    forward(const Functionals               &rows,
+            const std::vector<unsigned int> &numbers) const = 0;
+
+    /// @p solution = P^T L^{-T} D^{-1} @p forward, which is overwritten.
+    virtual void
+    backward(std::vector<double> &forward, double *solution) const = 0;
+
+    /// The blocks on the paths of some unknowns to the last one, ascending.
+    virtual std::vector<int>
+    region_of(const std::vector<Index> &unknowns) const = 0;
+
+    /// P^T L^{-T} D^{-1} @p forward in the blocks of @p region, which holds the paths of
+    /// all its members; elsewhere nothing of meaning. By place, see place_of().
+    virtual void
+    backward(const std::vector<double> &forward,
+             const std::vector<int>    &region,
+             std::vector<double>       &solution) const = 0;
+
+    /// Place of an unknown in the order of the factors.
+    virtual int
+    place_of(const Index unknown) const = 0;
+
+    /// One^T D^{-1} other: the entries between the columns of both, #n_columns squared, by
+    /// rows.
+    virtual void
+    multiply(const ForwardColumns &one,
+             const ForwardColumns &other,
+             std::vector<double>  &products) const = 0;
+
+    /// Add the @p columns times @p coefficients (of each column) to @p forward.
+    virtual void
+    add(const ForwardColumns &columns,
+        const double         *coefficients,
+        std::vector<double>  &forward) const = 0;
+  };
+
+  /**
+   * The factors in the order in which solves pass through L, from one end to the other:
+   * it is memory that limits them.
    *
    * Columns of L with the same rows below them, or nearly so, make blocks, with zeros
    * where a column has nothing. The rows below are stored in pairs of rows that follow
@@ -23,7 +96,7 @@ namespace Ricochet
    * double precision.
    */
   template <typename Value>
-  class TriangularFactor
+  class TriangularFactor : public TriangularSolves
   {
   public:
     /// Columns as sparse factorisations leave them.
@@ -39,110 +112,52 @@ namespace Ricochet
       /// The diagonal is that of L; otherwise it is D, and that of L is 1.
       bool diagonal_is_of_l;
       /// -1 for unknowns whose rows have been multiplied by that, which couple to no
-      /// other one; otherwise 1.
+      /// others than their like; otherwise 1.
       const double *sign;
     };
 
     explicit TriangularFactor(const Columns &columns);
 
-    /// A vector L^{-1} P b of a sparse b: blocks in their order, and their values one
-    /// behind the other.
-    struct Half
-    {
-      std::vector<int>    blocks;
-      std::vector<double> values;
-    };
-
     unsigned int
-    n() const
+    n() const override
     {
       return place.size();
     }
 
-    /// @p half = L^{-1} P @p right_hand_side.
     void
-    go_forwards(const double *right_hand_side, std::vector<double> &half) const
-    {
-      go_forwards(right_hand_side, half, nullptr);
-    }
+    forward(const double        *right_hand_side,
+            std::vector<double> &forward) const override;
 
-    /// @p half = |D|^{-1/2} L^{-1} P @p right_hand_side.
+    ForwardColumns
+    forward(const Functionals               &rows,
+            const std::vector<unsigned int> &numbers) const override;
+
     void
-    go_half_way(const double *right_hand_side, std::vector<double> &half) const
-    {
-      go_forwards(right_hand_side, half, &root_of_inverse);
-    }
+    backward(std::vector<double> &forward, double *solution) const override;
 
-    /// The same for a sparse right hand side: @p n_entries values with their unknowns.
-    template <typename Index>
-    Half
-    go_forwards(const Index       *unknowns,
-                const double      *values,
-                const unsigned int n_entries) const
-    {
-      std::vector<Start> start;
-      for (unsigned int k = 0; k < n_entries; ++k)
-        start.push_back({place[unknowns[k]], values[k]});
-      return go_forwards(start);
-    }
-
-    /// @p solution = P^T L^{-T} D^{-1} @p half, which is overwritten.
-    void
-    go_backwards(std::vector<double> &half, double *solution) const
-    {
-      go_backwards(half.data(), half, solution, inverse_diagonal);
-    }
-
-    /// @p solution = P^T L^{-T} |D|^{-1/2} @p half
-    /// @param work space.
-    void
-    go_other_half_way(const std::vector<double> &half,
-                      std::vector<double>       &work,
-                      double                    *solution) const
-    {
-      work.resize(n());
-      go_backwards(half.data(), work, solution, root_of_inverse);
-    }
-
-    /// @p one D^{-1} @p other
-    double
-    product(const Half &one, const std::vector<double> &other) const;
-
-    /// The blocks on the ways of some unknowns to the last one.
-    template <typename Index>
     std::vector<int>
-    region_of(const std::vector<Index> &unknowns) const
-    {
-      std::vector<int> region;
-      for (const Index unknown : unknowns)
-        mark(block_of[place[unknown]], region);
-      finish(region);
-      return region;
-    }
+    region_of(const std::vector<Index> &unknowns) const override;
 
-    /// P^T L^{-T} D^{-1} @p half where @p region is; elsewhere nothing of meaning.
     void
-    go_backwards(const std::vector<double> &half,
-                 const std::vector<int>    &region,
-                 std::vector<double>       &solution) const;
+    backward(const std::vector<double> &forward,
+             const std::vector<int>    &region,
+             std::vector<double>       &solution) const override;
 
-    /// Place of an unknown in the last go_backwards() with a region.
-    template <typename Index>
     int
-    place_of(const Index unknown) const
+    place_of(const Index unknown) const override
     {
       return place[unknown];
     }
 
-    /// @p other += @p factor @p half
     void
-    add(const double         factor,
-        const Half          &half,
-        std::vector<double> &other) const;
+    multiply(const ForwardColumns &one,
+             const ForwardColumns &other,
+             std::vector<double>  &products) const override;
 
-    /// @p other = 0 where @p half has values.
     void
-    clear(const Half &half, std::vector<double> &other) const;
+    add(const ForwardColumns &columns,
+        const double         *coefficients,
+        std::vector<double>  &forward) const override;
 
   private:
     struct Block
@@ -158,31 +173,11 @@ namespace Ricochet
       int parent;
     };
 
-    struct Start
-    {
-      int    place;
-      double value;
-    };
-
-    Half
-    go_forwards(const std::vector<Start> &start) const;
-
-    void
-    go_forwards(const double              *right_hand_side,
-                std::vector<double>       &half,
-                const std::vector<double> *factor) const;
-
-    void
-    go_backwards(const double              *half,
-                 std::vector<double>       &work,
-                 double                    *solution,
-                 const std::vector<double> &factor) const;
-
     /// The first column and the end of each block.
     static std::vector<std::array<int, 2>>
     find_blocks(const Columns &columns);
 
-    /// Where the values of a block of a half solution are, and what #values and
+    /// Where the values of a block of a forward solve are, and what #values and
     /// #first_rows have for it.
     struct View
     {
@@ -192,22 +187,31 @@ namespace Ricochet
     };
 
     View
-    view(const Block &block, double *half) const
+    view(const Block &block, double *forward) const
     {
-      return {half + block.first,
+      return {forward + block.first,
               values.data() + block.triangle,
               values.data() + block.below,
               first_rows.data() + block.begin,
               first_rows.data() + block.end};
     }
 
-    /// Take @p block out of @p half.
+    /// Take @p block out of @p forward.
     void
-    eliminate(const Block &block, double *half) const;
+    eliminate(const Block &block, double *forward) const;
 
-    /// Take what is known below it out of @p block of @p half, and solve.
+    /// The same for the columns @p own of a block.
+    /// @param columns_of a function that returns the columns of a row, null for one that is
+    /// on no path.
+    template <typename ColumnsOf>
     void
-    substitute(const Block &block, double *half) const;
+    eliminate_columns(const Block     &block,
+                      double          *own,
+                      const ColumnsOf &columns_of) const;
+
+    /// Take what is known below it out of @p block of @p forward, and solve.
+    void
+    substitute(const Block &block, double *forward) const;
 
     /// Add @p block and those after it to @p region, if they are not in it.
     void
@@ -235,15 +239,15 @@ namespace Ricochet
     std::vector<Block> blocks;
     std::vector<int>   first_rows;
     LargeVector<Value> values;
-    // 1 / D, and the root of its absolute values.
-    std::vector<double> inverse_diagonal, root_of_inverse;
+    // 1 / D
+    std::vector<double> inverse_diagonal;
     // No column before a block of #trees has rows in it or behind it; and how many values
     // there are before it. The last one is the end.
     std::vector<unsigned int> trees;
     std::vector<double>       values_before;
-    // Work space: zero between calls.
-    mutable std::vector<double> dense;
-    mutable std::vector<char>   is_needed;
+    // Work space: zero between calls, and -1 between calls.
+    mutable std::vector<char> is_needed;
+    mutable std::vector<int>  row_of_block;
   };
 } // namespace Ricochet
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <base/all_ranks.h>
 #include <base/exceptions.h>
 #include <base/vector_operations.h>
 #include <time_integration/condensed_stage.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +11,7 @@ namespace Ricochet
   using namespace dealii;
 
   CondensedStage::CondensedStage(const NewtonSolver::Problem &problem,
-                                 CondensedSystem             &system,
+                                 ContactSchurComplement      &system,
                                  ContactOperator             &contact,
                                  const Vector                &residual,
                                  const ContactForces         &contact_forces,
@@ -22,7 +19,6 @@ namespace Ricochet
     : problem(problem)
     , system(system)
     , contact(contact)
-    , communicator(residual.get_mpi_communicator())
     , contact_forces(contact_forces)
     , body_force_scale(problem.force_scale() - contact_forces.scale)
     , contact_force_scale(contact_forces.scale)
@@ -38,9 +34,9 @@ namespace Ricochet
     const std::vector<double> all = by_place(forces);
     for (double &force : forces)
       force = -force;
-    system.add_functionals(forces, open_residual);
+    system.add_rows(forces, open_residual);
     if (contact.takes_rows())
-      open_excess = system.along_functionals(open_residual);
+      open_excess = system.along_rows(open_residual);
     system.begin(open_residual);
     look_around(all);
   }
@@ -93,10 +89,9 @@ namespace Ricochet
   std::vector<double>
   CondensedStage::by_place(const std::vector<double> &coefficients) const
   {
-    std::vector<double> all(system.n_functionals(), 0.);
+    std::vector<double> all(system.n_rows());
     for (unsigned int f = 0; f < coefficients.size(); ++f)
       all[system.place(f)] = coefficients[f];
-    Utilities::MPI::sum(all, communicator, all);
     return all;
   }
 
@@ -119,8 +114,8 @@ namespace Ricochet
     if (contact.takes_rows())
       {
         work = 0.;
-        system.add_functionals(unknowns.coefficients, work);
-        excess = system.along_functionals(work);
+        system.add_rows(unknowns.coefficients, work);
+        excess = system.along_rows(work);
         for (unsigned int f = 0; f < excess.size(); ++f)
           excess[f] = (1. - unknowns.share) * open_excess[f] - excess[f];
       }
@@ -130,7 +125,7 @@ namespace Ricochet
       unknowns.coefficients[f] = forces[f] - unknowns.coefficients[f];
     contact_force_scale = unknowns.share == 0.
       ? contact_forces.scale
-      : system.norm_of_functionals(forces, nullptr, work);
+      : system.norm_of_rows(forces, nullptr);
     unknowns.share      = 1. - unknowns.share;
     write(unknowns, result);
   }
@@ -142,13 +137,12 @@ namespace Ricochet
   {
     const Unknowns rest = read(small_residual);
     if (rest.share == 0.)
-      return system.norm_of_functionals(rest.coefficients,
-                                        contact_forces.row_scaling,
-                                        work) +
+      return system.norm_of_rows(rest.coefficients,
+                                 contact_forces.row_scaling) +
         contact_forces.weight * contact.linearisation_error();
     work = 0.;
     work.add(rest.share, open_residual);
-    system.add_functionals(rest.coefficients, work);
+    system.add_rows(rest.coefficients, work);
     return problem.norm(work);
   }
 
@@ -165,10 +159,11 @@ namespace Ricochet
     const std::uint64_t active_set = contact.active_set_signature();
     if (!may_reuse || tangent_active_set != active_set)
       {
-        change.assign(system.n_known(), {});
+        change.assign(system.n_rows(), {});
         contact.tangent_change(change);
-        excess_change.assign(system.n_known(), {});
+        excess_change.assign(system.n_rows(), {});
         contact.excess_change(excess_change);
+        system.set_contact(change, excess_change);
         tangent_active_set = active_set;
       }
     for (unsigned int f = 0; f < open_excess.size(); ++f)
@@ -178,8 +173,8 @@ namespace Ricochet
     std::vector<double> values(flight_values);
     for (double &value : values)
       value *= -rest.share;
-    values.resize(system.n_functionals(), 0.);
-    system.solve_contact(change, excess_change, coefficients, values);
+    values.resize(system.n_rows(), 0.);
+    system.solve_contact(coefficients, values);
     for (unsigned int f = 0; f < rest.coefficients.size(); ++f)
       rest.coefficients[f] = -coefficients[system.place(f)];
     rest.share = -rest.share;
@@ -194,19 +189,7 @@ namespace Ricochet
                         SolverReport &report,
                         const double  sufficient)
   {
-    const unsigned int n_own = forces.size() + 1;
-    const auto         sizes =
-      of_all_ranks(std::vector<unsigned int>{n_own}, communicator);
-    const auto   rank  = Utilities::MPI::this_mpi_process(communicator);
-    unsigned int first = 0, n_all = 0;
-    for (unsigned int r = 0; r < sizes.size(); ++r)
-      {
-        first += r < rank ? sizes[r] : 0;
-        n_all += sizes[r];
-      }
-    IndexSet own(n_all);
-    own.add_range(first, first + n_own);
-    Vector unknowns(own, communicator);
+    Vector unknowns(complete_index_set(forces.size() + 1), MPI_COMM_SELF);
 
     const NewtonSolver::Problem condensed{
       [this](const Vector &point, Vector &result) { residual(point, result); },

@@ -3,7 +3,7 @@
 #define ricochet_time_integration_condensed_stage_h
 
 #include <contact/contact_operator.h>
-#include <solvers/condensed_system.h>
+#include <solvers/contact_schur_complement.h>
 #include <solvers/newton.h>
 #include <solvers/solver_report.h>
 
@@ -57,7 +57,7 @@ namespace Ricochet
      * @param space is not used by another one as long as this one is.
      */
     CondensedStage(const NewtonSolver::Problem &problem,
-                   CondensedSystem             &system,
+                   ContactSchurComplement      &system,
                    ContactOperator             &contact,
                    const Vector                &residual,
                    const ContactForces         &contact_forces,
@@ -87,7 +87,7 @@ namespace Ricochet
     }
 
   private:
-    /// z and s of this rank, from and to the small vectors of Newton's method.
+    /// z and s, from and to the small vectors of Newton's method.
     struct Unknowns
     {
       std::vector<double> coefficients;
@@ -100,7 +100,7 @@ namespace Ricochet
     static void
     write(const Unknowns &unknowns, Vector &vector);
 
-    /// Coefficients of all ranks, by place.
+    /// Coefficients by place.
     std::vector<double>
     by_place(const std::vector<double> &coefficients) const;
 
@@ -117,15 +117,14 @@ namespace Ricochet
     double
     norm(const Vector &small_residual);
 
-    /// Make #flight_values reach as far as contact with these @p coefficients, of
-    /// all ranks, may; at least.
+    /// Make #flight_values reach as far as contact with these @p coefficients, by place,
+    /// may; at least.
     void
     look_around(const std::vector<double> &coefficients);
 
     const NewtonSolver::Problem &problem;
-    CondensedSystem             &system;
+    ContactSchurComplement      &system;
     ContactOperator             &contact;
-    const MPI_Comm               communicator;
     const ContactForces          contact_forces;
     /// Magnitude of all forces but contact's (N), and of contact's.
     double body_force_scale, contact_force_scale;

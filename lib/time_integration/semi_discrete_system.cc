@@ -40,11 +40,9 @@ namespace Ricochet
             }
           structure.functionals->functionals = std::move(free);
         }
-      structure.is_clamped =
-        Utilities::MPI::max(my_clamped.n_elements() > 0 ? 1 : 0,
-                            communicator) == 1;
       // Rows of clamped unknowns are cleared, columns are not.
-      if (structure.is_clamped)
+      if (Utilities::MPI::max(my_clamped.n_elements() > 0 ? 1 : 0,
+                              communicator) == 1)
         structure.is_symmetric = false;
       return structure;
     }
@@ -66,7 +64,6 @@ namespace Ricochet
     contact_shares.resize(other.contact_shares.size());
     for (unsigned int k = 0; k < contact_shares.size(); ++k)
       copy_values(other.contact_shares[k], contact_shares[k]);
-    tangent = other.tangent;
     return *this;
   }
 
@@ -196,6 +193,7 @@ namespace Ricochet
                                     const Vector &velocity,
                                     const double  time)
   {
+    frozen_tangent.forget();
     State state;
     state.time     = time;
     state.solution = displacement;
@@ -275,31 +273,31 @@ namespace Ricochet
   void
   SemiDiscreteSystem::condense_body(StageProblem &problem,
                                     const Stage  &stage,
-                                    const Vector &old_solution,
-                                    KeptTangent  &kept)
+                                    const Vector &old_solution)
   {
-    if (!kept.serves(stage.time_step))
+    if (!frozen_tangent.serves(stage.time_step))
       {
-        kept.begin(stage.end_time, stage.time_step, old_solution);
+        frozen_tangent.begin(stage.end_time, stage.time_step, old_solution);
         ++problem.report.n_tangents;
       }
-    copy_values(kept.solution, kept_guess);
+    copy_values(frozen_tangent.solution, frozen_guess);
     if (unknowns.impose)
-      unknowns.impose(kept.record.end_time, kept_guess);
-    if (tangent_at_hand.is_same(kept))
+      unknowns.impose(frozen_tangent.record.end_time, frozen_guess);
+    if (factored_tangent.is_same(frozen_tangent))
       return;
-    tangent_at_hand.forget();
-    problem.condense_at(kept_point(kept));
-    tangent_at_hand = kept;
+    factored_tangent.forget();
+    problem.condense_at(frozen_point());
+    factored_tangent = frozen_tangent;
   }
 
   StageProblem::TangentPoint
-  SemiDiscreteSystem::kept_point(const KeptTangent &kept) const
+  SemiDiscreteSystem::frozen_point() const
   {
-    return {kept.solution,
-            kept_guess,
-            kept.record.end_time,
-            kept.record.end_time + kept.record.time_step};
+    const FrozenTangent::Record &record = frozen_tangent.record;
+    return {frozen_tangent.solution,
+            frozen_guess,
+            record.end_time,
+            record.end_time + record.time_step};
   }
 
   bool
@@ -308,11 +306,9 @@ namespace Ricochet
     const NewtonSolver::Problem &newton_problem,
     const Stage                 &stage,
     const ContactStart          &start,
-    State                       &new_state)
+    Vector                      &solution)
   {
-    Vector      &solution = new_state.solution;
-    KeptTangent &kept     = new_state.tangent;
-    first_guess           = solution;
+    first_guess = solution;
     for (;;)
       {
         // Contact may have thrown the body far from free flight, and its tangent there
@@ -322,14 +318,14 @@ namespace Ricochet
         try
           {
             if (!body_is_condensed)
-              condense_body(problem, stage, start.solution, kept);
-            body_is_condensed   = true;
+              condense_body(problem, stage, start.solution);
+            body_is_condensed = true;
             problem.report.add(SolverReport::frozen_tangent);
-            is_old              = kept.exists();
+            is_old              = frozen_tangent.exists();
             is_solved           = quasi_newton.solve(problem,
                                            newton_problem,
                                            condensed_newton,
-                                           kept_point(kept),
+                                           frozen_point(),
                                            solution);
             const auto &history = quasi_newton.iterations();
             n_iterations_with_tangent += history.size() - 1;
@@ -350,7 +346,7 @@ namespace Ricochet
         if (is_solved || !is_old)
           return is_solved;
         problem.report.add(SolverReport::tangent_renewed);
-        kept.forget();
+        frozen_tangent.forget();
         body_is_condensed         = false;
         n_iterations_with_tangent = 0;
         contact.begin_stage(start, stage.contact_weight_new);
@@ -403,7 +399,6 @@ namespace Ricochet
     // Not again in this stage where it has failed, which it would do once more.
     bool condenses = linear_solver.condenses() &&
       (bulk.is_linear() || quasi_newton.is_allowed());
-    new_state.tangent           = old_state.tangent;
     const auto solve_all_passes = [&]() {
       problem.forget_tangents();
       body_is_condensed         = false;
@@ -421,7 +416,7 @@ namespace Ricochet
                                             newton_problem,
                                             stage,
                                             start,
-                                            new_state);
+                                            solution);
                   if (is_solved)
                     continue;
                   problem.report.add(SolverReport::condensed_failed);
@@ -474,9 +469,9 @@ namespace Ricochet
       }
     // Where Newton's method had to take over, the next step needs another tangent.
     if (condenses && !bulk.is_linear() && stage.bulk_step_force)
-      new_state.tangent.count(n_iterations_with_tangent);
+      frozen_tangent.count(n_iterations_with_tangent);
     else
-      new_state.tangent.forget();
+      frozen_tangent.forget();
     // A support that moves would do work that is in no balance.
     for (const auto i : clamped_list)
       {

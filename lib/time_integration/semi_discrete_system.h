@@ -12,7 +12,7 @@
 #include <solvers/mass_solver.h>
 #include <solvers/newton.h>
 #include <time_integration/condensed_stage.h>
-#include <time_integration/kept_tangent.h>
+#include <time_integration/frozen_tangent.h>
 #include <time_integration/quasi_newton.h>
 #include <time_integration/stage.h>
 
@@ -48,8 +48,6 @@ namespace Ricochet
     /// -M a as the scheme's own equation of motion gives it (N); only the
     /// energy balance reads it.
     Vector scheme_force;
-    /// Of a body that is not linear, with schemes whose forces are those of a step.
-    KeptTangent tangent;
 
     State()              = default;
     State(const State &) = default;
@@ -225,6 +223,10 @@ namespace Ricochet
     ContactOperator    &contact;
     const Unknowns      unknowns;
 
+    /// The record of the stage solver: the tangent that it may go on with, of a body that
+    /// is not linear and schemes whose forces are those of a step. A checkpoint has it.
+    FrozenTangent frozen_tangent;
+
     /// What solves the linear systems, in words.
     std::string
     linear_solver_description() const
@@ -293,25 +295,24 @@ namespace Ricochet
 
     /// The same for a body that is not linear, with one tangent for all iterates: that
     /// of earlier steps, if it serves, or one at the begin of this step. If it is not
-    /// solved, @p new_state has the guess, or a solution that is nearer.
+    /// solved, @p solution is the guess, or one that is nearer.
     bool
     solve_near_last_state(StageProblem                &problem,
                           const NewtonSolver::Problem &newton_problem,
                           const Stage                 &stage,
                           const ContactStart          &start,
-                          State                       &new_state);
+                          Vector                      &solution);
 
-    /// Condense the body for a stage, with the tangent @p kept, or with a new one if
-    /// that does not serve.
+    /// Condense the body for a stage, with the #frozen_tangent, or with a new one if that
+    /// does not serve.
     void
     condense_body(StageProblem &problem,
                   const Stage  &stage,
-                  const Vector &old_solution,
-                  KeptTangent  &kept);
+                  const Vector &old_solution);
 
     /// Where that tangent is made. @pre condense_body()
     StageProblem::TangentPoint
-    kept_point(const KeptTangent &kept) const;
+    frozen_point() const;
 
     /// The forces of contact are those of the operator's last call.
     void
@@ -341,11 +342,11 @@ namespace Ricochet
     // Newton's method may begin, the guess where it begins elsewhere, and the residual at
     // the guess (N).
     Vector reaction, safe_guess, first_guess, residual;
-    // The one with which the body is condensed now, and its state with the displacements
-    // prescribed at the end of its step; in this stage, whether that was done, and how
-    // many iterations were made with it.
-    KeptTangent   tangent_at_hand;
-    Vector        kept_guess;
+    // The tangent that is factored, and its state with the displacements prescribed at the
+    // end of its step; in this stage, whether that was done, and how many iterations were
+    // made with it.
+    FrozenTangent factored_tangent;
+    Vector        frozen_guess;
     bool          body_is_condensed         = false;
     unsigned int  n_iterations_with_tangent = 0;
     UnitedPattern united_pattern;

@@ -224,9 +224,7 @@ namespace Ricochet
     };
     tangent.row_scaling = &parts.contact.row_scaling();
     const Couplings *couplings =
-      !condenses && parts.linear_solver.needs_couplings()
-      ? parts.contact.couplings()
-      : nullptr;
+      condenses ? nullptr : parts.contact.couplings();
     if (couplings)
       {
         parts.united_pattern.update(parts.pattern(), *couplings);
@@ -248,8 +246,6 @@ namespace Ricochet
       };
     };
     tangent.complete_contact = complete(&TangentContact::complete_tangent);
-    tangent.complete_open_contact =
-      complete(&TangentContact::complete_open_tangent);
     tangent.complete_constant_contact =
       complete(&TangentContact::complete_constant_tangent);
     tangent.contact_change = [this](std::vector<FunctionalRow> &change) {
@@ -281,10 +277,10 @@ namespace Ricochet
     if (!has_name && !reuse)
       ++report.n_tangents;
     report.strategies |= parts.linear_solver.solve(current,
-                              right_hand_side,
-                              update,
-                              reuse,
-                              tolerance);
+                                                   right_hand_side,
+                                                   update,
+                                                   reuse,
+                                                   tolerance);
     // Iterative solvers leave something of their tolerance in clamped unknowns, too,
     // which no residual would ever show.
     set_clamped_to_zero(parts.clamped, update);

@@ -310,19 +310,18 @@ class Summary:
         return "\n".join(lines)
 
 
-#: The numbers whose sum is the column `solver`, as in `lib/solvers/solver_report.cc`; those from 32
+#: The numbers whose sum is the column `solver`, as in `lib/solvers/solver_report.cc`; those from 16
 #: on are fallbacks.
 SOLVERS = {
     1: "direct",
     2: "multigrid",
-    4: "corrected",
-    8: "condensed",
-    16: "frozen tangent",
-    32: "tangent made anew within the step",
-    64: "condensed iterations begun anew",
-    128: "whole system instead of the condensed one",
-    256: "factored instead of iterated",
-    512: "stage begun again from the last state",
+    4: "condensed",
+    8: "frozen tangent",
+    16: "tangent made anew within the step",
+    32: "condensed iterations begun anew",
+    64: "whole system instead of the condensed one",
+    128: "factored instead of iterated",
+    256: "stage begun again from the last state",
 }
 
 

@@ -204,7 +204,6 @@ class CollidingSpheres(ProgramTest):
                 (["Contact/Coupling=dual mortar", "Contact/Treatment=penalty"],
                  "quadrature points"),
                 (["Time/Scheme=TR-BDF2"], "TR-BDF2"),
-                (["Linear solver/Type=corrected"], "corrected"),
                 (["Spheres/Mesh size where they touch=2"], "larger than"),
                 (["Spheres/Mesh size where they touch=0.1",
                   "Spheres/Cells=hexahedra"], "is for Spheres/Cells = tetrahedra")):

@@ -478,12 +478,6 @@ class BadInput(ProgramTest):
                      "'TR-BDF2'", "Allowed with it: midpoint"],
                     "Time/Scheme=TR-BDF2", "Contact/Treatment=Signorini active set")
 
-    def test_solvers(self):
-        self.refuse(["direct, multigrid or automatic instead of corrected"],
-                    "Linear solver/Type=corrected")
-        self.refuse(["choose KLU, MUMPS or automatic"],
-                    "Linear solver/Factorisation=CHOLMOD")
-
 
 if __name__ == "__main__":
     main()

@@ -96,7 +96,7 @@ class Sphere(ProgramTest):
     def test_multigrid_and_factorisation(self):
         ledgers = [self.run_program("sphere", COARSE + [f"Linear solver/{type}"],
                                     self.folder / type.replace(" ", ""))
-                   for type in ("Type=direct", "Type=corrected",
+                   for type in ("Type=direct", "Type=condensed",
                                 "Type=multigrid")]
         self.compare(*ledgers[:2], 1e-9)
         self.compare(ledgers[0], ledgers[2], 1e-9)

@@ -24,7 +24,7 @@ VISCOSITY = {
 
 
 # These bodies are so small that the linear solver would choose "direct".
-CORRECTED = ["Linear solver/Type=corrected"]
+CONDENSED = ["Linear solver/Type=condensed"]
 
 
 class ThrownBodies(ProgramTest):
@@ -170,7 +170,7 @@ class ThrownBodies(ProgramTest):
     def test_newton_converges_quadratically(self):
         """The last residuals of a step in contact: each is at most of the size
         of the square of the one before, up to one constant and round-off."""
-        for solver in (["Linear solver/Type=direct"], CORRECTED):
+        for solver in (["Linear solver/Type=direct"], CONDENSED):
             with self.subTest(solver[0]):
                 self.check_quadratic_tails(solver)
 
@@ -203,11 +203,11 @@ class ThrownBodies(ProgramTest):
                  FRICTION["elastic_ball"]),
                 ("elastic_ball", ["Contact/Treatment=Signorini multipliers"]),
                 ("elastic_ball", ["Contact/Treatment=Signorini multipliers"] +
-                 CORRECTED),
-                ("elastic_ball", FRICTION["elastic_ball"] + CORRECTED),
+                 CONDENSED),
+                ("elastic_ball", FRICTION["elastic_ball"] + CONDENSED),
                 ("hyperelastic_ring", FRICTION["hyperelastic_ring"] +
                  VISCOSITY["hyperelastic_ring"]),
-                ("hyperelastic_ring", CORRECTED),
+                ("hyperelastic_ring", CONDENSED),
                 ("hyperelastic_ring",
                  ["Contact/Treatment=Ayyad-Barboteu two-step"])):
             with self.subTest(f"{program} {parameters}"):
@@ -239,11 +239,11 @@ class ThrownBodies(ProgramTest):
                  ["Contact/Treatment=persistent contact"]),
                 ("elastic_ball", .008, .012, FRICTION["elastic_ball"]),
                 ("elastic_ball", .008, .012,
-                 FRICTION["elastic_ball"] + CORRECTED),
+                 FRICTION["elastic_ball"] + CONDENSED),
                 ("hyperelastic_ring", .09, .13,
                  FRICTION["hyperelastic_ring"] +
                  ["Contact/Treatment=persistent contact"]),
-                ("hyperelastic_ring", .09, .13, CORRECTED +
+                ("hyperelastic_ring", .09, .13, CONDENSED +
                  ["Contact/Treatment=persistent contact"]),
                 ("hyperelastic_ring", .09, .13,
                  VISCOSITY["hyperelastic_ring"]),

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// What nonlinear bodies are solved with near their last state: factors in single
-// precision, steps of the force that are mixed, tangents that serve several steps, and
+// Nonlinear bodies with a frozen tangent: steps of the force that are mixed, tangents that serve several steps, and
 // regions with the tangent of today.
 
-#include <solvers/factorisation.h>
 #include <solvers/force_mixing.h>
-#include <solvers/nearby_body.h>
+#include <solvers/contact_schur_complement.h>
 #include <solvers/tangent_region.h>
-#include <time_integration/kept_tangent.h>
+#include <time_integration/frozen_tangent.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -79,76 +77,29 @@ namespace
 
 
 
-BOOST_AUTO_TEST_CASE(factors_in_single_precision)
+namespace
 {
-  const Matrix matrix        = grid_matrix(0.);
-  const auto   factorisation = make_cholesky_factorisation(true);
-  BOOST_REQUIRE(factorisation->factorise(matrix, false));
-  const TriangularFactor<float> *factor = factorisation->triangular_factor();
-  BOOST_REQUIRE(factor);
+  /// Solutions with the symmetric part of a matrix.
+  class Symmetric
+  {
+  public:
+    explicit Symmetric(const Matrix &matrix)
+    {
+      BOOST_REQUIRE(cholesky.factorise(matrix.trilinos_matrix()));
+    }
 
-  const Vector        right_hand_side = some_vector(1);
-  Vector              exact(right_hand_side), solution(right_hand_side);
-  std::vector<double> half;
-  factorisation->solve(right_hand_side, exact);
-  factor->go_forwards(right_hand_side.trilinos_vector()[0], half);
+    void
+    solve(const Vector &right_hand_side, Vector &solution)
+    {
+      cholesky.factor().forward(right_hand_side.trilinos_vector()[0], forward);
+      cholesky.factor().backward(forward, solution.trilinos_vector()[0]);
+    }
 
-  // A functional of two unknowns sees the solution by its half, and in a part of it.
-  const std::vector<unsigned int> unknowns = {37, 121};
-  const std::vector<double>       values   = {1.5, -.7};
-  const auto own = factor->go_forwards(unknowns.data(), values.data(), 2);
-  BOOST_CHECK_LT(own.values.size(), n);
-  const double seen = 1.5 * exact(37) - .7 * exact(121);
-  BOOST_CHECK_SMALL(factor->product(own, half) - seen, 1e-6);
-  std::vector<double> part;
-  factor->go_backwards(half, factor->region_of(unknowns), part);
-  BOOST_CHECK_SMALL(1.5 * part[factor->place_of(37)] -
-                      .7 * part[factor->place_of(121)] - seen,
-                    1e-6);
-
-  // A half added is the functional added to the right hand side.
-  factor->add(2., own, half);
-  factor->go_backwards(half, solution.trilinos_vector()[0]);
-  Vector more(right_hand_side);
-  more(37) += 3.;
-  more(121) -= 1.4;
-  factorisation->solve(more, exact);
-  solution -= exact;
-  BOOST_CHECK_LT(solution.linfty_norm(), 1e-6);
-}
-
-
-
-BOOST_AUTO_TEST_CASE(rows_of_open_multipliers)
-{
-  // Two unknowns that couple to nothing, with a negative diagonal.
-  Matrix matrix = grid_matrix(0.);
-  matrix.clear_row(37, -.5);
-  matrix.clear_row(60, -2.);
-  for (unsigned int i = 0; i < n; ++i)
-    for (const unsigned int j : {37, 60})
-      if (i != j && matrix.el(i, j) != 0.)
-        matrix.set(i, j, 0.);
-  matrix.compress(VectorOperation::insert);
-  const auto factorisation = make_cholesky_factorisation(true);
-  BOOST_REQUIRE(factorisation->factorise(matrix, false));
-  const TriangularFactor<float> *factor = factorisation->triangular_factor();
-  BOOST_REQUIRE(factor);
-  const Vector        right_hand_side = some_vector(3);
-  Vector              solution(right_hand_side), residual(right_hand_side);
-  std::vector<double> half;
-  factor->go_forwards(right_hand_side.trilinos_vector()[0], half);
-  const std::vector<unsigned int> unknowns = {37, 121};
-  const std::vector<double>       values   = {1.5, -.7};
-  const auto   own  = factor->go_forwards(unknowns.data(), values.data(), 2);
-  const double seen = factor->product(own, half);
-  factor->go_backwards(half, solution.trilinos_vector()[0]);
-  matrix.vmult(residual, solution);
-  residual -= right_hand_side;
-  BOOST_CHECK_LT(residual.linfty_norm(), 1e-5);
-  BOOST_CHECK_SMALL(solution(37) + right_hand_side(37) / .5, 1e-6);
-  BOOST_CHECK_SMALL(1.5 * solution(37) - .7 * solution(121) - seen, 1e-6);
-}
+  private:
+    SparseCholesky      cholesky{SparseCholesky::Kind::frozen_tangent};
+    std::vector<double> forward;
+  };
+} // namespace
 
 
 
@@ -159,7 +110,7 @@ BOOST_AUTO_TEST_CASE(tangents_serve_while_they_pay)
   const Vector state = some_vector(4);
   for (const unsigned int more : {1, 3, 6})
     {
-      KeptTangent tangent;
+      FrozenTangent tangent;
       BOOST_CHECK(!tangent.serves(.1));
       tangent.begin(.1, .1, state);
       BOOST_CHECK(!tangent.exists());
@@ -168,7 +119,7 @@ BOOST_AUTO_TEST_CASE(tangents_serve_while_they_pay)
         tangent.count(20 + more * n_steps++);
       while (tangent.serves(.1) && n_steps < 100);
       const auto mean_cost = [&](const unsigned int n) {
-        return KeptTangent::cost / n + .5 * more * (n - 1.);
+        return FrozenTangent::cost / n + .5 * more * (n - 1.);
       };
       BOOST_TEST_CONTEXT(more << " more in each step, " << n_steps << " steps")
       {
@@ -179,7 +130,7 @@ BOOST_AUTO_TEST_CASE(tangents_serve_while_they_pay)
 
   // While it needs no more it serves, but in no step of another length; and it is
   // known by the step and the state for which it was made.
-  KeptTangent tangent, other;
+  FrozenTangent tangent, other;
   tangent.begin(.1, .1, state);
   for (unsigned int n = 0; n < 50; ++n)
     tangent.count(7);
@@ -199,9 +150,8 @@ BOOST_AUTO_TEST_CASE(mixing_solves_what_plain_steps_do_not)
 {
   // x = T^{-1} f for the symmetric part T of a matrix; plain steps f - r need three
   // times as many.
-  const Matrix matrix        = grid_matrix(.15);
-  const auto   factorisation = make_cholesky_factorisation(true);
-  BOOST_REQUIRE(factorisation->factorise(matrix, false));
+  const Matrix matrix = grid_matrix(.15);
+  Symmetric    symmetric(matrix);
   const Vector right_hand_side = some_vector(2);
   const auto   iterations      = [&](const unsigned int n_kept) {
     ForceMixing  mixing(n_kept);
@@ -221,7 +171,7 @@ BOOST_AUTO_TEST_CASE(mixing_solves_what_plain_steps_do_not)
           }
         else
           mixing.next(residual, step);
-        factorisation->solve(step, update);
+        symmetric.solve(step, update);
         x += update;
       }
     return k;
@@ -243,7 +193,7 @@ namespace
   struct BodyWithRegion
   {
     BodyWithRegion()
-      : kept_tangent(grid_matrix(0.))
+      : frozen_tangent(grid_matrix(0.))
       , tangent(grid_matrix(0.))
       , scaling(some_vector(0))
     {
@@ -259,11 +209,12 @@ namespace
           contact.functionals.end_functional();
           contact.order.push_back(i);
         }
-      nearby = std::make_unique<NearbyBody>(make_cholesky_factorisation(true),
-                                            contact,
-                                            spent);
+      kept = std::make_unique<ContactSchurComplement>(
+        contact,
+        SparseCholesky::Kind::frozen_tangent,
+        spent);
       current.assemble_body = [this](Matrix &matrix) {
-        matrix.copy_from(kept_tangent);
+        matrix.copy_from(frozen_tangent);
       };
       current.complete_constant_contact = [](Matrix &) {};
       current.row_scaling               = &scaling;
@@ -273,7 +224,7 @@ namespace
       current.contact_excess_change = [](std::vector<FunctionalRow> &change) {
         change[0] = {{0, -.4}};
       };
-      nearby->factorise(current);
+      kept->factorise(current);
     }
 
     void
@@ -281,21 +232,21 @@ namespace
     {
       region.find(residual,
                   current,
-                  *nearby,
+                  *kept,
                   [&](const UnknownList &unknowns, Matrix &matrix) {
                     found = unknowns;
                     matrix.add(1., tangent);
-                    matrix.add(-1., kept_tangent);
+                    matrix.add(-1., frozen_tangent);
                   });
     }
 
-    Matrix                        kept_tangent, tangent;
-    Vector                        scaling;
-    ContactStructure::ActsThrough contact;
-    TangentSolver::Costs          spent;
-    std::unique_ptr<NearbyBody>   nearby;
-    Tangent                       current;
-    UnknownList                   found;
+    Matrix                                  frozen_tangent, tangent;
+    Vector                                  scaling;
+    ContactStructure::ActsThrough           contact;
+    TangentSolver::Costs                    spent;
+    std::unique_ptr<ContactSchurComplement> kept;
+    Tangent                                 current;
+    UnknownList                             found;
   };
 } // namespace
 
@@ -340,7 +291,7 @@ BOOST_AUTO_TEST_CASE(region_with_the_tangent_of_today)
     displacement(expected[i]) = d(i);
   displacement.compress(VectorOperation::insert);
   body.tangent.vmult(force, displacement);
-  body.kept_tangent.vmult(change, displacement);
+  body.frozen_tangent.vmult(change, displacement);
   force -= change;
   force += residual;
   std::vector<double> completed(residual.begin(), residual.end());
@@ -359,8 +310,7 @@ BOOST_AUTO_TEST_CASE(regions_save_iterations)
   BodyWithRegion body;
   body.current.contact_change        = [](std::vector<FunctionalRow> &) {};
   body.current.contact_excess_change = [](std::vector<FunctionalRow> &) {};
-  const auto factorisation           = make_cholesky_factorisation(true);
-  BOOST_REQUIRE(factorisation->factorise(body.kept_tangent, false));
+  Symmetric    symmetric(body.frozen_tangent);
   const Vector right_hand_side = some_vector(2);
   const auto   iterations      = [&](const bool with_region) {
     ForceMixing   mixing(40);
@@ -382,7 +332,7 @@ BOOST_AUTO_TEST_CASE(regions_save_iterations)
           });
         else
           mixing.next(residual, step);
-        factorisation->solve(step, update);
+        symmetric.solve(step, update);
         x += update;
       }
     return k;

@@ -87,11 +87,6 @@ namespace Ricochet
     void
     complete_tangent(Matrix &tangent) const override;
 
-    /// Nothing.
-    void
-    complete_open_tangent(Matrix & /*tangent*/) const override
-    {}
-
     ContactStructure
     tangent_structure() const override
     {

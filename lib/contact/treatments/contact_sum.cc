@@ -53,15 +53,6 @@ namespace Ricochet
         functionals.add(structure.functionals->functionals);
         first_functional.push_back(functionals.size());
       }
-    const auto first_of_ranks =
-      Utilities::MPI::all_gather(communicator, first_functional);
-    for (unsigned int k = 0; k < structures.size(); ++k)
-      {
-        first_elsewhere.push_back(functionals.size() + elsewhere.size());
-        for (const auto &[rank, number] : structures[k].functionals->elsewhere)
-          elsewhere.push_back({rank, first_of_ranks[rank][k] + number});
-      }
-    first_elsewhere.push_back(functionals.size() + elsewhere.size());
   }
 
 
@@ -235,15 +226,6 @@ namespace Ricochet
 
 
   void
-  ContactSum::complete_open_tangent(Matrix &tangent) const
-  {
-    for (const ContactOperator *contact : in_order)
-      contact->complete_open_tangent(tangent);
-  }
-
-
-
-  void
   ContactSum::complete_constant_tangent(Matrix &tangent) const
   {
     for (const ContactOperator *contact : in_order)
@@ -256,22 +238,17 @@ namespace Ricochet
   ContactSum::tangent_structure() const
   {
     ContactStructure sum;
-    sum.is_nearly_symmetric = true;
-    sum.is_symmetric        = true;
+    sum.is_symmetric = true;
     if (!first_functional.empty())
       sum.functionals.emplace();
     for (const ContactOperator *contact : in_order)
       {
         const ContactStructure own = contact->tangent_structure();
         sum.rows.insert(sum.rows.end(), own.rows.begin(), own.rows.end());
-        sum.is_nearly_symmetric =
-          sum.is_nearly_symmetric && own.is_nearly_symmetric;
         sum.is_symmetric     = sum.is_symmetric && own.is_symmetric;
         sum.has_multipliers  = sum.has_multipliers || own.has_multipliers;
         sum.couplings_change = sum.couplings_change || own.couplings_change;
         sum.takes_rows       = sum.takes_rows || own.takes_rows;
-        sum.has_mixed_functionals =
-          sum.has_mixed_functionals || own.has_mixed_functionals;
         if (!sum.functionals)
           continue;
         sum.functionals->functionals.add(own.functionals->functionals);
@@ -294,8 +271,6 @@ namespace Ricochet
         taken[place] = true;
       }
     sum.rows = rows;
-    if (sum.functionals)
-      sum.functionals->elsewhere = elsewhere;
     return sum;
   }
 
@@ -308,19 +283,14 @@ namespace Ricochet
   {
     for (unsigned int k = 0; k < in_order.size(); ++k)
       {
-        const unsigned int first  = first_functional[k];
-        const unsigned int n_own  = first_functional[k + 1] - first;
-        const auto         number = [&](const unsigned int f) {
-          return f < n_own ? first + f : first_elsewhere[k] + f - n_own;
-        };
-        std::vector<FunctionalRow> own(n_own + first_elsewhere[k + 1] -
-                                       first_elsewhere[k]);
+        const unsigned int         first = first_functional[k];
+        std::vector<FunctionalRow> own(first_functional[k + 1] - first);
         (in_order[k]->*ask)(own);
         for (unsigned int f = 0; f < own.size(); ++f)
           {
             for (auto &entry : own[f])
-              entry.first = number(entry.first);
-            change[number(f)] = std::move(own[f]);
+              entry.first += first;
+            change[first + f] = std::move(own[f]);
           }
         if (!products || !in_order[k]->takes_rows())
           continue;

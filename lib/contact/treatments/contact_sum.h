@@ -111,9 +111,6 @@ namespace Ricochet
     complete_tangent(Matrix &tangent) const override;
 
     void
-    complete_open_tangent(Matrix &tangent) const override;
-
-    void
     complete_constant_tangent(Matrix &tangent) const override;
 
     bool
@@ -203,11 +200,7 @@ namespace Ricochet
     // Where the functionals of each of these begin among all of this rank, and where
     // the last one's end; empty without functionals.
     std::vector<unsigned int> first_functional;
-    // The same of those of other ranks that this one knows: they come behind all of its
-    // own.
-    std::vector<unsigned int>                             first_elsewhere;
-    std::vector<ContactStructure::ActsThrough::Elsewhere> elsewhere;
-    Functionals                                           functionals;
+    Functionals               functionals;
     // Where one takes rows in which another acts.
     mutable std::optional<FunctionalProducts> products;
     bool                                      has_friction = false;

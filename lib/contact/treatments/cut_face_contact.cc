@@ -83,15 +83,6 @@ namespace Ricochet
 
 
 
-  void
-  CutFaceContact::complete_open_tangent(Matrix &tangent) const
-  {
-    PointwiseContact::complete_open_tangent(tangent);
-    add_free_multipliers(tangent);
-  }
-
-
-
   ContactSummaries
   CutFaceContact::summary(const ContactInstant &instant)
   {

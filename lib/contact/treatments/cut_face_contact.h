@@ -52,9 +52,6 @@ namespace Ricochet
     void
     complete_tangent(Matrix &tangent) const override;
 
-    void
-    complete_open_tangent(Matrix &tangent) const override;
-
     ContactStructure
     tangent_structure() const override;
 

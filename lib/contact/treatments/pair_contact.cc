@@ -174,16 +174,6 @@ namespace Ricochet
       own_place.push_back(owned.index_within_set(index));
     skin_values.resize(skin.size());
     skin_force.resize(skin.size());
-
-    // A point acts on unknowns of other ranks, too, which come in their order.
-    const auto skins = Utilities::MPI::all_gather(communicator, skin);
-    for (unsigned int rank = 0; rank < skins.size(); ++rank)
-      if (rank != Utilities::MPI::this_mpi_process(communicator))
-        for (unsigned int f = 0; f < skins[rank].size(); ++f)
-          {
-            other_skin.push_back(skins[rank][f]);
-            elsewhere.push_back({rank, f});
-          }
   }
 
 
@@ -861,7 +851,7 @@ namespace Ricochet
 
   template <int dim>
   void
-  PairContact<dim>::complete_open_tangent(Matrix &tangent) const
+  PairContact<dim>::complete_constant_tangent(Matrix &tangent) const
   {
     for (const PointState &state : states)
       for_each_multiplier(state, [&](const types::global_dof_index index) {
@@ -876,16 +866,10 @@ namespace Ricochet
   unsigned int
   PairContact<dim>::skin_place(const types::global_dof_index index) const
   {
-    if (owned.is_element(index))
-      {
-        const unsigned int place = place_in_skin[index - skin.front()];
-        Assert(place != no_place, ExcInternalError());
-        return place;
-      }
-    const auto other =
-      std::lower_bound(other_skin.begin(), other_skin.end(), index);
-    Assert(other != other_skin.end() && *other == index, ExcInternalError());
-    return skin.size() + (other - other_skin.begin());
+    Assert(owned.is_element(index), ExcInternalError());
+    const unsigned int place = place_in_skin[index - skin.front()];
+    Assert(place != no_place, ExcInternalError());
+    return place;
   }
 
 
@@ -1140,8 +1124,7 @@ namespace Ricochet
     structure.has_multipliers  = !method.law;
     structure.couplings_change = true;
     structure.functionals.emplace();
-    structure.functionals->order     = skin_order;
-    structure.functionals->elsewhere = elsewhere;
+    structure.functionals->order = skin_order;
     for (const auto index : skin)
       {
         structure.functionals->functionals.add(index, 1.);

@@ -135,7 +135,7 @@ namespace Ricochet
 
     /// What is left without contact are the equations of the multipliers.
     void
-    complete_open_tangent(Matrix &tangent) const override;
+    complete_constant_tangent(Matrix &tangent) const override;
 
     /// With functionals: the unknowns of the surfaces, of which contact is any function.
     void
@@ -437,12 +437,9 @@ namespace Ricochet
     // complete_residual(), and what contact does to each.
     std::vector<dealii::types::global_dof_index> skin;
     /// Of each of the skin among this rank's unknowns.
-    std::vector<unsigned int> own_place;
-    std::vector<double>       skin_order, skin_values, skin_force;
-    // Those of other ranks, ascending, and whose they are.
-    std::vector<dealii::types::global_dof_index>          other_skin;
-    std::vector<ContactStructure::ActsThrough::Elsewhere> elsewhere;
-    static constexpr unsigned int                         no_place =
+    std::vector<unsigned int>     own_place;
+    std::vector<double>           skin_order, skin_values, skin_force;
+    static constexpr unsigned int no_place =
       dealii::numbers::invalid_unsigned_int;
     /// Of each unknown from the first of the skin on.
     std::vector<unsigned int> place_in_skin;

@@ -519,31 +519,17 @@ namespace Ricochet
 
 
   void
-  PointwiseContact::complete_open_tangent(Matrix &tangent) const
-  {
-    for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
-      {
-        const ContactPointTangent open =
-          open_tangent(*law, evaluator.contact_points()[p].cell_diameter);
-        if (open[0].norm_square() > 0.)
-          kinematics->update_geometry(p);
-        evaluator.add(p, weight, open, tangent);
-      }
-    tangent.compress(VectorOperation::add);
-  }
-
-
-
-  void
   PointwiseContact::complete_constant_tangent(Matrix &tangent) const
   {
-    if (!displacement_functionals)
-      {
-        complete_open_tangent(tangent);
-        return;
-      }
     for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
-      evaluator.add(p, weight, constant_tangent(p), tangent);
+      {
+        const ContactPointTangent constant = displacement_functionals
+          ? constant_tangent(p)
+          : open_tangent(*law, evaluator.contact_points()[p].cell_diameter);
+        if (!displacement_functionals && constant[0].norm_square() > 0.)
+          kinematics->update_geometry(p);
+        evaluator.add(p, weight, constant, tangent);
+      }
     tangent.compress(VectorOperation::add);
   }
 
@@ -558,12 +544,9 @@ namespace Ricochet
       structure.functionals = functionals->all();
     if (displacement_functionals)
       structure.functionals = displacement_functionals->all();
-    structure.has_mixed_functionals =
-      displacement_functionals && law->traits().uses_stress;
-    structure.has_multipliers     = law->traits().needs_multiplier;
-    structure.is_nearly_symmetric = !structure.has_multipliers;
-    const auto closing            = closing_directions(*law, 1.);
-    structure.is_symmetric        = structure.is_nearly_symmetric && closing &&
+    structure.has_multipliers = law->traits().needs_multiplier;
+    const auto closing        = closing_directions(*law, 1.);
+    structure.is_symmetric    = !structure.has_multipliers && closing &&
       closing->test == closing->trial && !friction.exists() &&
       kinematics->has_constant_rows();
     return structure;

@@ -84,9 +84,6 @@ namespace Ricochet
     void
     complete_tangent(Matrix &tangent) const override;
 
-    void
-    complete_open_tangent(Matrix &tangent) const override;
-
     /// With functionals of displacements nothing that depends on directions, which may turn.
     void
     complete_constant_tangent(Matrix &tangent) const override;

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef ricochet_time_integration_kept_tangent_h
-#define ricochet_time_integration_kept_tangent_h
+#ifndef ricochet_time_integration_frozen_tangent_h
+#define ricochet_time_integration_frozen_tangent_h
 
 #include <base/types.h>
 
 namespace Ricochet
 {
   /**
-   * Which tangent of a nonlinear body served in the last step, and how well. It is part
-   * of a State, so that a resumed run can make the same tangent again.
+   * The tangent of a nonlinear body that served in the last steps: where it was made, and
+   * how well it served. The stage solver has one, and a checkpoint, so that a resumed run
+   * makes the same tangent again.
    *
    * What a tangent costs and the iterations that it takes more, as it grows old, are
    * shared by the steps in which it serves: a new one is made when the next step's
    * iterations are expected to be above that mean.
    */
-  struct KeptTangent
+  struct FrozenTangent
   {
     /// What making and factoring a tangent takes, in iterations with it: 12 to 14,
     /// measured with rings of 2000 to 60 000 unknowns.
@@ -55,9 +56,9 @@ namespace Ricochet
     bool
     serves(const double time_step) const;
 
-    /// Whether both are made for the same step from the same state. Collective.
+    /// Whether both are made for the same step from the same state.
     bool
-    is_same(const KeptTangent &other) const;
+    is_same(const FrozenTangent &other) const;
 
     /// Whether it has served.
     bool
@@ -72,15 +73,15 @@ namespace Ricochet
       record = {};
     }
 
-    KeptTangent()                    = default;
-    KeptTangent(const KeptTangent &) = default;
-    KeptTangent(KeptTangent &&)      = default;
-    KeptTangent &
-    operator=(KeptTangent &&) = default;
+    FrozenTangent()                      = default;
+    FrozenTangent(const FrozenTangent &) = default;
+    FrozenTangent(FrozenTangent &&)      = default;
+    FrozenTangent &
+    operator=(FrozenTangent &&) = default;
 
     /// By copy_values().
-    KeptTangent &
-    operator=(const KeptTangent &other);
+    FrozenTangent &
+    operator=(const FrozenTangent &other);
 
     Record record;
     /// System vector where it was made (m): the state at the begin of that step.

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/vector_operations.h>
-#include <time_integration/kept_tangent.h>
-
-#include <deal.II/base/mpi.h>
+#include <time_integration/frozen_tangent.h>
 
 namespace Ricochet
 {
-  using namespace dealii;
-
-  KeptTangent &
-  KeptTangent::operator=(const KeptTangent &other)
+  FrozenTangent &
+  FrozenTangent::operator=(const FrozenTangent &other)
   {
     record = other.record;
     if (other.solution.size() > 0)
@@ -20,23 +16,21 @@ namespace Ricochet
 
 
   bool
-  KeptTangent::is_same(const KeptTangent &other) const
+  FrozenTangent::is_same(const FrozenTangent &other) const
   {
     if (record.end_time != other.record.end_time ||
         record.time_step != other.record.time_step ||
         solution.size() != other.solution.size())
       return false;
-    const bool same = entries(solution) == entries(other.solution);
-    return Utilities::MPI::min(same ? 1 : 0, solution.get_mpi_communicator()) ==
-      1;
+    return entries(solution) == entries(other.solution);
   }
 
 
 
   void
-  KeptTangent::begin(const double  end_time,
-                     const double  time_step,
-                     const Vector &solution_at_begin)
+  FrozenTangent::begin(const double  end_time,
+                       const double  time_step,
+                       const Vector &solution_at_begin)
   {
     record           = {};
     record.end_time  = end_time;
@@ -47,7 +41,7 @@ namespace Ricochet
 
 
   void
-  KeptTangent::count(const unsigned int n_iterations)
+  FrozenTangent::count(const unsigned int n_iterations)
   {
     if (record.n_steps == 0)
       record.first_iterations = n_iterations;
@@ -60,7 +54,7 @@ namespace Ricochet
 
 
   bool
-  KeptTangent::serves(const double time_step) const
+  FrozenTangent::serves(const double time_step) const
   {
     if (!exists() || record.time_step != time_step)
       return false;

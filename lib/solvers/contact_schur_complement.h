@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_contact_schur_complement_h
+#define ricochet_solvers_contact_schur_complement_h
+
+#include <base/types.h>
+#include <solvers/functional_products.h>
+#include <solvers/sparse_cholesky.h>
+#include <solvers/tangent_solver.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <memory>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * The contact Schur complement (Delassus operator) W = H K^{-1} H^T of a body with the
+   * matrix K, for the rows h_i of the contact Jacobian H through which contact acts.
+   * Solutions x = x_0 - K^{-1} H^T z of
+   *
+   *     K x - b + H^T z = 0,   z = contact force of H x,
+   *
+   * are found by their coefficients z alone.
+   *
+   * With the factors of SparseCholesky, W_ij = y_i^T D^{-1} y_j, where the forward solves
+   * y_i = L^{-1} P h_i go through few columns of L. They are made when they are first
+   * needed, and kept as long as K.
+   *
+   * Rows have places in the order in which contact is expected to spread, so that the
+   * first ones are those near contact; vectors of all rows are by place. Rows that
+   * follow each other there are solved for together, in groups that depend on nothing
+   * else, so that a resumed run repeats its digits. On one rank.
+   */
+  class ContactSchurComplement
+  {
+  public:
+    /**
+     * @param contact rows and their order; has to outlive this. None of the rows has
+     * unknowns with equations of their own (prescribed displacements).
+     * @param spent gets the costs.
+     */
+    ContactSchurComplement(const ContactStructure::ActsThrough &contact,
+                           const SparseCholesky::Kind           kind,
+                           TangentSolver::Costs                &spent);
+
+    /// K becomes that of @p tangent, with what contact adds besides
+    /// Tangent::contact_change.
+    /// @throws NewtonFailure when it cannot be factored.
+    void
+    factorise(const Tangent &tangent);
+
+    /// K
+    const Matrix &
+    body_matrix() const
+    {
+      return matrix;
+    }
+
+    /// H
+    const Functionals &
+    rows() const
+    {
+      return jacobian;
+    }
+
+    unsigned int
+    n_rows() const
+    {
+      return jacobian.size();
+    }
+
+    /// Place of row @p f.
+    unsigned int
+    place(const unsigned int f) const
+    {
+      return places[f];
+    }
+
+    /// Begin with x_0 = K^{-1} @p right_hand_side, which is zero where displacements are
+    /// prescribed.
+    void
+    begin(const Vector &right_hand_side);
+
+    /// H x_0 in the first places, as many as @p values has.
+    void
+    observe(std::vector<double> &values);
+
+    /// @p solution = x_0 - K^{-1} H^T @p coefficients (of each row).
+    void
+    finish(const std::vector<double> &coefficients, Vector &solution);
+
+    /// Add H^T @p coefficients to @p vector.
+    void
+    add_rows(const std::vector<double> &coefficients, Vector &vector) const;
+
+    /// l2 norm of H^T @p coefficients, each entry times that of @p scaling (null for 1).
+    double
+    norm_of_rows(const std::vector<double> &coefficients,
+                 const Vector              *scaling);
+
+    /// H @p vector
+    std::vector<double>
+    along_rows(const Vector &vector) const;
+
+    /// Add @p factor W @p coefficients to @p values, which may be those of the first
+    /// places only.
+    void
+    add_compliance(const double               factor,
+                   const std::vector<double> &coefficients,
+                   std::vector<double>       &values);
+
+    /// The derivatives C of the coefficients with respect to H x (see
+    /// Tangent::contact_change) and E with respect to what the residual leaves over along
+    /// the rows (see Tangent::contact_excess_change), by row.
+    /// @throws NewtonFailure when the matrix of solve_contact() is singular.
+    void
+    set_contact(const std::vector<FunctionalRow> &change,
+                const std::vector<FunctionalRow> &excess_change);
+
+    /// Solve
+    ///
+    ///     (1 + E H H^T + C W) z = @p coefficients - C @p values
+    ///
+    /// with the last set_contact(); the coefficients become z.
+    void
+    solve_contact(std::vector<double>       &coefficients,
+                  const std::vector<double> &values);
+
+  private:
+    static constexpr unsigned int group_size = TriangularSolves::n_columns;
+
+    /// The forward solves of a group.
+    const TriangularSolves::ForwardColumns &
+    forward_of(const unsigned int group);
+
+    /// The first @p n entries at least of a column of W.
+    const std::vector<double> &
+    column(const unsigned int place, const unsigned int n);
+
+    const Functionals      &jacobian;
+    FunctionalProducts      products;
+    TangentSolver::Costs   &spent;
+    SparseCholesky          cholesky;
+    const TriangularSolves *solves = nullptr;
+    Matrix                  matrix;
+    // Of each row, and the other way round.
+    std::vector<unsigned int> places, row_at;
+    // By group, and by place; empty where not asked for yet.
+    std::vector<TriangularSolves::ForwardColumns> forwards;
+    std::vector<std::vector<double>>              columns;
+    // L^{-1} P of the right-hand side.
+    std::vector<double> forward;
+    // The blocks of the factor that observe() needs for so many places.
+    std::vector<int> region;
+    unsigned int     region_places = 0;
+    // The unknowns of all rows, the number there of each entry of H, and a sum over rows.
+    std::vector<unsigned int> contact_dofs, dof_of_entry;
+    std::vector<double>       dof_sum;
+
+    // The last set_contact(): the places that change, C and E H H^T there with places in
+    // the place of rows, and how many places C looks at.
+    struct ContactRow
+    {
+      unsigned int  place;
+      FunctionalRow on_values, on_coefficients;
+    };
+    std::vector<ContactRow>          contact_rows;
+    unsigned int                     n_seen = 0;
+    dealii::LAPACKFullMatrix<double> dense;
+    // Work space.
+    std::vector<double> products_of_groups, solution_in_region;
+  };
+} // namespace Ricochet
+
+#endif

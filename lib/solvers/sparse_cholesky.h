@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_solvers_sparse_cholesky_h
+#define ricochet_solvers_sparse_cholesky_h
+
+#include <solvers/triangular_factor.h>
+
+#include <Epetra_CrsMatrix.h>
+
+#include <memory>
+
+namespace Ricochet
+{
+  /**
+   * Cholesky factorisation by CHOLMOD of the matrix of a body, all of whose rows are on
+   * this rank. It is LDL^T in 2D, which stands an indefinite matrix, and the supernodal
+   * LL^T where that is faster.
+   *
+   * Multipliers may have a negative matrix of their own that couples to nothing else.
+   * Couplings of one side are allowed where they lead from unknowns that have equations
+   * of their own (prescribed displacements, whose rows are cleared and whose columns are
+   * not): they are left out, as right-hand sides are zero there.
+   */
+  class SparseCholesky
+  {
+  public:
+    enum class Kind
+    {
+      /// Of a symmetric matrix, in double precision; made once and solved with often.
+      exact,
+      /// Of the symmetric part of a matrix, in single precision; made anew again and
+      /// again.
+      frozen_tangent
+    };
+
+    explicit SparseCholesky(const Kind kind);
+
+    ~SparseCholesky();
+
+    /**
+     * Factor @p matrix, whose pattern is the same each time. The result does not depend
+     * on what came before.
+     * @return whether it could be done; if not, the matrix is singular, or not what this
+     * factorisation is for.
+     */
+    bool
+    factorise(const Epetra_CrsMatrix &matrix);
+
+    /// @pre factorise() has returned true.
+    const TriangularSolves &
+    factor() const
+    {
+      return *solves;
+    }
+
+  private:
+    /// The matrix as CHOLMOD takes it, and CHOLMOD's factor.
+    struct Workshop;
+
+    const Kind                        kind;
+    std::unique_ptr<Workshop>         workshop;
+    std::unique_ptr<TriangularSolves> solves;
+  };
+} // namespace Ricochet
+
+#endif
