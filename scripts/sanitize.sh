@@ -57,5 +57,11 @@ run stent_artery --set "Geometry/Artery nodes along=31" \
   --set "Geometry/Stent nodes across=3" --set "Geometry/Gap=0.001" \
   --set "Time/Final time=0.4" --set "Contact/Friction coefficient=0.2"
 run sliding_block --set "Time/Final time=0.02"
+for treatment in "Nitsche" "penalty" "Signorini active set"; do
+  "$programs/bar_by_hand" --quiet --overwrite --output-dir "$runs/bar_by_hand" \
+    --set "Contact/Treatment=$treatment" --set "Time/Final time=2"
+done
+"$programs/disk_step_by_step" --quiet --output-dir "$runs/disk" --set "Mesh/Nodes=392" \
+  --set "Mesh/Boundary nodes=64" --set "Start/Initial gap=0.0155" --set "Time/Final time=0.02"
 "$programs/spectral_radius" --quiet --output-dir "$runs/spectral" --set "Spectrum/Points=5"
 echo "sanitize: no reports"

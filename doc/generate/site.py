@@ -15,9 +15,11 @@ DOC = ROOT / "doc"
 # In which order to read the programs. Those that are not named come after them.
 ORDER = (
     "bar_sd",
+    "bar_by_hand",
     "bar_ss",
     "spectral_radius",
     "elastic_ball",
+    "disk_step_by_step",
     "hyperelastic_ring",
     "sphere",
     "obstacle_course",

@@ -28,8 +28,10 @@ BUILD = pathlib.Path(__file__).resolve().parents[2] / "build" / "release"
 NAMES = (
     "ricochet",
     "bar_sd",
+    "bar_by_hand",
     "bar_ss",
     "elastic_ball",
+    "disk_step_by_step",
     "hyperelastic_ring",
     "sphere",
     "stent_artery",
