@@ -13,8 +13,7 @@
 
 #include <base/program.h>
 #include <materials/material_parameters.h>
-#include <output/vtu_series.h>
-#include <problems/impact.h>
+#include <problems/impact_loop.h>
 
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/grid/grid_generator.h>
@@ -74,19 +73,7 @@ main(int argc, char **argv)
     setup.obstacles = foundation_below<2>(/* lower side */ 2);
     Impact<2> block(impact, mesh, setup, folder.communicator);
 
-    TimeLoop     loop(impact.time,
-                  folder,
-                  block.system,
-                  *block.scheme,
-                  {{2, "ground"}});
-    VtuSeries<2> fields(block.body,
-                        elastic,
-                        *block.contact,
-                        block.obstacles,
-                        folder);
-    loop.write_fields = [&](const State &state, const unsigned int step) {
-      fields.write(state, step);
-    };
+    ImpactLoop<2> loop(impact.time, block, {elastic}, {{2, "ground"}}, folder);
     loop.run(block.state_in_flight(Tensor<1, 2>()));
   };
 

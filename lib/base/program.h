@@ -10,6 +10,8 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace Ricochet
@@ -79,6 +81,41 @@ namespace Ricochet
    */
   int
   run_program(const int argc, char **argv, const Program &program);
+
+  /// Whether a class has the member unused_parameters().
+  template <typename Step, typename = void>
+  constexpr bool has_unused_parameters = false;
+  template <typename Step>
+  constexpr bool has_unused_parameters<
+    Step,
+    std::void_t<decltype(std::declval<const Step &>().unused_parameters())>> =
+    true;
+
+  /**
+   * The same for a class with the members `add_parameters(ParameterHandler &)`,
+   * `validate()`, `run(RunFolder &)` and, if some parameters may have no effect,
+   * `unused_parameters()`.
+   */
+  template <typename Step>
+  int
+  run_program(const int          argc,
+              char             **argv,
+              const std::string &name,
+              const std::string &description)
+  {
+    Step    step;
+    Program program;
+    program.name           = name;
+    program.description    = description;
+    program.add_parameters = [&](dealii::ParameterHandler &parameters) {
+      step.add_parameters(parameters);
+    };
+    program.validate = [&]() { step.validate(); };
+    program.run      = [&](RunFolder &folder) { step.run(folder); };
+    if constexpr (has_unused_parameters<Step>)
+      program.unused_parameters = [&]() { return step.unused_parameters(); };
+    return run_program(argc, argv, program);
+  }
 } // namespace Ricochet
 
 #endif

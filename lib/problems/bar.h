@@ -31,6 +31,12 @@ namespace Ricochet
     /// without meaning.
     void
     validate() const;
+
+    std::vector<UnusedParameter>
+    unused_parameters() const
+    {
+      return impact.unused_parameters();
+    }
   };
 
   /// Boundary ids of the ends of the bar.

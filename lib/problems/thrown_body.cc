@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <contact/treatments/contact_sum.h>
-#include <output/vtu_series.h>
+#include <problems/impact_loop.h>
 #include <problems/thrown_body.h>
 
 #include <deal.II/base/function.h>
@@ -132,20 +132,11 @@ namespace Ricochet
       thrown.state_in_flight(parameters.initial_velocity);
 
     // The time loop writes energies and contact; momenta are added.
-    TimeLoop loop(impact.time, folder, thrown.system, *thrown.scheme, contacts);
+    ImpactLoop<2>    loop(impact.time, thrown, {material}, contacts, folder);
     const Momenta<2> momenta(thrown.body,
                              thrown.system.mass_matrix(),
                              /* small strains */ material.linear.has_value());
     add_momentum_columns(momenta, thrown.body, loop);
-
-    VtuSeries<2> fields(thrown.body,
-                        material,
-                        *thrown.contact,
-                        thrown.obstacles,
-                        folder);
-    loop.write_fields = [&](const State &state, const unsigned int step) {
-      fields.write(state, step);
-    };
 
     loop.run(initial_state);
   }

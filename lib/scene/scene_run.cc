@@ -4,8 +4,7 @@
 #include <discretization/distributed_mesh.h>
 #include <output/obstacle_work.h>
 #include <output/part_columns.h>
-#include <output/vtu_series.h>
-#include <problems/impact.h>
+#include <problems/impact_loop.h>
 #include <problems/part_meshes.h>
 #include <scene/scene.h>
 
@@ -301,18 +300,18 @@ namespace Ricochet
             add(id);
         obstacles_of_contacts.push_back(contact.obstacles);
       }
-    TimeLoop                 loop(impact.time,
-                  folder,
-                  assembly.system,
-                  *assembly.scheme,
-                  names,
-                  Units(units_text));
-    std::vector<std::string> body_names;
-    for (const BodySection<dim> &body : bodies)
-      body_names.push_back(body.section.column_name());
     std::vector<Material<dim>> all_materials;
     for (const Part<dim> &part : assembly.parts)
       all_materials.push_back(part.material);
+    ImpactLoop<dim>          loop(impact.time,
+                         assembly,
+                         all_materials,
+                         names,
+                         folder,
+                         Units(units_text));
+    std::vector<std::string> body_names;
+    for (const BodySection<dim> &body : bodies)
+      body_names.push_back(body.section.column_name());
     const PartColumns<dim> columns(assembly.body,
                                    assembly.system,
                                    /* small strains */
@@ -326,14 +325,6 @@ namespace Ricochet
     const ObstacleWork<dim> obstacle_work(assembly.body, obstacles_of_contacts);
     loop.obstacle_work = obstacle_work;
 
-    VtuSeries<dim> fields(assembly.body,
-                          all_materials,
-                          *assembly.contact,
-                          assembly.obstacles,
-                          folder);
-    loop.write_fields = [&](const State &state, const unsigned int step) {
-      fields.write(state, step);
-    };
     for (const Part<dim> &part : assembly.parts)
       loop.part_names.push_back(part.name);
     loop.run(initial_state);

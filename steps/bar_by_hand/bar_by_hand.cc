@@ -28,6 +28,7 @@
 #include <output/energy_ledger.h>
 
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 using namespace dealii;
 using namespace Ricochet;
@@ -282,19 +283,16 @@ struct BarByHand
         if (!(std::abs(balance) <= 1e-9))
           folder.leave_open({"The energy balance does not close."});
       }
+    ledger.write_hdf5();
   }
 };
 
 int
 main(int argc, char **argv)
 {
-  BarByHand bar;
-  return run_program(argc,
-                     argv,
-                     {"bar_by_hand",
-                      "1D-SD by hand: an elastic bar hits an obstacle.",
-                      [&](ParameterHandler &prm) { bar.add_parameters(prm); },
-                      [&]() { bar.validate(); },
-                      [&](RunFolder &folder) { bar.run(folder); },
-                      [&]() { return bar.unused_parameters(); }});
+  return run_program<BarByHand>(
+    argc,
+    argv,
+    "bar_by_hand",
+    "1D-SD by hand: an elastic bar hits an obstacle.");
 }

@@ -185,22 +185,20 @@
 
 #include <contact/obstacles/half_space.h>
 #include <base/program.h>
-#include <output/vtu_series.h>
 #include <problems/bar.h>
+#include <problems/impact_loop.h>
 
 
 using namespace dealii;
 using namespace Ricochet;
 
-class BarSD
+// The parameters are $h = \Delta t = 0.05$, $T = 12$, $\gamma_0 = 1/\epsilon_0 = 5$, unless
+// the parameter file says otherwise.
+class BarSD : public BarParameters
 {
 public:
   void
   run(RunFolder &folder);
-
-  // $h = \Delta t = 0.05$, $T = 12$, $\gamma_0 = 1/\epsilon_0 = 5$, unless the
-  // parameter file says otherwise.
-  BarParameters parameters;
 };
 
 
@@ -209,10 +207,8 @@ public:
 void
 BarSD::run(RunFolder &folder)
 {
-  const ImpactParameters &impact = parameters.impact;
-
   parallel::shared::Triangulation<1> triangulation(folder.communicator);
-  make_bar_grid(parameters.mesh_size, triangulation);
+  make_bar_grid(mesh_size, triangulation);
 
   // ### Data
   //
@@ -223,7 +219,7 @@ BarSD::run(RunFolder &folder)
   const LinearElastic material{/* lambda */ 0., /* mu */ .5};
   ImpactSetup<1>      setup{material};
   setup.density   = 1.;
-  setup.degree    = parameters.degree;
+  setup.degree    = degree;
   setup.clamped   = {BarEnds::right};
   setup.obstacles = {
     {BarEnds::left, half_space_at_rest<1>(Point<1>(0.), Tensor<1, 1>({1.}))}};
@@ -280,18 +276,13 @@ BarSD::run(RunFolder &folder)
   //
   // We add what the figures of the paper plot: the motion of the left end, and
   // the error.
-  TimeLoop loop(impact.time,
-                folder,
-                bar.system,
-                *bar.scheme,
-                {{BarEnds::left, "left"}});
+  ImpactLoop<1> loop(impact.time,
+                     bar,
+                     {material},
+                     {{BarEnds::left, "left"}},
+                     folder);
   add_bar_end_columns(BarEnds::left, bar.body, exact, loop);
   add_bar_error_column(bar.body, exact, loop);
-
-  VtuSeries<1> fields(bar.body, material, *bar.contact, bar.obstacles, folder);
-  loop.write_fields = [&](const State &state, const unsigned int step) {
-    fields.write(state, step);
-  };
 
   loop.run(initial_state);
 
@@ -310,15 +301,10 @@ BarSD::run(RunFolder &folder)
 int
 main(int argc, char **argv)
 {
-  BarSD program;
-  return run_program(
+  return run_program<BarSD>(
     argc,
     argv,
-    {"bar_sd",
-     "1D-SD: an elastic bar, held at its right end, hits an obstacle with its "
-     "left end\n(paper C, section 4.1).",
-     [&](ParameterHandler &prm) { program.parameters.add_parameters(prm); },
-     [&]() { program.parameters.validate(); },
-     [&](RunFolder &folder) { program.run(folder); },
-     [&]() { return program.parameters.impact.unused_parameters(); }});
+    "bar_sd",
+    "1D-SD: an elastic bar, held at its right end, hits an obstacle with its "
+    "left end\n(paper C, section 4.1).");
 }

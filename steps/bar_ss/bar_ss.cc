@@ -87,22 +87,20 @@
 
 #include <contact/obstacles/half_space.h>
 #include <base/program.h>
-#include <output/vtu_series.h>
 #include <problems/bar.h>
+#include <problems/impact_loop.h>
 
 
 using namespace dealii;
 using namespace Ricochet;
 
-class BarSS
+// The parameters are $h = \Delta t = 0.05$, $T = 12$, $\gamma_0 = 1/\epsilon_0 = 5$, unless
+// the parameter file says otherwise.
+class BarSS : public BarParameters
 {
 public:
   void
   run(RunFolder &folder);
-
-  // $h = \Delta t = 0.05$, $T = 12$, $\gamma_0 = 1/\epsilon_0 = 5$, unless the
-  // parameter file says otherwise.
-  BarParameters parameters;
 };
 
 
@@ -111,10 +109,8 @@ public:
 void
 BarSS::run(RunFolder &folder)
 {
-  const ImpactParameters &impact = parameters.impact;
-
   parallel::shared::Triangulation<1> triangulation(folder.communicator);
-  make_bar_grid(parameters.mesh_size, triangulation);
+  make_bar_grid(mesh_size, triangulation);
 
   // ### Data
   //
@@ -125,7 +121,7 @@ BarSS::run(RunFolder &folder)
   const LinearElastic material{/* lambda */ 0., /* mu */ .5};
   ImpactSetup<1>      setup{material};
   setup.density   = 1.;
-  setup.degree    = parameters.degree;
+  setup.degree    = degree;
   setup.obstacles = {
     {BarEnds::left, half_space_at_rest<1>(Point<1>(0.), Tensor<1, 1>({1.}))},
     {BarEnds::right,
@@ -166,19 +162,14 @@ BarSS::run(RunFolder &folder)
   // The time loop writes energies and contact for every benchmark, with columns
   // of its own for each end. We add what the figures of the paper plot: the
   // motion of the two ends, and the error.
-  TimeLoop loop(impact.time,
-                folder,
-                bar.system,
-                *bar.scheme,
-                {{BarEnds::left, "left"}, {BarEnds::right, "right"}});
+  ImpactLoop<1> loop(impact.time,
+                     bar,
+                     {material},
+                     {{BarEnds::left, "left"}, {BarEnds::right, "right"}},
+                     folder);
   add_bar_end_columns(BarEnds::left, bar.body, exact, loop);
   add_bar_end_columns(BarEnds::right, bar.body, exact, loop);
   add_bar_error_column(bar.body, exact, loop);
-
-  VtuSeries<1> fields(bar.body, material, *bar.contact, bar.obstacles, folder);
-  loop.write_fields = [&](const State &state, const unsigned int step) {
-    fields.write(state, step);
-  };
 
   loop.run(initial_state);
 
@@ -196,15 +187,10 @@ BarSS::run(RunFolder &folder)
 int
 main(int argc, char **argv)
 {
-  BarSS program;
-  return run_program(
+  return run_program<BarSS>(
     argc,
     argv,
-    {"bar_ss",
-     "1D-SS: an elastic bar flies to and fro between two obstacles\n(paper C, "
-     "section 4.2).",
-     [&](ParameterHandler &prm) { program.parameters.add_parameters(prm); },
-     [&]() { program.parameters.validate(); },
-     [&](RunFolder &folder) { program.run(folder); },
-     [&]() { return program.parameters.impact.unused_parameters(); }});
+    "bar_ss",
+    "1D-SS: an elastic bar flies to and fro between two obstacles\n(paper C, "
+    "section 4.2).");
 }

@@ -108,8 +108,7 @@
 #include <base/program.h>
 #include <materials/material_parameters.h>
 #include <output/part_columns.h>
-#include <output/vtu_series.h>
-#include <problems/impact.h>
+#include <problems/impact_loop.h>
 #include <problems/part_meshes.h>
 
 #include <deal.II/distributed/shared_tria.h>
@@ -313,25 +312,16 @@ CollidingDisks::run(RunFolder &folder)
 
   // Energy, momenta and work of each disk and of both, beside what every
   // program writes.
-  TimeLoop             loop(impact.time,
-                folder,
-                collision.system,
-                *collision.scheme,
-                {{slave_id, "disks"}});
+  ImpactLoop<2>        loop(impact.time,
+                     collision,
+                     {elastic, elastic},
+                     {{slave_id, "disks"}},
+                     folder);
   const PartColumns<2> parts(collision.body,
                              collision.system,
                              elastic.linear.has_value(),
                              {"left", "right"});
   parts.add_to(loop);
-
-  VtuSeries<2> fields(collision.body,
-                      {elastic, elastic},
-                      *collision.contact,
-                      collision.obstacles,
-                      folder);
-  loop.write_fields = [&](const State &state, const unsigned int step) {
-    fields.write(state, step);
-  };
 
   const State end = loop.run(initial_state);
   report(collision, parts, initial_state, end, loop.energy_ledger(), folder);
@@ -394,15 +384,8 @@ CollidingDisks::report(const Impact<2>      &collision,
 int
 main(int argc, char **argv)
 {
-  CollidingDisks program;
-  return run_program(argc,
-                     argv,
-                     {"colliding_disks",
-                      "Two elastic disks collide.",
-                      [&](ParameterHandler &prm) {
-                        program.add_parameters(prm);
-                      },
-                      [&]() { program.validate(); },
-                      [&](RunFolder &folder) { program.run(folder); },
-                      [&]() { return program.unused_parameters(); }});
+  return run_program<CollidingDisks>(argc,
+                                     argv,
+                                     "colliding_disks",
+                                     "Two elastic disks collide.");
 }

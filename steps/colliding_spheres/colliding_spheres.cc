@@ -95,9 +95,8 @@
 #include <discretization/distributed_mesh.h>
 #include <materials/material_parameters.h>
 #include <output/part_columns.h>
-#include <output/vtu_series.h>
 #include <problems/ball_mesh.h>
-#include <problems/impact.h>
+#include <problems/impact_loop.h>
 #include <problems/part_meshes.h>
 
 #include <deal.II/base/function.h>
@@ -448,25 +447,16 @@ CollidingSpheres::run(RunFolder &folder)
 
   // Energy, work and momenta of each sphere and of both, beside what every program
   // writes.
-  TimeLoop             loop(impact.time,
-                folder,
-                collision.system,
-                *collision.scheme,
-                {{slave_id, "spheres"}});
+  ImpactLoop<3>        loop(impact.time,
+                     collision,
+                     {elastic, elastic},
+                     {{slave_id, "spheres"}},
+                     folder);
   const PartColumns<3> parts(collision.body,
                              collision.system,
                              elastic.linear.has_value(),
                              {"left", "right"});
   parts.add_to(loop);
-
-  VtuSeries<3> fields(collision.body,
-                      {elastic, elastic},
-                      *collision.contact,
-                      collision.obstacles,
-                      folder);
-  loop.write_fields = [&](const State &state, const unsigned int step) {
-    fields.write(state, step);
-  };
 
   const State end = loop.run(initial_state);
   report(collision, parts, initial_state, end, loop.energy_ledger(), folder);
@@ -581,15 +571,8 @@ CollidingSpheres::report(Impact<3>            &collision,
 int
 main(int argc, char **argv)
 {
-  CollidingSpheres program;
-  return run_program(argc,
-                     argv,
-                     {"colliding_spheres",
-                      "Two elastic spheres collide in space.",
-                      [&](ParameterHandler &prm) {
-                        program.add_parameters(prm);
-                      },
-                      [&]() { program.validate(); },
-                      [&](RunFolder &folder) { program.run(folder); },
-                      [&]() { return program.unused_parameters(); }});
+  return run_program<CollidingSpheres>(argc,
+                                       argv,
+                                       "colliding_spheres",
+                                       "Two elastic spheres collide in space.");
 }

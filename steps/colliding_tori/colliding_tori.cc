@@ -63,8 +63,7 @@
 #include <materials/material_parameters.h>
 #include <output/mean_rotation.h>
 #include <output/part_columns.h>
-#include <output/vtu_series.h>
-#include <problems/impact.h>
+#include <problems/impact_loop.h>
 #include <problems/part_meshes.h>
 #include <problems/torus_mesh.h>
 
@@ -399,25 +398,16 @@ CollidingTori::run(RunFolder &folder)
 
   // Energy, work and momenta of each torus and of both, beside what every program
   // writes.
-  TimeLoop             loop(impact.time,
-                folder,
-                collision.system,
-                *collision.scheme,
-                surfaces());
+  ImpactLoop<3>        loop(impact.time,
+                     collision,
+                     {rubber, rubber},
+                     surfaces(),
+                     folder);
   const PartColumns<3> parts(collision.body,
                              collision.system,
                              /* small strains */ false,
                              {throws[0].name, throws[1].name});
   parts.add_to(loop);
-
-  VtuSeries<3> fields(collision.body,
-                      {rubber, rubber},
-                      *collision.contact,
-                      collision.obstacles,
-                      folder);
-  loop.write_fields = [&](const State &state, const unsigned int step) {
-    fields.write(state, step);
-  };
 
   const State end = loop.run(initial_state);
   report(collision, parts, end, loop.energy_ledger(), folder);
@@ -547,15 +537,9 @@ CollidingTori::report(Impact<3>            &collision,
 int
 main(int argc, char **argv)
 {
-  CollidingTori program;
-  return run_program(argc,
-                     argv,
-                     {"colliding_tori",
-                      "Two hollow tori collide, and feel themselves.",
-                      [&](ParameterHandler &prm) {
-                        program.add_parameters(prm);
-                      },
-                      [&]() { program.validate(); },
-                      [&](RunFolder &folder) { program.run(folder); },
-                      [&]() { return program.unused_parameters(); }});
+  return run_program<CollidingTori>(
+    argc,
+    argv,
+    "colliding_tori",
+    "Two hollow tori collide, and feel themselves.");
 }

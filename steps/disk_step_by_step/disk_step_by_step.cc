@@ -381,19 +381,16 @@ struct DiskStepByStep
         if (!(std::abs(balance) <= 1e-9))
           folder.leave_open({"The energy balance does not close."});
       }
+    ledger.write_hdf5();
   }
 };
 
 int
 main(int argc, char **argv)
 {
-  DiskStepByStep program;
-  return run_program(
+  return run_program<DiskStepByStep>(
     argc,
     argv,
-    {"disk_step_by_step",
-     "The elastic ball (paper A, section 6.1) with a step written out in one file.",
-     [&](ParameterHandler &prm) { program.add_parameters(prm); },
-     [&]() { program.validate(); },
-     [&](RunFolder &folder) { program.run(folder); }});
+    "disk_step_by_step",
+    "The elastic ball (paper A, section 6.1) with a step written out in one file.");
 }

@@ -295,16 +295,10 @@ ElasticBall::run(RunFolder &folder)
 int
 main(int argc, char **argv)
 {
-  ElasticBall program;
-  return run_program(argc,
-                     argv,
-                     {"elastic_ball",
-                      "An elastic ball flies at a rigid foundation (papers A "
-                      "and B, section 6.1).",
-                      [&](ParameterHandler &prm) {
-                        program.add_parameters(prm);
-                      },
-                      [&]() { program.validate(); },
-                      [&](RunFolder &folder) { program.run(folder); },
-                      [&]() { return program.unused_parameters(); }});
+  return run_program<ElasticBall>(
+    argc,
+    argv,
+    "elastic_ball",
+    "An elastic ball flies at a rigid foundation (papers A "
+    "and B, section 6.1).");
 }

@@ -293,16 +293,10 @@ HyperelasticRing::run(RunFolder &folder)
 int
 main(int argc, char **argv)
 {
-  HyperelasticRing program;
-  return run_program(argc,
-                     argv,
-                     {"hyperelastic_ring",
-                      "A soft ring is thrown at a rigid foundation (papers A "
-                      "and B, section 6.2).",
-                      [&](ParameterHandler &prm) {
-                        program.add_parameters(prm);
-                      },
-                      [&]() { program.validate(); },
-                      [&](RunFolder &folder) { program.run(folder); },
-                      [&]() { return program.unused_parameters(); }});
+  return run_program<HyperelasticRing>(
+    argc,
+    argv,
+    "hyperelastic_ring",
+    "A soft ring is thrown at a rigid foundation (papers A "
+    "and B, section 6.2).");
 }

@@ -99,8 +99,8 @@
 #include <contact/treatments/contact_sum.h>
 #include <materials/material_parameters.h>
 #include <output/obstacle_work.h>
-#include <output/vtu_series.h>
 #include <problems/clearance.h>
+#include <problems/impact_loop.h>
 #include <problems/thrown_body.h>
 
 #include <deal.II/distributed/shared_tria.h>
@@ -352,7 +352,7 @@ ObstacleCourse::run(RunFolder &folder)
   // motion of the middle, and the spin. The work of a moving obstacle is told a
   // second time, from force, moment and motion: an independent number for what
   // the balance says.
-  TimeLoop loop(impact.time, folder, course.system, *course.scheme, contacts);
+  ImpactLoop<2>    loop(impact.time, course, {elastic}, contacts, folder);
   const Momenta<2> momenta(course.body,
                            course.system.mass_matrix(),
                            /* small strains */ elastic.linear.has_value());
@@ -365,15 +365,6 @@ ObstacleCourse::run(RunFolder &folder)
   const ObstacleWork<2> obstacle_work(course.body, {course.obstacles});
   loop.obstacle_work = obstacle_work;
 
-  VtuSeries<2> fields(course.body,
-                      elastic,
-                      *course.contact,
-                      course.obstacles,
-                      folder);
-  loop.write_fields = [&](const State &state, const unsigned int step) {
-    fields.write(state, step);
-  };
-
   loop.run(initial_state);
 }
 
@@ -382,15 +373,10 @@ ObstacleCourse::run(RunFolder &folder)
 int
 main(int argc, char **argv)
 {
-  ObstacleCourse program;
-  return run_program(
+  return run_program<ObstacleCourse>(
     argc,
     argv,
-    {"obstacle_course",
-     "A disk or a block on a rigid obstacle that may be curved "
-     "and may move.",
-     [&](ParameterHandler &prm) { program.add_parameters(prm); },
-     [&]() { program.validate(); },
-     [&](RunFolder &folder) { program.run(folder); },
-     [&]() { return program.unused_parameters(); }});
+    "obstacle_course",
+    "A disk or a block on a rigid obstacle that may be curved "
+    "and may move.");
 }

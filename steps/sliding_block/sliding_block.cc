@@ -77,8 +77,7 @@
 #include <base/program.h>
 #include <materials/material_parameters.h>
 #include <output/part_columns.h>
-#include <output/vtu_series.h>
-#include <problems/impact.h>
+#include <problems/impact_loop.h>
 #include <problems/part_meshes.h>
 
 #include <deal.II/distributed/shared_tria.h>
@@ -288,11 +287,11 @@ SlidingBlock::run(RunFolder &folder)
 
   const State initial_state = assembly.state_of_parts();
 
-  TimeLoop             loop(impact.time,
-                folder,
-                assembly.system,
-                *assembly.scheme,
-                {{underside, "block"}});
+  ImpactLoop<2>        loop(impact.time,
+                     assembly,
+                     {elastic, elastic},
+                     {{underside, "block"}},
+                     folder);
   const PartColumns<2> parts(assembly.body,
                              assembly.system,
                              elastic.linear.has_value(),
@@ -306,15 +305,6 @@ SlidingBlock::run(RunFolder &folder)
     return parts.momenta(0).linear(state.solution)[0] / mass;
   });
 
-  VtuSeries<2> fields(assembly.body,
-                      {elastic, elastic},
-                      *assembly.contact,
-                      assembly.obstacles,
-                      folder);
-  loop.write_fields = [&](const State &state, const unsigned int step) {
-    fields.write(state, step);
-  };
-
   loop.run(initial_state);
 }
 
@@ -323,14 +313,9 @@ SlidingBlock::run(RunFolder &folder)
 int
 main(int argc, char **argv)
 {
-  SlidingBlock program;
-  return run_program(
+  return run_program<SlidingBlock>(
     argc,
     argv,
-    {"sliding_block",
-     "An elastic block slides along an elastic strip, or down a slope.",
-     [&](ParameterHandler &prm) { program.add_parameters(prm); },
-     [&]() { program.validate(); },
-     [&](RunFolder &folder) { program.run(folder); },
-     [&]() { return program.unused_parameters(); }});
+    "sliding_block",
+    "An elastic block slides along an elastic strip, or down a slope.");
 }

@@ -374,14 +374,10 @@ SpectralRadius::run(RunFolder &folder)
 int
 main(int argc, char **argv)
 {
-  SpectralRadius program;
-  return run_program(
+  return run_program<SpectralRadius>(
     argc,
     argv,
-    {"spectral_radius",
-     "Spectral radii and orders of the time schemes (paper C, figures 3 and "
-     "4).",
-     [&](ParameterHandler &prm) { program.add_parameters(prm); },
-     [&]() { program.validate(); },
-     [&](RunFolder &folder) { program.run(folder); }});
+    "spectral_radius",
+    "Spectral radii and orders of the time schemes (paper C, figures 3 and "
+    "4).");
 }

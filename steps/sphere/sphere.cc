@@ -104,9 +104,8 @@
 #include <base/program.h>
 #include <discretization/distributed_mesh.h>
 #include <output/node_probe.h>
-#include <output/vtu_series.h>
 #include <problems/ball_mesh.h>
-#include <problems/impact.h>
+#include <problems/impact_loop.h>
 
 #include <deal.II/distributed/tria.h>
 
@@ -423,11 +422,11 @@ Sphere::run(RunFolder &folder)
   // The time loop writes energies and contact: the force
   // $\int_\Gamma [q]_+ \, ds$, the gap, both pressures. The lowest point shows
   // how the sphere vibrates.
-  TimeLoop           loop(impact.time,
-                folder,
-                sphere.system,
-                *sphere.scheme,
-                {{BallBoundary::lower_half, "foundation"}});
+  ImpactLoop<3>      loop(impact.time,
+                     sphere,
+                     {material},
+                     {{BallBoundary::lower_half, "foundation"}},
+                     folder);
   const NodeProbe<3> lowest(sphere.body, Point<3>(0., 0., initial_gap));
   loop.add_column("lowest_displacement", "m", [&](const State &state) {
     return lowest.value(state.solution, 2);
@@ -435,15 +434,6 @@ Sphere::run(RunFolder &folder)
   loop.add_column("lowest_velocity", "m/s", [&](const State &state) {
     return lowest.value(state.velocity, 2);
   });
-
-  VtuSeries<3> fields(sphere.body,
-                      material,
-                      *sphere.contact,
-                      sphere.obstacles,
-                      folder);
-  loop.write_fields = [&](const State &state, const unsigned int step) {
-    fields.write(state, step);
-  };
 
   loop.run(initial_state);
 }
@@ -453,16 +443,10 @@ Sphere::run(RunFolder &folder)
 int
 main(int argc, char **argv)
 {
-  Sphere program;
-  return run_program(argc,
-                     argv,
-                     {"sphere",
-                      "An elastic sphere falls on a rigid foundation (paper C, "
-                      "section 4.3).",
-                      [&](ParameterHandler &prm) {
-                        program.add_parameters(prm);
-                      },
-                      [&]() { program.validate(); },
-                      [&](RunFolder &folder) { program.run(folder); },
-                      [&]() { return program.unused_parameters(); }});
+  return run_program<Sphere>(
+    argc,
+    argv,
+    "sphere",
+    "An elastic sphere falls on a rigid foundation (paper C, "
+    "section 4.3).");
 }

@@ -81,8 +81,7 @@
 #include <base/program.h>
 #include <materials/material_parameters.h>
 #include <output/part_columns.h>
-#include <output/vtu_series.h>
-#include <problems/impact.h>
+#include <problems/impact_loop.h>
 #include <problems/part_meshes.h>
 
 #include <deal.II/distributed/shared_tria.h>
@@ -307,25 +306,16 @@ StentArtery::run(RunFolder &folder)
   // Both begin at rest.
   const State initial_state = assembly.state_of_parts();
 
-  TimeLoop             loop(impact.time,
-                folder,
-                assembly.system,
-                *assembly.scheme,
-                {{StentArteryGeometry::artery_inner_wall, "wall"}});
+  ImpactLoop<2>        loop(impact.time,
+                     assembly,
+                     {wall_material, stent_material},
+                     {{StentArteryGeometry::artery_inner_wall, "wall"}},
+                     folder);
   const PartColumns<2> parts(assembly.body,
                              assembly.system,
                              wall_material.linear.has_value(),
                              {"artery", "stent"});
   parts.add_to(loop);
-
-  VtuSeries<2> fields(assembly.body,
-                      {wall_material, stent_material},
-                      *assembly.contact,
-                      assembly.obstacles,
-                      folder);
-  loop.write_fields = [&](const State &state, const unsigned int step) {
-    fields.write(state, step);
-  };
 
   loop.run(initial_state);
 
@@ -352,14 +342,9 @@ StentArtery::run(RunFolder &folder)
 int
 main(int argc, char **argv)
 {
-  StentArtery program;
-  return run_program(
+  return run_program<StentArtery>(
     argc,
     argv,
-    {"stent_artery",
-     "A stent is pressed against the wall of an artery: paper B, section 7.",
-     [&](ParameterHandler &prm) { program.add_parameters(prm); },
-     [&]() { program.validate(); },
-     [&](RunFolder &folder) { program.run(folder); },
-     [&]() { return program.unused_parameters(); }});
+    "stent_artery",
+    "A stent is pressed against the wall of an artery: paper B, section 7.");
 }
