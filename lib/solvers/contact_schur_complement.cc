@@ -107,7 +107,6 @@ namespace Ricochet
   ContactSchurComplement::begin(const Vector &right_hand_side)
   {
     const Stopwatch stopwatch(spent.substituting);
-    ++spent.n_substitutions;
     solves->forward(right_hand_side.trilinos_vector()[0], forward);
   }
 

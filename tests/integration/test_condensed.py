@@ -266,11 +266,11 @@ class Condensed(ProgramTest):
                               for way in ("condensed", "whole"))
                 self.compare(one, other, 1e-9)
                 self.assertEqual(set(other["solver"][1:]), {1.})
-                self.assertLessEqual(set(one["solver"][1:]), {4., 4. + 32.})
                 if program != "sphere":
                     # One or two points that a stiff law presses deep at the guess:
                     # round-off there costs an iteration with the whole body.
                     continue
+                self.assertLessEqual(set(one["solver"][1:]), {4., 4. + 32.})
                 # One more for the initial acceleration, and few for stages whose
                 # residual in the end was not small enough.
                 stages = len(one["time"]) - 1

@@ -263,8 +263,7 @@ class Scenes(ProgramTest):
                 factor = largest([x for x in other[column] if not math.isnan(x)]
                                  or [0.])
                 # Zeros are round-off, and so is the number of the last iteration.
-                if scale < 1e-6 or "residual" in column or "iterations" in column \
-                        or "solves" in column:
+                if scale < 1e-6 or column in NOISE:
                     continue
                 for a, b in zip(si[column], other[column]):
                     if not math.isnan(a):

@@ -6,6 +6,7 @@
 // differences. Then two balls that meet off their centres: balances, momenta, friction,
 // tangents, ranks.
 
+#include "on_all_ranks.h"
 #include "meshes.h"
 
 #include <base/exceptions.h>
@@ -528,7 +529,7 @@ namespace
     }
 
     std::unique_ptr<Triangulation<3>> mesh;
-    ImpactParameters                  parameters;
+    ImpactParameters                  parameters = on_all_ranks();
     std::unique_ptr<Impact<3>>        impact;
     State                             state;
     bool                              touched = false;
@@ -1207,7 +1208,7 @@ BOOST_AUTO_TEST_CASE(degenerate_configurations)
             join_parts<3>({&parts[0], &parts[1]}, whole);
           },
           MPI_COMM_WORLD);
-        ImpactParameters parameters;
+        ImpactParameters parameters  = on_all_ranks();
         const auto       comma       = treatment.find(", ");
         parameters.contact.treatment = treatment.substr(0, comma);
         if (comma != std::string::npos)

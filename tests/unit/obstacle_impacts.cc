@@ -5,6 +5,7 @@
 // dissipates, moving obstacles do the work that their resultants say, and Newton's
 // method converges quadratically.
 
+#include "on_all_ranks.h"
 #include "meshes.h"
 
 #include <base/exceptions.h>
@@ -127,7 +128,7 @@ namespace
     }
 
     const CubeAbovePlane<3>    cube;
-    ImpactParameters           parameters;
+    ImpactParameters           parameters = on_all_ranks();
     std::unique_ptr<Impact<3>> impact;
     State                      state, previous;
     bool                       touched = false;

@@ -5,6 +5,7 @@
 // kept, linear and angular momentum of both together too, friction only dissipates;
 // assembled tangents are those of differences; a step is the same on two ranks.
 
+#include "on_all_ranks.h"
 #include "meshes.h"
 
 #include <base/exceptions.h>
@@ -82,7 +83,7 @@ namespace
   ImpactParameters
   parameters_of(const std::string &method, const double friction)
   {
-    ImpactParameters parameters;
+    ImpactParameters parameters  = on_all_ranks();
     const auto       comma       = method.find(", ");
     parameters.contact.treatment = method.substr(0, comma);
     if (comma != std::string::npos)
@@ -154,7 +155,7 @@ namespace
     }
 
     dealii::parallel::shared::Triangulation<2> triangulation;
-    ImpactParameters                           parameters;
+    ImpactParameters                           parameters = on_all_ranks();
     std::unique_ptr<Impact<2>>                 impact;
     State                                      state;
     bool                                       touched    = false;
@@ -471,7 +472,7 @@ namespace
     }
 
     dealii::parallel::shared::Triangulation<2> triangulation;
-    ImpactParameters                           parameters;
+    ImpactParameters                           parameters = on_all_ranks();
     std::unique_ptr<Impact<2>>                 impact;
     State                                      state;
   };
@@ -650,7 +651,7 @@ namespace
     }
 
     dealii::parallel::shared::Triangulation<2> triangulation;
-    ImpactParameters                           parameters;
+    ImpactParameters                           parameters = on_all_ranks();
     const std::vector<double>                  velocities;
     std::unique_ptr<Impact<2>>                 impact;
     State                                      state;
