@@ -3,6 +3,7 @@
 // Bodies at rest on a plane, against solutions in closed form: a block under
 // uniform pressure (patch test), and Hertz's sphere.
 
+#include "on_all_ranks.h"
 #include "equilibrium.h"
 #include "meshes.h"
 
@@ -51,12 +52,12 @@ namespace
   {
     const double              rise = .05, mu = 3.;
     const CubeAbovePlane<dim> cube(simplices);
-    ImpactParameters          parameters;
-    parameters.contact.treatment       = treatment;
-    parameters.contact.nitsche_theta   = theta;
-    parameters.contact.nitsche_gamma_0 = 100. * mu;
-    parameters.contact.augmentation    = 100. * mu;
-    parameters.scheme.name             = scheme;
+    ImpactParameters          parameters = on_all_ranks();
+    parameters.contact.treatment         = treatment;
+    parameters.contact.nitsche_theta     = theta;
+    parameters.contact.nitsche_gamma_0   = 100. * mu;
+    parameters.contact.augmentation      = 100. * mu;
+    parameters.scheme.name               = scheme;
     Impact<dim> impact(parameters,
                        cube.triangulation,
                        ImpactSetup<dim>{Material<dim>(LinearElastic{0., mu}),
@@ -140,7 +141,7 @@ namespace
                                   : face->center().norm() < .3 ? 1
                                                                : 0);
 
-    ImpactParameters parameters;
+    ImpactParameters parameters        = on_all_ranks();
     parameters.contact.treatment       = "Nitsche";
     parameters.contact.nitsche_gamma_0 = 100. * material.mu;
     parameters.scheme.name             = "Crank-Nicolson";
@@ -250,7 +251,7 @@ namespace
       },
       mesh);
 
-    ImpactParameters parameters;
+    ImpactParameters parameters     = on_all_ranks();
     parameters.contact.treatment    = "Signorini active set";
     parameters.contact.coupling     = coupling;
     parameters.contact.augmentation = 1.;
@@ -394,7 +395,7 @@ namespace
        {Point<2>(0., -overlap), Point<2>(1., 1.), {{n_upper, 3}}, 0., {}}},
       shape,
       mesh);
-    ImpactParameters parameters;
+    ImpactParameters parameters               = on_all_ranks();
     parameters.contact.treatment              = treatment;
     parameters.contact.coupling               = coupling;
     parameters.contact.augmentation           = 10.;
