@@ -3,11 +3,11 @@
 #define ricochet_base_last_meeting_h
 
 #include <base/one_rank.h>
+#include <base/wait_asleep.h>
 
 #include <mpi.h>
 
 #include <chrono>
-#include <thread>
 
 namespace Ricochet
 {
@@ -38,8 +38,7 @@ namespace Ricochet
     operator=(const LastMeeting &) = delete;
 
     /// Whether all ranks come here within five seconds; those that wait for one that is
-    /// alone need not. After one failed meeting there is
-    /// no other.
+    /// alone need not. After one failed meeting there is no other.
     static bool
     is_complete()
     {
@@ -55,20 +54,8 @@ namespace Ricochet
         return false;
       MPI_Request request;
       MPI_Ibarrier(communicator, &request);
-      const auto begin = std::chrono::steady_clock::now();
-      int        done  = 0;
-      while (true)
-        {
-          MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-          if (done != 0)
-            return true;
-          if (std::chrono::steady_clock::now() - begin > patience)
-            {
-              has_failed = true;
-              return false;
-            }
-          std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
+      has_failed = !wait_asleep(request, patience);
+      return !has_failed;
     }
 
     inline static LastMeeting *current      = nullptr;

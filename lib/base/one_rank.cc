@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/one_rank.h>
 #include <base/stop_request.h>
-
-#include <chrono>
-#include <thread>
+#include <base/wait_asleep.h>
 
 namespace Ricochet
 {
@@ -58,12 +56,7 @@ namespace Ricochet
     int               code = 0;
     MPI_Request       request;
     MPI_Ibcast(&code, 1, MPI_INT, 0, MPI_COMM_WORLD, &request);
-    for (int done = 0; done == 0;)
-      {
-        // MPI's own waiting would take a core.
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-      }
+    wait_asleep(request);
     return code;
   }
 } // namespace Ricochet

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <sstream>
 
 #include <sys/resource.h>
@@ -198,21 +199,19 @@ namespace Ricochet
 
 
 
-    /// Thrown on ranks that have nothing to do.
-    struct Waits
-    {};
-
-    /// @return what is open at the end of the run, see RunFolder::leave_open().
-    std::vector<std::string>
+    /// @return what is open at the end of the run, see RunFolder::leave_open(); nothing on
+    /// ranks that leave the run to the first one.
+    std::optional<std::vector<std::string>>
     execute(const int argc, char **argv, const Program &program)
     {
       namespace fs = std::filesystem;
+      const std::vector<std::string> no_run;
 
       const CommandLine command_line = parse_command_line(argc, argv);
       if (command_line.help)
         {
           print(help_text(program));
-          return {};
+          return no_run;
         }
       if (command_line.promises)
         {
@@ -220,14 +219,14 @@ namespace Ricochet
             throw InputError("There is no option '--promises' of " +
                              program.name + "; ricochet has it.");
           print(program.promises());
-          return {};
+          return no_run;
         }
       if (command_line.version)
         {
           print(program.name + " of Ricochet " + RICOCHET_VERSION + " (" +
                 RICOCHET_BUILD_TYPE + "), deal.II " + DEAL_II_PACKAGE_VERSION +
                 "\n");
-          return {};
+          return no_run;
         }
 
       dealii::ParameterHandler parameters;
@@ -267,7 +266,7 @@ namespace Ricochet
               allowed +=
                 "#   " + parameter.name + ": " + parameter.allowed + "\n";
           print(all_parameters.str() + "\n# What is allowed:\n" + allowed);
-          return {};
+          return no_run;
         }
 
       program.validate();
@@ -289,7 +288,7 @@ namespace Ricochet
           for (const std::string &note : notes)
             lines += note + "\n";
           print(lines);
-          return {};
+          return no_run;
         }
 
       // Who stops reading the console does not stop the run.
@@ -332,7 +331,7 @@ namespace Ricochet
         {
           OneRank::begin();
           if (!OneRank::is_alone())
-            throw Waits();
+            return std::nullopt;
           Threads::begin();
           return run(": the others wait, as one is faster than several with " +
                      std::to_string(one_rank.n_unknowns) +
@@ -429,11 +428,13 @@ namespace Ricochet
     const auto run = [&]() {
       try
         {
-          const std::vector<std::string> open = execute(argc, argv, program);
-          if (!open.empty())
+          const auto open = execute(argc, argv, program);
+          if (!open)
+            return OneRank::wait();
+          if (!open->empty())
             {
               std::string lines;
-              for (const std::string &line : open)
+              for (const std::string &line : *open)
                 lines += (lines.empty() ? "" : "\n") + line;
               if (is_root)
                 report(
@@ -472,16 +473,9 @@ namespace Ricochet
         }
       return 0;
     };
-    try
-      {
-        const int code = run();
-        if (OneRank::is_alone())
-          OneRank::release(code);
-        return code;
-      }
-    catch (const Waits &)
-      {
-        return OneRank::wait();
-      }
+    const int code = run();
+    if (OneRank::is_alone())
+      OneRank::release(code);
+    return code;
   }
 } // namespace Ricochet

@@ -187,7 +187,7 @@ namespace Ricochet
     }
 
     /// How complete_tangent() enters a tangent: contact spreads by initial gap.
-    /// It is symmetric if it keeps a symmetric tangent symmetric.
+    /// A symmetric structure keeps a symmetric tangent symmetric.
     virtual ContactStructure
     tangent_structure() const = 0;
 

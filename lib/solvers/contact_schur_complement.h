@@ -9,7 +9,6 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
-#include <memory>
 #include <vector>
 
 namespace Ricochet

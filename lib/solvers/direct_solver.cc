@@ -56,15 +56,13 @@ namespace Ricochet
       }
     assemble(tangent, entry.matrix);
     if (!entry.factorisation)
-      entry.factorisation =
-        std::make_unique<Factorisation>(factorisations.name());
+      entry.factorisation = std::make_unique<Factorisation>(package);
     const Stopwatch stopwatch(spent.factorising);
     ++spent.n_factorisations;
     bool is_regular = entry.factorisation->factorise(entry.matrix, keep_pivots);
     if (!is_regular && soften_constraints(entry.matrix))
       {
-        entry.factorisation =
-          std::make_unique<Factorisation>(factorisations.name());
+        entry.factorisation = std::make_unique<Factorisation>(package);
         is_regular = entry.factorisation->factorise(entry.matrix, false);
       }
     if (!is_regular)

@@ -3,13 +3,13 @@
 #define ricochet_solvers_direct_solver_h
 
 #include <solvers/factorisation.h>
-#include <solvers/factorisation_choice.h>
 #include <solvers/tangent_solver.h>
 
 #include <cstdint>
 #include <list>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace Ricochet
 {
@@ -18,9 +18,9 @@ namespace Ricochet
   class DirectSolver : public TangentSolver
   {
   public:
-    DirectSolver(const FactorisationChoice &factorisations,
-                 const unsigned int         n_kept)
-      : factorisations(factorisations)
+    /// @param package see Factorisation.
+    DirectSolver(const std::string &package, const unsigned int n_kept)
+      : package(package)
       , n_kept(n_kept)
     {}
 
@@ -53,7 +53,7 @@ namespace Ricochet
     void
     factorise(const Tangent &tangent, const bool keep_pivots, Factored &entry);
 
-    const FactorisationChoice            factorisations;
+    const std::string                    package;
     const unsigned int                   n_kept;
     std::list<std::unique_ptr<Factored>> kept;
     Factored                             changing;

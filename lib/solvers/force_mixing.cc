@@ -2,8 +2,6 @@
 #include <solvers/force_mixing.h>
 #include <solvers/single_precision.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,8 +9,6 @@
 
 namespace Ricochet
 {
-  using namespace dealii;
-
   void
   ForceMixing::restart()
   {
@@ -105,9 +101,8 @@ namespace Ricochet
   {
     std::vector<double> result(n_changes - first, 0.);
     // Of about one, whatever the units.
-    const double size = size_for_single_precision(
-      Utilities::MPI::max(largest(vector), communicator));
-    const double               scale = 1. / size;
+    const double size  = size_for_single_precision(largest(vector));
+    const double scale = 1. / size;
     std::array<float, stretch> values;
     for (std::size_t begin = 0; begin < vector.size(); begin += stretch)
       {
@@ -118,7 +113,6 @@ namespace Ricochet
           result[k - first] +=
             size * product(values.data(), changes[k].data() + begin, n);
       }
-    Utilities::MPI::sum(result, communicator, result);
     return result;
   }
 
@@ -174,7 +168,6 @@ namespace Ricochet
   {
     const double     *r = residual.trilinos_vector()[0];
     const std::size_t n = residual.locally_owned_size();
-    communicator        = residual.get_mpi_communicator();
     residual_now.assign(r, r + n);
     // The plain step for what no change explains, and steps for what they do.
     step_now.resize(n);
@@ -196,12 +189,10 @@ namespace Ricochet
           last_residual[i] = r[i] - last_residual[i];
         add(changes, minus_earlier, last_residual, parts, step_now);
         add(steps, minus_earlier, last_step, minus_parts, known_step);
-        const double square =
-          Utilities::MPI::sum(std::inner_product(last_residual.begin(),
+        const double square = std::inner_product(last_residual.begin(),
                                                  last_residual.end(),
                                                  last_residual.begin(),
-                                                 0.),
-                              communicator);
+                                                 0.);
         if (square > 0.)
           {
             if (n_changes == n_kept)

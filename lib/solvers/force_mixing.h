@@ -33,7 +33,7 @@ namespace Ricochet
     restart();
 
     /// The step of the force from the iterate with this @p residual. @p step gets it.
-    /// @param complete makes a plain step of this rank, in its place, a better one: a
+    /// @param complete makes a plain step, in its place, a better one: a
     /// linear function, if any.
     void
     next(const Vector                                     &residual,
@@ -43,7 +43,7 @@ namespace Ricochet
   private:
     using Column = std::vector<float>;
 
-    /// The products of the changes from number @p first on with @p vector, on all ranks.
+    /// The products of the changes from number @p first on with @p vector.
     std::vector<double>
     products(const std::vector<double> &vector, const unsigned int first) const;
 
@@ -65,7 +65,6 @@ namespace Ricochet
     std::vector<double> last_residual, last_step, last_products;
     // Work space.
     std::vector<double> residual_now, step_now, known_step;
-    MPI_Comm            communicator = MPI_COMM_SELF;
   };
 } // namespace Ricochet
 

@@ -13,6 +13,18 @@ namespace Ricochet
 
   namespace
   {
+    /// The package that factors whole tangents: the one that is @p wanted, or what is
+    /// fastest.
+    std::string
+    lu_package(const std::string &wanted,
+               const unsigned int dim,
+               const std::size_t  n_unknowns)
+    {
+      if (wanted != "automatic")
+        return wanted;
+      return dim < 3 && n_unknowns < 20000 ? "KLU" : "MUMPS";
+    }
+
     /// Whether stages are condensed where nobody says how they are to be solved.
     bool
     condensing_pays(const ContactStructure &contact,
@@ -60,7 +72,7 @@ namespace Ricochet
                              const unsigned int                  n_ranks)
     : linear_body(linear_body)
     , contact(contact)
-    , factorisations{parameters.factorisation, dim, n_unknowns}
+    , package(lu_package(parameters.factorisation, dim, n_unknowns))
     , n_kept(parameters.n_kept)
   {
     const bool is_automatic = parameters.type == "automatic";
@@ -115,7 +127,7 @@ namespace Ricochet
                                                           coarse_space()));
     if (!has_multigrid || (is_automatic && n_unknowns < largest_factorised))
       solvers.push_back(
-        std::make_unique<DirectSolver>(factorisations, parameters.n_kept));
+        std::make_unique<DirectSolver>(package, parameters.n_kept));
   }
 
 
@@ -183,16 +195,15 @@ namespace Ricochet
   std::string
   LinearSolver::description() const
   {
-    const std::string direct = factorisations.name();
     if (is_condensed)
       return std::string("CHOLMOD, condensed to contact") +
         (linear_body ? "" : " with a frozen tangent") + "; where that fails, " +
-        direct;
+        package;
     if (!has_multigrid)
-      return direct + " for each state of contact";
+      return package + " for each state of contact";
     return n_taken_over == 0 ? "multigrid"
                              : "multigrid; where it did not converge, " +
-        direct + " in " + std::to_string(n_taken_over) + " solutions";
+        package + " in " + std::to_string(n_taken_over) + " solutions";
   }
 
 

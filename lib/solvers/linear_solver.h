@@ -5,7 +5,6 @@
 #include <base/types.h>
 #include <solvers/coarse_space.h>
 #include <solvers/contact_schur_complement.h>
-#include <solvers/factorisation_choice.h>
 #include <solvers/tangent_solver.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -147,7 +146,7 @@ namespace Ricochet
       return n_taken_over;
     }
 
-    /// What is used, in words.
+    /// The solvers in words, for the log.
     std::string
     description() const;
 
@@ -167,12 +166,13 @@ namespace Ricochet
       std::unique_ptr<ContactSchurComplement> complement;
     };
 
-    const bool                linear_body;
-    const ContactStructure    contact;
-    const FactorisationChoice factorisations;
-    const unsigned int        n_kept;
-    bool                      is_condensed = false;
-    std::list<Condensed>      condensed_bodies;
+    const bool             linear_body;
+    const ContactStructure contact;
+    /// Of the LU factorisation of whole tangents.
+    const std::string    package;
+    const unsigned int   n_kept;
+    bool                 is_condensed = false;
+    std::list<Condensed> condensed_bodies;
     // Of a body that is not linear.
     std::unique_ptr<ContactSchurComplement> frozen;
     bool                                    has_frozen = false;

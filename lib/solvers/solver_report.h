@@ -59,7 +59,7 @@ namespace Ricochet
       strategies |= strategy;
     }
 
-    /// Those of both.
+    /// Unite the strategies and sum the counts.
     SolverReport &
     operator+=(const SolverReport &other);
 

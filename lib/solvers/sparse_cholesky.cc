@@ -98,8 +98,11 @@ namespace Ricochet
       int row, column, below, above;
     };
 
+    /// @param row_start and @param columns of the @p matrix.
     void
-    find_pattern(const Epetra_CrsMatrix &matrix);
+    find_pattern(const Epetra_CrsMatrix &matrix,
+                 const int              *row_start,
+                 const int              *columns);
 
     /// Fill #symmetric, with other signs in rows with a negative entry on the diagonal, if
     /// so wanted. @return whether the matrix is symmetric, except for the columns of
@@ -133,16 +136,13 @@ namespace Ricochet
 
 
   void
-  SparseCholesky::Workshop::find_pattern(const Epetra_CrsMatrix &matrix)
+  SparseCholesky::Workshop::find_pattern(const Epetra_CrsMatrix &matrix,
+                                         const int              *row_start,
+                                         const int              *columns)
   {
     using EpetraIndex = TrilinosWrappers::types::int_type;
     AssertThrow(matrix.NumMyRows() == matrix.NumGlobalRows64(),
                 ExcMessage("CHOLMOD needs all rows on one rank."));
-    int      *row_start = nullptr, *columns = nullptr;
-    double   *values = nullptr;
-    const int error = matrix.ExtractCrsDataPointers(row_start, columns, values);
-    AssertThrow(error == 0,
-                ExcMessage("The matrix is not stored in one piece."));
     const int n = matrix.NumMyRows();
     // Columns have an order of their own, even on one rank.
     std::vector<int> unknown_of(matrix.NumMyCols());
@@ -257,16 +257,16 @@ namespace Ricochet
   SparseCholesky::factorise(const Epetra_CrsMatrix &matrix)
   {
     solves.reset();
-    if (!workshop)
-      {
-        workshop = std::make_unique<Workshop>();
-        workshop->find_pattern(matrix);
-      }
     int      *row_start = nullptr, *columns = nullptr;
     double   *values = nullptr;
     const int error = matrix.ExtractCrsDataPointers(row_start, columns, values);
     AssertThrow(error == 0,
                 ExcMessage("The matrix is not stored in one piece."));
+    if (!workshop)
+      {
+        workshop = std::make_unique<Workshop>();
+        workshop->find_pattern(matrix, row_start, columns);
+      }
     // Of a body that is indefinite, unknowns of both signs are coupled.
     bool is_symmetric = workshop->fill(values, true);
     if (workshop->couples_signs)

@@ -25,10 +25,11 @@ namespace Ricochet
   public:
     enum class Kind
     {
-      /// Of a symmetric matrix, in double precision; made once and solved with often.
+      /// A symmetric matrix in double precision, which is factored once and solved with
+      /// often.
       exact,
-      /// Of the symmetric part of a matrix, in single precision; made anew again and
-      /// again.
+      /// The symmetric part of a matrix in single precision, which is factored every few
+      /// steps.
       frozen_tangent
     };
 

@@ -29,7 +29,7 @@ namespace Ricochet
     };
     std::optional<ActsThrough> functionals;
 
-    /// What contact adds is symmetric.
+    /// The part of contact in the tangent is symmetric.
     bool is_symmetric = false;
     /// It brings unknowns of its own.
     bool has_multipliers = false;

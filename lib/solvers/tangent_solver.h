@@ -16,9 +16,9 @@ namespace Ricochet
     {
       /// Factorisations, or set-ups of multigrid.
       unsigned int n_factorisations = 0;
-      /// Time spent in them and in solving for columns of corrections (s).
+      /// Time spent in them and in forward solves of contact rows (s).
       double factorising = 0.;
-      /// Solutions with factorisations, but for columns of corrections.
+      /// Solutions with factorisations, except the forward solves of contact rows.
       unsigned int n_substitutions = 0;
       /// Time spent in solving with them (s).
       double substituting = 0.;
@@ -26,7 +26,7 @@ namespace Ricochet
 
     virtual ~TangentSolver() = default;
 
-    /// What solve() is in a report.
+    /// The strategy of solve() in a SolverReport.
     virtual SolverReport::Strategy
     strategy() const = 0;
 

@@ -4,6 +4,7 @@
 // in part, and the contact Schur complement, each against the matrix itself; norms of
 // sums of rows, and accelerations.
 
+#include "condensed_solution.h"
 #include "meshes.h"
 
 #include <base/exceptions.h>
@@ -326,21 +327,11 @@ BOOST_DATA_TEST_CASE(contact_is_solved_for_alone,
              rest(right_hand_side);
       randomise(right_hand_side, 1., 4);
 
-      // z = C H x + E H K x
-      complement.begin(right_hand_side);
-      std::vector<double> values(n), coefficients(n, 0.), z(n);
-      complement.observe(values);
-      for (double &value : values)
-        value = -value;
-      const auto along = complement.along_rows(right_hand_side);
-      for (unsigned int f = 0; f < n; ++f)
-        for (const auto &[g, value] : excess_change[f])
-          coefficients[complement.place(f)] += value * along[g];
-      complement.set_contact(change, excess_change);
-      complement.solve_contact(coefficients, values);
-      for (unsigned int f = 0; f < n; ++f)
-        z[f] = coefficients[complement.place(f)];
-      complement.finish(z, solution);
+      solve_condensed(complement,
+                      change,
+                      excess_change,
+                      right_hand_side,
+                      solution);
 
       complement.body_matrix().vmult(rest, solution);
       const Vector of_body(rest);

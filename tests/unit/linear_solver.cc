@@ -4,6 +4,7 @@
 // tangent itself, through a sequence of states in which points open and close. The whole
 // tangent on any number of ranks.
 
+#include "condensed_solution.h"
 #include "meshes.h"
 
 #include <contact/obstacles/half_space.h>
@@ -96,33 +97,6 @@ namespace
     return {{1,
              std::make_shared<RigidObstacle>(
                std::make_shared<SphereShape>(centre, radius, false))}};
-  }
-
-  /// Solve (K + H^T C H + H^T E H K) x = b by the coefficients of the rows H alone.
-  void
-  solve_condensed(ContactSchurComplement &complement,
-                  const Tangent          &tangent,
-                  const Vector           &right_hand_side,
-                  Vector                 &solution)
-  {
-    const unsigned int         n = complement.n_rows();
-    std::vector<FunctionalRow> change(n), excess_change(n);
-    tangent.contact_change(change);
-    tangent.contact_excess_change(excess_change);
-    std::vector<double> values(n), coefficients(n, 0.), z(n);
-    complement.begin(right_hand_side);
-    complement.observe(values);
-    for (double &value : values)
-      value = -value;
-    const auto along = complement.along_rows(right_hand_side);
-    for (unsigned int f = 0; f < n; ++f)
-      for (const auto &[g, value] : excess_change[f])
-        coefficients[complement.place(f)] += value * along[g];
-    complement.set_contact(change, excess_change);
-    complement.solve_contact(coefficients, values);
-    for (unsigned int f = 0; f < n; ++f)
-      z[f] = coefficients[complement.place(f)];
-    complement.finish(z, solution);
   }
 
   /// Solve for a sequence of random states. @return the number of
@@ -234,10 +208,18 @@ namespace
             contact->excess_change(change);
           };
         if (solver.condenses())
-          solve_condensed(solver.condensed(tangent),
-                          tangent,
-                          right_hand_side,
-                          result);
+          {
+            ContactSchurComplement    &complement = solver.condensed(tangent);
+            std::vector<FunctionalRow> change(complement.n_rows()),
+              excess_change(complement.n_rows());
+            tangent.contact_change(change);
+            tangent.contact_excess_change(excess_change);
+            solve_condensed(complement,
+                            change,
+                            excess_change,
+                            right_hand_side,
+                            result);
+          }
         else
           solver.solve(tangent, right_hand_side, result, false, 1e-11);
 
