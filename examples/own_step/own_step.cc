@@ -10,6 +10,16 @@
 // the material, the obstacle. Run it as
 //
 //     own_step --output-dir output/own_step
+//
+// A contact law, a friction law, a material and a time scheme of one's own are beside it,
+// each in one file, and become choices of the parameter file in the first lines of main():
+//
+//     own_step --set "Contact/Treatment=exponential pressure" --set "Material/Law=Yeoh"
+
+#include "backward_euler.h"
+#include "exponential_pressure.h"
+#include "limited_friction.h"
+#include "yeoh.h"
 
 #include <base/program.h>
 #include <materials/material_parameters.h>
@@ -24,21 +34,27 @@ using namespace Ricochet;
 int
 main(int argc, char **argv)
 {
+  // Before any parameter is declared: laws declare their own.
+  register_contact_law<ExponentialPressure>();
+  register_friction_law<LimitedFriction>();
+  register_material<Yeoh>();
+  register_time_scheme<BackwardEuler>();
+
   // What a parameter file may set, with this program's defaults.
   ImpactParameters   impact;
   MaterialParameters material;
-  double             height   = .1;
-  impact.time.final_time      = .5;
-  impact.time.time_step       = 5e-3;
-  impact.scheme.name          = "midpoint";
-  impact.contact.treatment    = "persistent contact";
-  impact.contact.augmentation = 1e6;
-  material.law                = "neo-Hookean";
-  material.plane_state        = "plane strain";
-  material.density            = 1000.;
-  material.young_modulus      = 1e6;
-  material.poisson_ratio      = .3;
-  const auto add_parameters   = [&](ParameterHandler &parameters) {
+  double             height             = .1;
+  impact.time.final_time                = .5;
+  impact.time.time_step                 = 5e-3;
+  impact.scheme.name                    = "midpoint";
+  impact.contact.treatment              = "persistent contact";
+  impact.contact.values["Augmentation"] = 1e6;
+  material.law                          = "neo-Hookean";
+  material.plane_state                  = "plane strain";
+  material.density                      = 1000.;
+  material.values["Young modulus"]      = 1e6;
+  material.values["Poisson ratio"]      = .3;
+  const auto add_parameters             = [&](ParameterHandler &parameters) {
     impact.add_parameters(parameters);
     material.add_parameters(parameters);
     parameters.enter_subsection("Start");
@@ -52,8 +68,7 @@ main(int argc, char **argv)
   // What is refused before any time is spent.
   const auto validate = [&]() {
     material.validate(2, impact.scheme.name);
-    impact.validate(material.law == "linear elastic",
-                    material.viscosity_eta > 0.);
+    impact.validate(material.is_linear(), material.viscosity_eta > 0.);
   };
 
   const auto run = [&](RunFolder &folder) {
@@ -83,5 +98,12 @@ main(int argc, char **argv)
                       "A block falls on the ground.",
                       add_parameters,
                       validate,
-                      run});
+                      run,
+                      [&]() {
+                        std::vector<UnusedParameter> unused =
+                          impact.unused_parameters();
+                        const auto own = material.unused_parameters();
+                        unused.insert(unused.end(), own.begin(), own.end());
+                        return unused;
+                      }});
 }

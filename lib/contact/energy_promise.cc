@@ -26,6 +26,48 @@ namespace Ricochet
 
 
   EnergyPromise
+  keeps_by_quotient()
+  {
+    return {EnergyPromise::Kind::keeps,
+            "the pressure is the quotient of potential and gap increment, so "
+            "that its work is the change of the potential"};
+  }
+
+
+
+  EnergyPromise
+  keeps_by_no_work()
+  {
+    return {EnergyPromise::Kind::keeps,
+            "pressure times gap increment is zero in each point, so that "
+            "contact does no work"};
+  }
+
+
+
+  EnergyPromise
+  falls_by_convexity()
+  {
+    return {EnergyPromise::Kind::never_gains,
+            "the force is the slope, at the end of the step, of a potential "
+            "that is convex in the gap: the potential grows by no more than "
+            "the work"};
+  }
+
+
+
+  EnergyPromise
+  falls_by_complementarity()
+  {
+    return {EnergyPromise::Kind::never_gains,
+            "where there is pressure the gap is zero at the end of the step, "
+            "and was not negative at its beginning, so that its increment is "
+            "not positive"};
+  }
+
+
+
+  EnergyPromise
   EnergyPromise::and_also(const EnergyPromise &other) const
   {
     return static_cast<int>(other.kind) > static_cast<int>(kind) ? other

@@ -43,6 +43,16 @@ namespace Ricochet
     and_also(const EnergyPromise &other) const;
   };
 
+  // Promises that several treatments make, over the steps of the midpoint scheme.
+  EnergyPromise
+  keeps_by_quotient();
+  EnergyPromise
+  keeps_by_no_work();
+  EnergyPromise
+  falls_by_convexity();
+  EnergyPromise
+  falls_by_complementarity();
+
   /// What one contact has made of the energy over a step.
   struct ContactStep
   {

@@ -3,6 +3,7 @@
 #define ricochet_materials_hyperelastic_law_h
 
 #include <materials/lanes.h>
+#include <materials/linear_elastic.h>
 #include <materials/plane_state.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -21,13 +22,17 @@ namespace Ricochet
     Number third{};
   };
 
+  /// Third derivatives of an energy with respect to the three invariants.
+  using ThirdDerivatives = std::array<std::array<std::array<double, 3>, 3>, 3>;
+
   /**
    * An isotropic hyperelastic law: the energy density W as a function of the
    * three invariants of C, with its derivatives. Whether the body is flat or
    * not is no matter of the law: see Hyperelastic.
    *
-   * Concrete laws derive from HyperelasticLawImplementation and are listed in
-   * material_parameters.cc.
+   * A concrete law is a struct with energy, gradient and Hessian, from which
+   * HyperelasticLawImplementation makes one of this class; the table is in
+   * material_table.cc.
    */
   class HyperelasticLaw
   {
@@ -63,6 +68,14 @@ namespace Ricochet
      */
     virtual double
     plane_stress_c33(const double &trace, const double &determinant) const = 0;
+
+    /// The third derivatives of W (Pa).
+    virtual ThirdDerivatives
+    third_derivatives(const Invariants<> &invariants) const = 0;
+
+    /// Lamé's parameters at small strains, in 3D (Pa).
+    virtual LinearElastic
+    at_small_strains() const = 0;
 
     // The same in several points.
     virtual Lanes

@@ -2,6 +2,7 @@
 #ifndef ricochet_materials_hyperelastic_law_implementation_h
 #define ricochet_materials_hyperelastic_law_implementation_h
 
+#include <materials/completed_law.h>
 #include <materials/gonzalez.h>
 #include <materials/hyperelastic_law.h>
 #include <materials/reduced_energy.h>
@@ -9,9 +10,9 @@
 namespace Ricochet
 {
   /**
-   * Turns a struct with templated functions into a HyperelasticLaw. The templates
-   * serve one point and several at once, and let the tests differentiate the very
-   * energy that the programs use.
+   * Turns a struct with templated functions into a HyperelasticLaw; CompletedLaw has
+   * those that the struct does not write. The templates serve one point and several at
+   * once, and let the tests differentiate the very energy that the programs use.
    */
   template <typename Law>
   class HyperelasticLawImplementation : public HyperelasticLaw
@@ -51,6 +52,18 @@ namespace Ricochet
                      const double &determinant) const override
     {
       return law.plane_stress_c33(trace, determinant);
+    }
+
+    ThirdDerivatives
+    third_derivatives(const Invariants<> &invariants) const override
+    {
+      return law.third_derivatives(invariants);
+    }
+
+    LinearElastic
+    at_small_strains() const override
+    {
+      return law.at_small_strains();
     }
 
     Lanes
@@ -111,13 +124,13 @@ namespace Ricochet
               const dealii::SymmetricTensor<2, dim, Lanes> &old_c,
               const dealii::SymmetricTensor<2, dim, Lanes> &difference) const
     {
-      return GonzalezStress<dim>::stress(ReducedEnergy<dim, Law>(law,
-                                                                 plane_state),
-                                         old_c,
-                                         difference);
+      return GonzalezStress<dim>::stress(
+        ReducedEnergy<dim, CompletedLaw<Law>>(law, plane_state),
+        old_c,
+        difference);
     }
 
-    const Law law;
+    const CompletedLaw<Law> law;
   };
 } // namespace Ricochet
 

@@ -135,16 +135,47 @@ namespace Ricochet
       return where_less(b, a, b, a);
     }
 
+    // Functions of the standard library, lane by lane.
+
     friend Lanes
-    log(Lanes x)
+    sqrt(const Lanes &x)
     {
-      for (unsigned int lane = 0; lane < n; ++lane)
-        x[lane] = std::log(x[lane]);
-      return x;
+      return x.apply([](const double y) { return std::sqrt(y); });
     }
 
     friend Lanes
-    log_of_one_plus(Lanes x)
+    cbrt(const Lanes &x)
+    {
+      return x.apply([](const double y) { return std::cbrt(y); });
+    }
+
+    friend Lanes
+    exp(const Lanes &x)
+    {
+      return x.apply([](const double y) { return std::exp(y); });
+    }
+
+    friend Lanes
+    expm1(const Lanes &x)
+    {
+      return x.apply([](const double y) { return std::expm1(y); });
+    }
+
+    friend Lanes
+    log(const Lanes &x)
+    {
+      return x.apply([](const double y) { return std::log(y); });
+    }
+
+    friend Lanes
+    pow(const Lanes &x, const double exponent)
+    {
+      return x.apply(
+        [exponent](const double y) { return std::pow(y, exponent); });
+    }
+
+    friend Lanes
+    log_of_one_plus(const Lanes &x)
     {
       // ln(1 + x) = 2 artanh y with y = x/(2 + x): the series, where it is short.
       constexpr double limit = .1;
@@ -156,9 +187,7 @@ namespace Ricochet
           const Lanes lower  = ((higher * y2 + 2. / 7.) * y2 + 2. / 5.) * y2;
           return 2. * y + y * y2 * (lower + 2. / 3.);
         }
-      for (unsigned int lane = 0; lane < n; ++lane)
-        x[lane] = std::log1p(x[lane]);
-      return x;
+      return x.apply([](const double y) { return std::log1p(y); });
     }
 
     /// Whether @p a < @p b is wrong in some lane, also where one is not a number.
@@ -182,6 +211,16 @@ namespace Ricochet
     }
 
   private:
+    template <typename Function>
+    Lanes
+    apply(const Function &function) const
+    {
+      Lanes result;
+      for (unsigned int lane = 0; lane < n; ++lane)
+        result[lane] = function(data[lane]);
+      return result;
+    }
+
     using Register __attribute__((vector_size(n * sizeof(double)), may_alias)) =
       double;
 

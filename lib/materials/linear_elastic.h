@@ -2,6 +2,9 @@
 #ifndef ricochet_materials_linear_elastic_h
 #define ricochet_materials_linear_elastic_h
 
+#include <base/exceptions.h>
+#include <base/own_parameter.h>
+#include <base/parameter_file.h>
 #include <materials/plane_state.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -21,6 +24,41 @@ namespace Ricochet
     double lambda = 0.;
     /// Shear modulus (Pa).
     double mu = 0.;
+
+    static constexpr const char *name = "linear elastic";
+
+    /// Young's modulus and Poisson's ratio, which other laws take, too.
+    static OwnParameters
+    parameters()
+    {
+      return {OwnParameter("Young modulus", 1e10)
+                .means("Young's modulus",
+                       "Pa",
+                       ". Not used by Ciarlet-Geymonat.")
+                .at_least(1e-30)
+                .belongs_to("the other laws"),
+              OwnParameter("Poisson ratio", .35)
+                .means("Poisson's ratio, above -1 and below 1/2. Not used by "
+                       "Ciarlet-Geymonat.",
+                       "",
+                       "")
+                .at_least(-1.)
+                .at_most(.5)
+                .must([](const double value) {
+                  if (!(value > -1. && value < .5))
+                    throw InputError(
+                      "The Poisson ratio must lie between -1 and 1/2, both "
+                      "excluded; it is " +
+                      to_text(value) + ".");
+                })
+                .belongs_to("the other laws")};
+    }
+
+    static LinearElastic
+    make(const ParameterValues &values)
+    {
+      return from_young(values["Young modulus"], values["Poisson ratio"]);
+    }
 
     /// From Young's modulus (Pa) and Poisson's ratio (paper A, 6.1, with the
     /// factors of its Lamé parameters corrected).

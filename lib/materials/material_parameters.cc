@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
-#include <materials/hyperelastic_law_implementation.h>
-#include <materials/laws/ciarlet_geymonat.h>
-#include <materials/laws/neo_hookean.h>
-#include <materials/laws/saint_venant_kirchhoff.h>
 #include <materials/material_parameters.h>
+#include <materials/material_table.h>
 
-#include <functional>
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -17,39 +14,31 @@ namespace Ricochet
 
   namespace
   {
-    template <typename Law>
-    std::shared_ptr<const HyperelasticLaw>
-    hyperelastic(const Law &law)
+    const MaterialEntry &
+    find(const std::string &law)
     {
-      return std::make_shared<HyperelasticLawImplementation<Law>>(law);
+      for (const MaterialEntry &entry : material_table())
+        if (entry.name == law)
+          return entry;
+      AssertThrow(false, ExcMessage("unknown law " + law));
+      return material_table().front();
     }
 
-    const std::string linear_elastic = "linear elastic";
-
-    // The table of hyperelastic laws: a new one is one file in laws/ and one
-    // entry here.
-    using Maker = std::function<std::shared_ptr<const HyperelasticLaw>(
-      const MaterialParameters &)>;
-    const std::vector<std::pair<std::string, Maker>> &
-    table()
+    /// "Elastic law. ...: small strains and rotations. A, B and C: large ones."
+    std::string
+    documentation_of_laws()
     {
-      const auto lame = [](const MaterialParameters &p) {
-        return LinearElastic::from_young(p.young_modulus, p.poisson_ratio);
-      };
-      static const std::vector<std::pair<std::string, Maker>> laws = {
-        {"Ciarlet-Geymonat",
-         [](const auto &p) {
-           return hyperelastic(CiarletGeymonat{p.c1, p.c2, p.d});
-         }},
-        {"Saint Venant-Kirchhoff",
-         [lame](const auto &p) {
-           return hyperelastic(
-             SaintVenantKirchhoff{lame(p).lambda, lame(p).mu});
-         }},
-        {"neo-Hookean", [lame](const auto &p) {
-           return hyperelastic(NeoHookean{lame(p).lambda, lame(p).mu});
-         }}};
-      return laws;
+      const auto &table = material_table();
+      std::string text =
+        "Elastic law. " + table[0].name + ": small strains and rotations. ";
+      for (unsigned int k = 1; k < table.size(); ++k)
+        {
+          text += k == 1 ? "" : k + 1 < table.size() ? ", " : " and ";
+          text += table[k].name;
+          if (!table[k].remark.empty())
+            text += " (" + table[k].remark + ")";
+        }
+      return text + ": large ones.";
     }
 
     const std::map<std::string, Viscosity::Law> viscosities = {
@@ -64,18 +53,15 @@ namespace Ricochet
   void
   MaterialParameters::add_parameters(ParameterHandler &parameters)
   {
-    std::string laws = linear_elastic;
-    for (const auto &entry : table())
-      laws += "|" + entry.first;
+    std::string laws;
+    for (const MaterialEntry &entry : material_table())
+      laws += (laws.empty() ? "" : "|") + entry.name;
 
     parameters.enter_subsection(section);
-    parameters.add_parameter(
-      "Law",
-      law,
-      "Elastic law. linear elastic: small strains and rotations. "
-      "Ciarlet-Geymonat (papers A and B call it Ogden's), Saint "
-      "Venant-Kirchhoff and neo-Hookean: large ones.",
-      Patterns::Selection(laws));
+    parameters.add_parameter("Law",
+                             law,
+                             documentation_of_laws(),
+                             Patterns::Selection(laws));
     parameters.add_parameter("Plane state",
                              plane_state,
                              "What a body in 2D stands for: a thin sheet "
@@ -87,29 +73,7 @@ namespace Ricochet
                              density,
                              "Referential density (kg/m^3).",
                              Patterns::Double(1e-30));
-    parameters.add_parameter(
-      "Young modulus",
-      young_modulus,
-      "Young's modulus (Pa). Not used by Ciarlet-Geymonat.",
-      Patterns::Double(1e-30));
-    parameters.add_parameter(
-      "Poisson ratio",
-      poisson_ratio,
-      "Poisson's ratio, above -1 and below 1/2. Not used by "
-      "Ciarlet-Geymonat.",
-      Patterns::Double(-1., .5));
-    parameters.add_parameter("c1",
-                             c1,
-                             "Factor of I1 - 3 (Pa). Used by Ciarlet-Geymonat.",
-                             Patterns::Double(1e-30));
-    parameters.add_parameter("c2",
-                             c2,
-                             "Factor of I2 - 3 (Pa). Used by Ciarlet-Geymonat.",
-                             Patterns::Double(0.));
-    parameters.add_parameter("d",
-                             d,
-                             "Factor of I3 - 1 (Pa). Used by Ciarlet-Geymonat.",
-                             Patterns::Double(1e-30));
+    values.add_parameters(all_parameters(), parameters);
     parameters.add_parameter(
       "Viscosity",
       viscosity,
@@ -131,17 +95,47 @@ namespace Ricochet
   std::vector<UnusedParameter>
   MaterialParameters::unused_parameters() const
   {
+    const OwnParameters         &used = find(law).parameters;
     std::vector<UnusedParameter> unused;
-    const auto need = [&](const std::string &owner, const auto &...names) {
-      for (const char *name : {names...})
-        unused.push_back(
-          {section + "/" + name, owner + "; " + section + "/Law is " + law});
-    };
-    if (law == "Ciarlet-Geymonat")
-      need("the other laws", "Young modulus", "Poisson ratio");
-    else
-      need("the law Ciarlet-Geymonat", "c1", "c2", "d");
+    for (const OwnParameter &parameter : all_parameters())
+      if (std::none_of(used.begin(), used.end(), [&](const auto &own) {
+            return own.name == parameter.name;
+          }))
+        unused.push_back({section + "/" + parameter.name,
+                          parameter.owner + "; " + section + "/Law is " + law});
     return unused;
+  }
+
+
+
+  OwnParameters
+  MaterialParameters::all_parameters()
+  {
+    OwnParameters all;
+    for (const MaterialEntry &entry : material_table())
+      unite(all, entry.parameters);
+    return all;
+  }
+
+
+
+  std::vector<std::string>
+  MaterialParameters::names()
+  {
+    std::vector<std::string> list = {"Law", "Plane state", "Density"};
+    for (const OwnParameter &parameter : all_parameters())
+      list.push_back(parameter.name);
+    list.insert(list.end(), {"Viscosity", "Viscosity eta"});
+    return list;
+  }
+
+
+
+  PlaneState
+  MaterialParameters::state(const unsigned int dim) const
+  {
+    return dim == 3 || plane_state == "plane strain" ? PlaneState::plane_strain
+                                                     : PlaneState::plane_stress;
   }
 
 
@@ -153,17 +147,11 @@ namespace Ricochet
     if (dim == 3 && plane_state == "plane stress")
       throw InputError("Plane stress has no meaning for a body in 3D: set " +
                        section + "/Plane state to plane strain.");
-    if (!(poisson_ratio > -1. && poisson_ratio < .5))
-      throw InputError(
-        "The Poisson ratio must lie between -1 and 1/2, both "
-        "excluded; it is " +
-        to_text(poisson_ratio) + ".");
-    if (law == "neo-Hookean" && plane_state == "plane stress" &&
-        poisson_ratio < 0.)
-      throw InputError(
-        "A neo-Hookean body in plane stress needs a Poisson ratio "
-        "that is not negative; it is " +
-        to_text(poisson_ratio) + ".");
+    for (const OwnParameter &parameter : all_parameters())
+      if (parameter.condition)
+        parameter.condition(values[parameter.name]);
+    if (find(law).check)
+      find(law).check(values, state(dim));
     if (viscosity == "none" && viscosity_eta > 0.)
       throw InputError(section + "/Viscosity eta is " + to_text(viscosity_eta) +
                        " and " + section +
@@ -171,7 +159,7 @@ namespace Ricochet
                        "(linear, Curnier, Pioletti) or set eta to 0.");
     if (viscosity == "none")
       return;
-    const bool small_strains = law == linear_elastic;
+    const bool small_strains = is_linear();
     if (small_strains != (viscosity == "linear"))
       throw InputError(
         "The viscosity '" + viscosity + "' does not go with the law '" + law +
@@ -191,9 +179,7 @@ namespace Ricochet
   LinearElastic
   MaterialParameters::at_small_strains() const
   {
-    if (law == "Ciarlet-Geymonat")
-      return {4. * (c2 + d), 2. * (c1 + c2)};
-    return LinearElastic::from_young(young_modulus, poisson_ratio);
+    return find(law).at_small_strains(values);
   }
 
 
@@ -202,22 +188,15 @@ namespace Ricochet
   Material<dim>
   MaterialParameters::make() const
   {
-    const PlaneState state = dim == 3 || plane_state == "plane strain"
-      ? PlaneState::plane_strain
-      : PlaneState::plane_stress;
-    const Viscosity  viscous{viscosities.at(viscosity), viscosity_eta};
-    if (law == linear_elastic)
-      return Material<dim>(
-        LinearElastic::from_young(young_modulus, poisson_ratio).in_plane(state),
-        viscous,
-        state);
-    for (const auto &[name, make_law] : table())
-      if (name == law)
-        return Material<dim>(
-          std::make_shared<Hyperelastic<dim>>(make_law(*this), state),
-          viscous);
-    AssertThrow(false, ExcMessage("unknown law " + law));
-    return Material<dim>(LinearElastic());
+    const MaterialEntry &entry = find(law);
+    const Viscosity      viscous{viscosities.at(viscosity), viscosity_eta};
+    if (!entry.make)
+      return Material<dim>(entry.at_small_strains(values).in_plane(state(dim)),
+                           viscous,
+                           state(dim));
+    return Material<dim>(std::make_shared<Hyperelastic<dim>>(entry.make(values),
+                                                             state(dim)),
+                         viscous);
   }
 
 

@@ -2,12 +2,14 @@
 #ifndef ricochet_materials_material_parameters_h
 #define ricochet_materials_material_parameters_h
 
+#include <base/own_parameter.h>
 #include <base/parameter_file.h>
 #include <materials/material.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
+#include <vector>
 
 namespace Ricochet
 {
@@ -19,16 +21,23 @@ namespace Ricochet
     std::string law           = "linear elastic";
     std::string plane_state   = "plane stress";
     double      density       = 1000.;
-    double      young_modulus = 1e10;
-    double      poisson_ratio = .35;
-    double      c1            = .5e6;
-    double      c2            = 5e3;
-    double      d             = .35e6;
     std::string viscosity     = "none";
     double      viscosity_eta = 0.;
+    /// The parameters of all laws, as they declare them.
+    ParameterValues values = all_parameters();
 
     void
     add_parameters(dealii::ParameterHandler &parameters);
+
+    /// The names of all parameters, for those whose place is taken.
+    static std::vector<std::string>
+    names();
+
+    bool
+    is_linear() const
+    {
+      return law == LinearElastic::name;
+    }
 
     /// The parameters that the law makes no use of.
     std::vector<UnusedParameter>
@@ -50,6 +59,14 @@ namespace Ricochet
     /// Lamé's parameters at small strains, in 3D (Pa).
     LinearElastic
     at_small_strains() const;
+
+  private:
+    /// Those of all laws.
+    static OwnParameters
+    all_parameters();
+
+    PlaneState
+    state(const unsigned int dim) const;
   };
 } // namespace Ricochet
 

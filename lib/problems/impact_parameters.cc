@@ -70,28 +70,8 @@ namespace Ricochet
   ImpactParameters::unused_parameters() const
   {
     std::vector<UnusedParameter> unused = contact.unused_parameters();
-    const auto                   more   = unused_parameters_of_scheme();
+    const auto                   more   = scheme.unused_parameters();
     unused.insert(unused.end(), more.begin(), more.end());
-    return unused;
-  }
-
-
-
-  std::vector<UnusedParameter>
-  ImpactParameters::unused_parameters_of_scheme() const
-  {
-    std::vector<UnusedParameter> unused;
-    const auto                   need = [&](const std::string &name,
-                          const std::string &scheme_name) {
-      if (scheme.name != scheme_name)
-        unused.push_back({"Time/" + name,
-                          "the time scheme " + scheme_name +
-                            "; Time/Scheme is " + scheme.name});
-    };
-    need("HHT alpha", "HHT");
-    need("TR-BDF2 gamma", "TR-BDF2");
-    need("ARKODE relative tolerance", "ARKODE");
-    need("ARKODE absolute tolerance", "ARKODE");
     return unused;
   }
 } // namespace Ricochet

@@ -40,10 +40,6 @@ namespace Ricochet
     std::vector<UnusedParameter>
     unused_parameters() const;
 
-    /// Those of the time scheme only.
-    std::vector<UnusedParameter>
-    unused_parameters_of_scheme() const;
-
     /// Refuse steps that do not go with the final time. @throws InputError
     void
     validate_times() const;

@@ -279,10 +279,10 @@ namespace Ricochet
   default_material()
   {
     MaterialParameters material;
-    material.law           = "neo-Hookean";
-    material.plane_state   = "plane strain";
-    material.poisson_ratio = .3;
-    material.young_modulus = 1e6;
+    material.law                     = "neo-Hookean";
+    material.plane_state             = "plane strain";
+    material.values["Poisson ratio"] = .3;
+    material.values["Young modulus"] = 1e6;
     return material;
   }
 
@@ -453,16 +453,7 @@ namespace Ricochet
     if (!material_name.empty())
       {
         unused.clear();
-        for (const std::string name : {"Law",
-                                       "Plane state",
-                                       "Density",
-                                       "Young modulus",
-                                       "Poisson ratio",
-                                       "c1",
-                                       "c2",
-                                       "d",
-                                       "Viscosity",
-                                       "Viscosity eta"})
+        for (const std::string &name : MaterialParameters::names())
           unused.push_back({name_of(name),
                             "bodies with a material of their own; " +
                               name_of("Material") + " is " + material_name});

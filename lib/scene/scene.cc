@@ -146,7 +146,7 @@ namespace Ricochet
   std::vector<UnusedParameter>
   Scene<dim>::unused_parameters() const
   {
-    std::vector<UnusedParameter> unused = impact.unused_parameters_of_scheme();
+    std::vector<UnusedParameter> unused = impact.scheme.unused_parameters();
     const auto add = [&](const std::vector<UnusedParameter> &more) {
       unused.insert(unused.end(), more.begin(), more.end());
     };
@@ -186,7 +186,7 @@ namespace Ricochet
       {
         const MaterialParameters &material = part.material;
         material.validate(dim, impact.scheme.name);
-        is_linear  = is_linear && material.law == "linear elastic";
+        is_linear  = is_linear && material.is_linear();
         is_viscous = is_viscous ||
           (material.viscosity != "none" && material.viscosity_eta > 0.);
       }
@@ -520,8 +520,8 @@ namespace Ricochet
                surfaces.find(contact.against, contact.name_of("Against")))
             add_partners(surface);
         // Where no modulus is finite, nothing that follows from it is.
-        constexpr double          largest = std::numeric_limits<double>::max();
-        ContactParameters::Scales scales{largest, largest, 0., sum / n, degree};
+        constexpr double largest = std::numeric_limits<double>::max();
+        Scales           scales{largest, largest, 0., sum / n, degree};
         for (const unsigned int p : partners)
           {
             const LinearElastic elastic = parts[p].material.at_small_strains();

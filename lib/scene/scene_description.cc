@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/laws/regularised_friction.h>
 #include <base/exceptions.h>
 #include <base/files.h>
 #include <base/units.h>
@@ -67,7 +68,7 @@ namespace Ricochet
             "Mesh/Degree = 2 helps.");
         // The strain of a rotation by 0.1 is 0.5 %.
         const double angle = body.spin.norm() * impact.time.final_time;
-        if (material.law == "linear elastic" && angle > .1)
+        if (material.is_linear() && angle > .1)
           lines.push_back(
             "note: " + body.section.where + ": the body '" + part.name +
             "' turns by " + to_text(angle) +
@@ -77,13 +78,13 @@ namespace Ricochet
       }
     for (const ContactSection &contact : contacts)
       for (const auto &[name, value] : contact.parameters.used_values())
-        if (name == "Tangential compliance")
+        if (name == RegularisedFriction::compliance_name)
           lines.push_back(
             "note: " + contact.section.where + ": friction of the treatment '" +
             contact.parameters.treatment +
             "' is regularised: what sticks creeps, with its tangential "
-            "traction over Tangential compliance (" +
-            to_text(value) +
+            "traction over " +
+            name + " (" + to_text(value) +
             " in the units of this file). Stick is exact with Signorini active "
             "set, persistent contact and Ayyad-Barboteu two-step.");
     return lines;

@@ -6,6 +6,8 @@
 
 namespace Ricochet
 {
+  using namespace dealii;
+
   namespace
   {
     /// Give the constraints of @p matrix, its rows that have an entry zero in the

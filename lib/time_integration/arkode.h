@@ -22,6 +22,47 @@ namespace Ricochet
   public:
     ARKode(const double relative_tolerance, const double absolute_tolerance);
 
+    static SchemeTraits
+    traits()
+    {
+      return {"ARKODE",
+              /* contact_over_step */ false,
+              /* needs_potential */ true};
+    }
+
+    static std::string
+    about()
+    {
+      return "adaptive Runge-Kutta of SUNDIALS, for treatments with a potential, "
+             "as a check";
+    }
+
+    static OwnParameters
+    parameters()
+    {
+      return {
+        OwnParameter("ARKODE relative tolerance", 1e-8)
+          .means("Relative error allowed per step. Used by ARKODE.", "", "")
+          .at_least(1e-14)
+          .at_most(1e-2)
+          .belongs_to("the time scheme ARKODE"),
+        OwnParameter("ARKODE absolute tolerance", 1e-10)
+          .means(
+            "Absolute error allowed per step, in m and m/s. Used by ARKODE.",
+            "",
+            "")
+          .at_least(1e-16)
+          .at_most(1.)
+          .belongs_to("the time scheme ARKODE")};
+    }
+
+    static std::unique_ptr<TimeScheme>
+    make(const ParameterValues &values)
+    {
+      return std::make_unique<ARKode>(values["ARKODE relative tolerance"],
+                                      values["ARKODE absolute tolerance"]);
+    }
+
     StepReport
     step(SemiDiscreteSystem &system,
          const State        &old_state,

@@ -20,6 +20,38 @@ namespace Ricochet
   public:
     explicit HHT(const double alpha);
 
+    static SchemeTraits
+    traits()
+    {
+      return {"HHT"};
+    }
+
+    static std::string
+    about()
+    {
+      return "paper C, (24)";
+    }
+
+    static OwnParameters
+    parameters()
+    {
+      return {OwnParameter("HHT alpha", .05)
+                .means("Parameter alpha of HHT, of either sign (paper C: alpha "
+                       "tilde); beta = (1 + |alpha|)^2/4, gamma = 1/2 + "
+                       "|alpha|. Used by HHT.",
+                       "",
+                       "")
+                .at_least(-1. / 3.)
+                .at_most(1. / 3.)
+                .belongs_to("the time scheme HHT")};
+    }
+
+    static std::unique_ptr<TimeScheme>
+    make(const ParameterValues &values)
+    {
+      return std::make_unique<HHT>(values["HHT alpha"]);
+    }
+
     StepReport
     step(SemiDiscreteSystem &system,
          const State        &old_state,
@@ -31,6 +63,41 @@ namespace Ricochet
     Stage        stage;
     // Work space.
     Vector old_force, new_force, load, mass_times_jump, work;
+  };
+
+
+
+  /// The trapezoidal rule, which is HHT with alpha = 0.
+  class CrankNicolson : public HHT
+  {
+  public:
+    CrankNicolson()
+      : HHT(0.)
+    {}
+
+    static SchemeTraits
+    traits()
+    {
+      return {"Crank-Nicolson"};
+    }
+
+    static std::string
+    about()
+    {
+      return "HHT with alpha = 0";
+    }
+
+    static OwnParameters
+    parameters()
+    {
+      return {};
+    }
+
+    static std::unique_ptr<TimeScheme>
+    make(const ParameterValues &)
+    {
+      return std::make_unique<CrankNicolson>();
+    }
   };
 
 

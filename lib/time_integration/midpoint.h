@@ -23,6 +23,31 @@ namespace Ricochet
   class Midpoint : public TimeScheme
   {
   public:
+    static SchemeTraits
+    traits()
+    {
+      return {"midpoint", /* contact_over_step */ true};
+    }
+
+    static std::string
+    about()
+    {
+      return "A (3.2), B (3.1); with the Nitsche-hybrid treatment this is the "
+             "hybrid scheme, C (38)";
+    }
+
+    static OwnParameters
+    parameters()
+    {
+      return {};
+    }
+
+    static std::unique_ptr<TimeScheme>
+    make(const ParameterValues &)
+    {
+      return std::make_unique<Midpoint>();
+    }
+
     StepReport
     step(SemiDiscreteSystem &system,
          const State        &old_state,

@@ -22,11 +22,11 @@ namespace Ricochet
   };
 
   /// All schemes, in the order of their table.
-  const std::vector<SchemeTraits> &
+  std::vector<SchemeTraits>
   all_scheme_traits();
 
   /// Those of the scheme @p name.
-  const SchemeTraits &
+  SchemeTraits
   scheme_traits(const std::string &name);
 } // namespace Ricochet
 

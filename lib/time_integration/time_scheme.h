@@ -2,6 +2,9 @@
 #ifndef ricochet_time_integration_time_scheme_h
 #define ricochet_time_integration_time_scheme_h
 
+#include <base/own_parameter.h>
+#include <base/parameter_file.h>
+#include <time_integration/scheme_traits.h>
 #include <time_integration/semi_discrete_system.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -70,12 +73,17 @@ namespace Ricochet
   public:
     struct Parameters
     {
-      std::string name      = "Crank-Nicolson";
-      double      hht_alpha = .05;
-      /// 2 - sqrt(2), for which both stages have the same tangent.
-      double trbdf2_gamma              = 0.5857864376269049;
-      double arkode_relative_tolerance = 1e-8;
-      double arkode_absolute_tolerance = 1e-10;
+      std::string name = "Crank-Nicolson";
+      /// The parameters of all schemes, as they declare them.
+      ParameterValues values = all_parameters();
+
+      /// Those of all schemes.
+      static OwnParameters
+      all_parameters();
+
+      /// The parameters that the scheme makes no use of.
+      std::vector<UnusedParameter>
+      unused_parameters() const;
 
       void
       add_parameters(dealii::ParameterHandler &parameters);

@@ -3,10 +3,8 @@
 #include <time_integration/hht.h>
 #include <time_integration/midpoint.h>
 #include <time_integration/scheme_traits.h>
-#include <time_integration/time_scheme.h>
+#include <time_integration/time_scheme_table.h>
 #include <time_integration/tr_bdf2.h>
-
-#include <functional>
 
 #include <algorithm>
 
@@ -16,40 +14,23 @@ namespace Ricochet
 
   namespace
   {
-    struct Entry
-    {
-      SchemeTraits traits;
-      std::function<std::unique_ptr<TimeScheme>(const TimeScheme::Parameters &)>
-        make;
-    };
-
     // The table of all time schemes: a new scheme is one file and one line.
-    const std::vector<Entry> &
+    std::vector<TimeSchemeEntry> &
     table()
     {
-      constexpr bool                  over_step = true, potential = true;
-      static const std::vector<Entry> schemes = {
-        {{"Crank-Nicolson"},
-         [](const auto &) { return std::make_unique<HHT>(0.); }},
-        {{"HHT"},
-         [](const auto &p) { return std::make_unique<HHT>(p.hht_alpha); }},
-        {{"TR-BDF2"},
-         [](const auto &p) {
-           return std::make_unique<TRBDF2>(p.trbdf2_gamma);
-         }},
-        {{"midpoint", over_step},
-         [](const auto &) { return std::make_unique<Midpoint>(); }},
-        {{"ARKODE", !over_step, potential}, [](const auto &p) {
-           return std::make_unique<ARKode>(p.arkode_relative_tolerance,
-                                           p.arkode_absolute_tolerance);
-         }}};
+      static std::vector<TimeSchemeEntry> schemes = {
+        time_scheme_entry<CrankNicolson>(),
+        time_scheme_entry<HHT>(),
+        time_scheme_entry<TRBDF2>(),
+        time_scheme_entry<Midpoint>(),
+        time_scheme_entry<ARKode>()};
       return schemes;
     }
 
-    const Entry &
+    const TimeSchemeEntry &
     find(const std::string &name)
     {
-      for (const Entry &entry : table())
+      for (const TimeSchemeEntry &entry : table())
         if (entry.traits.name == name)
           return entry;
       AssertThrow(false, ExcMessage("unknown time scheme " + name));
@@ -59,21 +40,30 @@ namespace Ricochet
 
 
 
-  const std::vector<SchemeTraits> &
+  std::vector<SchemeTraits>
   all_scheme_traits()
   {
-    static const std::vector<SchemeTraits> all = [] {
-      std::vector<SchemeTraits> list;
-      for (const Entry &entry : table())
-        list.push_back(entry.traits);
-      return list;
-    }();
-    return all;
+    std::vector<SchemeTraits> list;
+    for (const TimeSchemeEntry &entry : table())
+      list.push_back(entry.traits);
+    return list;
   }
 
 
 
-  const SchemeTraits &
+  void
+  register_time_scheme(const TimeSchemeEntry &entry)
+  {
+    for (const TimeSchemeEntry &other : table())
+      AssertThrow(other.traits.name != entry.traits.name,
+                  ExcMessage("There is a time scheme '" + entry.traits.name +
+                             "' already."));
+    table().push_back(entry);
+  }
+
+
+
+  SchemeTraits
   scheme_traits(const std::string &name)
   {
     return find(name).traits;
@@ -115,7 +105,7 @@ namespace Ricochet
   time_scheme_names()
   {
     std::string names;
-    for (const Entry &entry : table())
+    for (const TimeSchemeEntry &entry : table())
       names += (names.empty() ? "" : "|") + entry.traits.name;
     return names;
   }
@@ -125,7 +115,34 @@ namespace Ricochet
   std::unique_ptr<TimeScheme>
   make_time_scheme(const TimeScheme::Parameters &parameters)
   {
-    return find(parameters.name).make(parameters);
+    return find(parameters.name).make(parameters.values);
+  }
+
+
+
+  OwnParameters
+  TimeScheme::Parameters::all_parameters()
+  {
+    OwnParameters all;
+    for (const TimeSchemeEntry &entry : table())
+      unite(all, entry.parameters);
+    return all;
+  }
+
+
+
+  std::vector<UnusedParameter>
+  TimeScheme::Parameters::unused_parameters() const
+  {
+    const OwnParameters         &used = find(name).parameters;
+    std::vector<UnusedParameter> unused;
+    for (const OwnParameter &parameter : all_parameters())
+      if (std::none_of(used.begin(), used.end(), [&](const auto &own) {
+            return own.name == parameter.name;
+          }))
+        unused.push_back({"Time/" + parameter.name,
+                          parameter.owner + "; Time/Scheme is " + name});
+    return unused;
   }
 
 
@@ -134,40 +151,15 @@ namespace Ricochet
   TimeScheme::Parameters::add_parameters(ParameterHandler &parameters)
   {
     parameters.enter_subsection("Time");
-    parameters.add_parameter(
-      "Scheme",
-      name,
-      "Time scheme: Crank-Nicolson (HHT with alpha = 0); HHT (paper C, (24)); "
-      "TR-BDF2 (C, (33)); midpoint (A (3.2), B (3.1); with the Nitsche-hybrid "
-      "treatment this is the hybrid scheme, C (38)); ARKODE (adaptive "
-      "Runge-Kutta of SUNDIALS, for treatments with a potential, as a check).",
-      Patterns::Selection(time_scheme_names()));
-    parameters.add_parameter(
-      "HHT alpha",
-      hht_alpha,
-      "Parameter alpha of HHT, of either sign (paper C: alpha tilde); beta = "
-      "(1 + |alpha|)^2/4, gamma = 1/2 + |alpha|. Used by HHT.",
-      Patterns::Double(-1. / 3., 1. / 3.));
-    parameters.add_parameter(
-      "TR-BDF2 gamma",
-      trbdf2_gamma,
-      "Fraction of the step that the trapezoidal rule takes (paper C: gamma "
-      "tilde); at 2 - sqrt(2) both stages have the same matrix. Used by "
-      "TR-BDF2.",
-      Patterns::Double(.01, .99));
-    // With all digits: the default text has six, and the two stages of TR-BDF2
-    // share a matrix only if gamma is 2 - sqrt(2) to round-off.
-    parameters.set("TR-BDF2 gamma", "0.5857864376269049");
-
-    parameters.add_parameter("ARKODE relative tolerance",
-                             arkode_relative_tolerance,
-                             "Relative error allowed per step. Used by ARKODE.",
-                             Patterns::Double(1e-14, 1e-2));
-    parameters.add_parameter("ARKODE absolute tolerance",
-                             arkode_absolute_tolerance,
-                             "Absolute error allowed per step, in m and m/s. "
-                             "Used by ARKODE.",
-                             Patterns::Double(1e-16, 1.));
+    std::string text = "Time scheme: ";
+    for (const TimeSchemeEntry &entry : table())
+      text += (&entry == &table().front() ? "" : "; ") + entry.traits.name +
+        (entry.about.empty() ? "" : " (" + entry.about + ")");
+    parameters.add_parameter("Scheme",
+                             name,
+                             text + ".",
+                             Patterns::Selection(time_scheme_names()));
+    values.add_parameters(all_parameters(), parameters);
     parameters.leave_subsection();
   }
 } // namespace Ricochet

@@ -15,6 +15,39 @@ namespace Ricochet
   public:
     explicit TRBDF2(const double gamma);
 
+    static SchemeTraits
+    traits()
+    {
+      return {"TR-BDF2"};
+    }
+
+    static std::string
+    about()
+    {
+      return "C, (33)";
+    }
+
+    static OwnParameters
+    parameters()
+    {
+      // To round-off: both stages share a matrix only if gamma is 2 - sqrt(2).
+      return {OwnParameter("TR-BDF2 gamma", 0.5857864376269049)
+                .means("Fraction of the step that the trapezoidal rule takes "
+                       "(paper C: gamma tilde); at 2 - sqrt(2) both stages "
+                       "have the same matrix. Used by TR-BDF2.",
+                       "",
+                       "")
+                .at_least(.01)
+                .at_most(.99)
+                .belongs_to("the time scheme TR-BDF2")};
+    }
+
+    static std::unique_ptr<TimeScheme>
+    make(const ParameterValues &values)
+    {
+      return std::make_unique<TRBDF2>(values["TR-BDF2 gamma"]);
+    }
+
     StepReport
     step(SemiDiscreteSystem &system,
          const State        &old_state,

@@ -165,22 +165,22 @@ private:
 // ## Data
 CollidingDisks::CollidingDisks()
 {
-  material.law           = "Saint Venant-Kirchhoff";
-  material.plane_state   = "plane strain";
-  material.density       = 1000.;
-  material.young_modulus = 1e6;
-  material.poisson_ratio = .3;
+  material.law                     = "Saint Venant-Kirchhoff";
+  material.plane_state             = "plane strain";
+  material.density                 = 1000.;
+  material.values["Young modulus"] = 1e6;
+  material.values["Poisson ratio"] = .3;
 
   impact.time.final_time   = .26;
   impact.time.time_step    = 4e-3;
   impact.time.fields_every = 5;
   impact.scheme.name       = "midpoint";
 
-  impact.contact.treatment              = "persistent contact";
-  impact.contact.compliance_coefficient = 1e8;
-  impact.contact.tangential_compliance  = 1e5;
-  impact.contact.augmentation           = 1e6;
-  impact.contact.penalty_epsilon_0      = 1e-7;
+  impact.contact.treatment                        = "persistent contact";
+  impact.contact.values["Compliance coefficient"] = 1e8;
+  impact.contact.values["Tangential compliance"]  = 1e5;
+  impact.contact.values["Augmentation"]           = 1e6;
+  impact.contact.values["Penalty epsilon0"]       = 1e-7;
 }
 
 
@@ -236,7 +236,7 @@ CollidingDisks::validate() const
 {
   check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
   material.validate(2, impact.scheme.name);
-  impact.validate(material.law == "linear elastic",
+  impact.validate(material.is_linear(),
                   material.viscosity != "none" && material.viscosity_eta > 0.);
   if (!(offset < distance))
     throw InputError(
@@ -302,11 +302,11 @@ CollidingDisks::run(RunFolder &folder)
   const types::boundary_id slave_id = slave == "left" ? 0 : 1;
   setup.pairs                       = {{"disks", {slave_id}, {1U - slave_id}}};
   Impact<2> collision(impact, triangulation, setup, folder.communicator);
-  folder.log(std::to_string(triangulation.n_global_active_cells()) +
-             " cells, " +
-             std::to_string(collision.body.owned_indices().size()) +
-             " unknowns, " + material.law + ", " + impact.contact.treatment +
-             ", mu = " + to_text(impact.contact.friction_coefficient));
+  folder.log(
+    std::to_string(triangulation.n_global_active_cells()) + " cells, " +
+    std::to_string(collision.body.owned_indices().size()) + " unknowns, " +
+    material.law + ", " + impact.contact.treatment +
+    ", mu = " + to_text(impact.contact.values["Friction coefficient"]));
 
   const State initial_state = collision.state_of_parts();
 

@@ -180,22 +180,22 @@ private:
 // ## Data
 CollidingSpheres::CollidingSpheres()
 {
-  material.law           = "neo-Hookean";
-  material.plane_state   = "plane strain";
-  material.density       = 1000.;
-  material.young_modulus = 1e6;
-  material.poisson_ratio = .3;
+  material.law                     = "neo-Hookean";
+  material.plane_state             = "plane strain";
+  material.density                 = 1000.;
+  material.values["Young modulus"] = 1e6;
+  material.values["Poisson ratio"] = .3;
 
   impact.time.final_time   = .26;
   impact.time.time_step    = 4e-3;
   impact.time.fields_every = 5;
   impact.scheme.name       = "midpoint";
 
-  impact.contact.treatment              = "persistent contact";
-  impact.contact.compliance_coefficient = 1e8;
-  impact.contact.tangential_compliance  = 1e5;
-  impact.contact.augmentation           = 1e6;
-  impact.contact.penalty_epsilon_0      = 1e-7;
+  impact.contact.treatment                        = "persistent contact";
+  impact.contact.values["Compliance coefficient"] = 1e8;
+  impact.contact.values["Tangential compliance"]  = 1e5;
+  impact.contact.values["Augmentation"]           = 1e6;
+  impact.contact.values["Penalty epsilon0"]       = 1e-7;
 }
 
 
@@ -275,7 +275,7 @@ CollidingSpheres::validate() const
                          /* is_self = */ false,
                          /* dim = */ 3);
   material.validate(3, impact.scheme.name);
-  impact.validate(material.law == "linear elastic",
+  impact.validate(material.is_linear(),
                   material.viscosity != "none" && material.viscosity_eta > 0.);
   if (!(offset < distance))
     throw InputError("Spheres/Offset = " + to_text(offset) +
@@ -284,8 +284,7 @@ CollidingSpheres::validate() const
   if (!(distance >= 2. * radius))
     throw InputError("Spheres/Distance = " + to_text(distance) +
                      " m must be two radii at least: the spheres overlap.");
-  if (material.law == "linear elastic" &&
-      (spin[0].norm() > 0. || spin[1].norm() > 0.))
+  if (material.is_linear() && (spin[0].norm() > 0. || spin[1].norm() > 0.))
     throw InputError(
       "Linear elastic bodies cannot turn: a sphere that spins "
       "takes another Material/Law.");
@@ -432,11 +431,12 @@ CollidingSpheres::run(RunFolder &folder)
   const types::boundary_id slave_id = slave == "left" ? 1 : 2;
   setup.pairs = {{"spheres", {slave_id}, {3U - slave_id}}};
   Impact<3> collision(impact, *mesh, setup, folder.communicator);
-  folder.log(std::to_string(mesh->n_global_active_cells()) +
-             (is_curved ? " curved cells, " : " cells, ") +
-             std::to_string(collision.body.owned_indices().size()) +
-             " unknowns, " + material.law + ", " + impact.contact.treatment +
-             ", mu = " + to_text(impact.contact.friction_coefficient));
+  folder.log(
+    std::to_string(mesh->n_global_active_cells()) +
+    (is_curved ? " curved cells, " : " cells, ") +
+    std::to_string(collision.body.owned_indices().size()) + " unknowns, " +
+    material.law + ", " + impact.contact.treatment +
+    ", mu = " + to_text(impact.contact.values["Friction coefficient"]));
 
   std::vector<std::function<double(const Point<3> &)>> velocity;
   for (unsigned int c = 0; c < 3; ++c)
@@ -514,7 +514,7 @@ CollidingSpheres::report(Impact<3>            &collision,
 
   // The spin of a rigid sphere with the same angular momentum; linear bodies do not
   // turn.
-  if (material.law != "linear elastic")
+  if (!material.is_linear())
     {
       std::vector<std::function<double(const Point<3> &)>> turning;
       for (unsigned int c = 0; c < 3; ++c)

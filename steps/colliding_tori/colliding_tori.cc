@@ -164,23 +164,23 @@ CollidingTori::CollidingTori()
                Tensor<1, 3>({-6., 0., 0.}),
                Tensor<1, 3>()};
 
-  material.law           = "neo-Hookean";
-  material.plane_state   = "plane strain";
-  material.density       = 1000.;
-  material.young_modulus = 3e5;
-  material.poisson_ratio = .35;
+  material.law                     = "neo-Hookean";
+  material.plane_state             = "plane strain";
+  material.density                 = 1000.;
+  material.values["Young modulus"] = 3e5;
+  material.values["Poisson ratio"] = .35;
 
   impact.time.final_time   = .3;
   impact.time.time_step    = 2e-3;
   impact.time.fields_every = 3;
   impact.scheme.name       = "midpoint";
 
-  impact.contact.treatment              = "improved normal compliance";
-  impact.contact.compliance_coefficient = 3e7;
-  impact.contact.compliance_exponent    = 2.;
-  impact.contact.tangential_compliance  = 1e5;
-  impact.contact.augmentation           = 3e5;
-  impact.contact.penalty_epsilon_0      = 1e-7;
+  impact.contact.treatment = "improved normal compliance";
+  impact.contact.values["Compliance coefficient"] = 3e7;
+  impact.contact.values["Compliance exponent"]    = 2.;
+  impact.contact.values["Tangential compliance"]  = 1e5;
+  impact.contact.values["Augmentation"]           = 3e5;
+  impact.contact.values["Penalty epsilon0"]       = 1e-7;
 }
 
 
@@ -252,9 +252,9 @@ CollidingTori::validate() const
                          scheme_traits(impact.scheme.name),
                          touch_themselves);
   material.validate(3, impact.scheme.name);
-  impact.validate(material.law == "linear elastic",
+  impact.validate(material.is_linear(),
                   material.viscosity != "none" && material.viscosity_eta > 0.);
-  if (material.law == "linear elastic")
+  if (material.is_linear())
     throw InputError(
       "Linear elastic bodies cannot turn, and tori that are thrown "
       "do: take another Material/Law.");
@@ -384,10 +384,11 @@ CollidingTori::run(RunFolder &folder)
     setup.pairs = {
       {"tori", {TorusBoundary::outside}, {2 + TorusBoundary::outside}}};
   Impact<3> collision(impact, *mesh, setup, folder.communicator);
-  folder.log(std::to_string(mesh->n_global_active_cells()) + " cells, " +
-             std::to_string(collision.body.owned_indices().size()) +
-             " unknowns, " + material.law + ", " + impact.contact.treatment +
-             ", mu = " + to_text(impact.contact.friction_coefficient));
+  folder.log(
+    std::to_string(mesh->n_global_active_cells()) + " cells, " +
+    std::to_string(collision.body.owned_indices().size()) + " unknowns, " +
+    material.law + ", " + impact.contact.treatment +
+    ", mu = " + to_text(impact.contact.values["Friction coefficient"]));
 
   std::vector<std::function<double(const Point<3> &)>> velocity;
   for (unsigned int c = 0; c < 3; ++c)

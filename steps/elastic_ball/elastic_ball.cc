@@ -188,11 +188,11 @@ ElasticBall::ElasticBall()
   parameters.initial_gap      = 15.005;
   parameters.initial_velocity = Tensor<1, 2>({0., -10.});
 
-  parameters.material.law           = "linear elastic";
-  parameters.material.plane_state   = "plane stress";
-  parameters.material.density       = 1000.;
-  parameters.material.young_modulus = 1e10;
-  parameters.material.poisson_ratio = .35;
+  parameters.material.law                     = "linear elastic";
+  parameters.material.plane_state             = "plane stress";
+  parameters.material.density                 = 1000.;
+  parameters.material.values["Young modulus"] = 1e10;
+  parameters.material.values["Poisson ratio"] = .35;
 
   ImpactParameters &impact = parameters.impact;
   impact.time.final_time   = 2.;
@@ -200,15 +200,15 @@ ElasticBall::ElasticBall()
   impact.time.fields_every = 50;
   impact.scheme.name       = "midpoint";
 
-  impact.contact.treatment              = "improved normal compliance";
-  impact.contact.compliance_coefficient = 2.6e12;
-  impact.contact.compliance_exponent    = 2.;
-  impact.contact.tangential_compliance  = 1e9;
+  impact.contact.treatment = "improved normal compliance";
+  impact.contact.values["Compliance coefficient"] = 2.6e12;
+  impact.contact.values["Compliance exponent"]    = 2.;
+  impact.contact.values["Tangential compliance"]  = 1e9;
   // These are for other treatments. The augmentation steers Newton's method of
   // the treatments with active sets and leaves their solution alone.
-  impact.contact.augmentation      = 1e10;
-  impact.contact.nitsche_gamma_0   = 1e11;
-  impact.contact.penalty_epsilon_0 = 1e-11;
+  impact.contact.values["Augmentation"]     = 1e10;
+  impact.contact.values["Nitsche gamma0"]   = 1e11;
+  impact.contact.values["Penalty epsilon0"] = 1e-11;
 }
 
 

@@ -172,12 +172,12 @@ HyperelasticRing::HyperelasticRing()
   parameters.initial_gap      = .55;
   parameters.initial_velocity = Tensor<1, 2>({10., -10.});
 
-  parameters.material.law         = "Ciarlet-Geymonat";
-  parameters.material.plane_state = "plane stress";
-  parameters.material.density     = 1000.;
-  parameters.material.c1          = .5e6;
-  parameters.material.c2          = 5e3;
-  parameters.material.d           = .35e6;
+  parameters.material.law          = "Ciarlet-Geymonat";
+  parameters.material.plane_state  = "plane stress";
+  parameters.material.density      = 1000.;
+  parameters.material.values["c1"] = .5e6;
+  parameters.material.values["c2"] = 5e3;
+  parameters.material.values["d"]  = .35e6;
 
   ImpactParameters &impact = parameters.impact;
   impact.time.final_time   = 10.;
@@ -190,12 +190,12 @@ HyperelasticRing::HyperelasticRing()
   impact.newton.max_iterations    = 60;
   impact.newton.line_search_after = 40;
 
-  impact.contact.treatment              = "improved normal compliance";
-  impact.contact.compliance_coefficient = 8e11;
-  impact.contact.compliance_exponent    = 2.;
-  impact.contact.tangential_compliance  = 1e9;
-  impact.contact.augmentation           = 3e6;
-  impact.contact.penalty_epsilon_0      = 3e-8;
+  impact.contact.treatment = "improved normal compliance";
+  impact.contact.values["Compliance coefficient"] = 8e11;
+  impact.contact.values["Compliance exponent"]    = 2.;
+  impact.contact.values["Tangential compliance"]  = 1e9;
+  impact.contact.values["Augmentation"]           = 3e6;
+  impact.contact.values["Penalty epsilon0"]       = 3e-8;
 }
 
 

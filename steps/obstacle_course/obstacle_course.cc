@@ -157,11 +157,11 @@ ObstacleCourse::ObstacleCourse()
   : centre(.1, 1.02)
   , gravity({0., -9.81})
 {
-  material.law           = "neo-Hookean";
-  material.plane_state   = "plane strain";
-  material.density       = 1000.;
-  material.young_modulus = 1e6;
-  material.poisson_ratio = .3;
+  material.law                     = "neo-Hookean";
+  material.plane_state             = "plane strain";
+  material.density                 = 1000.;
+  material.values["Young modulus"] = 1e6;
+  material.values["Poisson ratio"] = .3;
 
   obstacle.shape  = "circle";
   obstacle.radius = .5;
@@ -171,12 +171,12 @@ ObstacleCourse::ObstacleCourse()
   impact.time.fields_every = 5;
   impact.scheme.name       = "midpoint";
 
-  impact.contact.treatment              = "persistent contact";
-  impact.contact.compliance_coefficient = 1e8;
-  impact.contact.tangential_compliance  = 1e5;
-  impact.contact.augmentation           = 1e6;
-  impact.contact.nitsche_gamma_0        = 2e7;
-  impact.contact.penalty_epsilon_0      = 1e-7;
+  impact.contact.treatment                        = "persistent contact";
+  impact.contact.values["Compliance coefficient"] = 1e8;
+  impact.contact.values["Tangential compliance"]  = 1e5;
+  impact.contact.values["Augmentation"]           = 1e6;
+  impact.contact.values["Nitsche gamma0"]         = 2e7;
+  impact.contact.values["Penalty epsilon0"]       = 1e-7;
 }
 
 
@@ -249,7 +249,7 @@ ObstacleCourse::validate() const
                            scheme_traits(impact.scheme.name),
                            /* is_self */ true);
   material.validate(2, impact.scheme.name);
-  impact.validate(material.law == "linear elastic",
+  impact.validate(material.is_linear(),
                   material.viscosity != "none" && material.viscosity_eta > 0.);
   check_motions(scheme_traits(impact.scheme.name),
                 {{surface, obstacle.make(impact.time.final_time)}});

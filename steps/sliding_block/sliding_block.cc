@@ -122,25 +122,25 @@ private:
 // ## Data
 SlidingBlock::SlidingBlock()
 {
-  material.law           = "Saint Venant-Kirchhoff";
-  material.plane_state   = "plane strain";
-  material.density       = 1000.;
-  material.young_modulus = 1e7;
-  material.poisson_ratio = .3;
-  material.viscosity     = "Curnier";
-  material.viscosity_eta = 1e4;
+  material.law                     = "Saint Venant-Kirchhoff";
+  material.plane_state             = "plane strain";
+  material.density                 = 1000.;
+  material.values["Young modulus"] = 1e7;
+  material.values["Poisson ratio"] = .3;
+  material.viscosity               = "Curnier";
+  material.viscosity_eta           = 1e4;
 
   impact.time.final_time   = .5;
   impact.time.time_step    = 2e-3;
   impact.time.fields_every = 10;
   impact.scheme.name       = "midpoint";
 
-  impact.contact.treatment              = "persistent contact";
-  impact.contact.friction_coefficient   = .3;
-  impact.contact.compliance_coefficient = 1e9;
-  impact.contact.tangential_compliance  = 1e6;
-  impact.contact.augmentation           = 1e7;
-  impact.contact.penalty_epsilon_0      = 1e-8;
+  impact.contact.treatment                        = "persistent contact";
+  impact.contact.values["Friction coefficient"]   = .3;
+  impact.contact.values["Compliance coefficient"] = 1e9;
+  impact.contact.values["Tangential compliance"]  = 1e6;
+  impact.contact.values["Augmentation"]           = 1e7;
+  impact.contact.values["Penalty epsilon0"]       = 1e-8;
 }
 
 
@@ -199,7 +199,7 @@ SlidingBlock::validate() const
 {
   check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
   material.validate(2, impact.scheme.name);
-  impact.validate(material.law == "linear elastic",
+  impact.validate(material.is_linear(),
                   material.viscosity != "none" && material.viscosity_eta > 0.);
   if (begin + block_length > strip_length)
     throw InputError(
@@ -282,8 +282,8 @@ SlidingBlock::run(RunFolder &folder)
   Impact<2> assembly(impact, triangulation, setup, folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
              " cells, " + std::to_string(assembly.body.owned_indices().size()) +
-             " unknowns, " + impact.contact.treatment +
-             ", mu = " + to_text(impact.contact.friction_coefficient));
+             " unknowns, " + impact.contact.treatment + ", mu = " +
+             to_text(impact.contact.values["Friction coefficient"]));
 
   const State initial_state = assembly.state_of_parts();
 

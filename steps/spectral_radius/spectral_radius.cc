@@ -126,9 +126,9 @@ private:
         const unsigned int n_steps) const;
 
   double              smallest = 1e-3, largest = 1e7;
-  unsigned int        n_points     = 201;
-  std::vector<double> alphas       = {.02, -.02, .05, -.05, .1, -.1};
-  double              trbdf2_gamma = TimeScheme::Parameters().trbdf2_gamma;
+  unsigned int        n_points = 201;
+  std::vector<double> alphas   = {.02, -.02, .05, -.05, .1, -.1};
+  double trbdf2_gamma = TimeScheme::Parameters().values["TR-BDF2 gamma"];
 
   // The one unknown that moves: the left end of a bar of one linear element, of
   // which the other end is held. The mass of its hat function is
@@ -184,12 +184,12 @@ std::vector<SpectralRadius::Entry>
 SpectralRadius::schemes() const
 {
   TimeScheme::Parameters scheme;
-  scheme.trbdf2_gamma        = trbdf2_gamma;
-  std::vector<Entry> entries = {{"Crank-Nicolson", scheme}};
-  scheme.name                = "HHT";
+  scheme.values["TR-BDF2 gamma"] = trbdf2_gamma;
+  std::vector<Entry> entries     = {{"Crank-Nicolson", scheme}};
+  scheme.name                    = "HHT";
   for (const double alpha : alphas)
     {
-      scheme.hht_alpha = alpha;
+      scheme.values["HHT alpha"] = alpha;
       entries.push_back({"HHT " + to_text(alpha), scheme});
     }
   scheme.name = "TR-BDF2";
@@ -333,7 +333,7 @@ SpectralRadius::run(RunFolder &folder)
   for (unsigned int i = 0; i < entries.size(); ++i)
     {
       const bool   hht   = entries[i].scheme.name == "HHT";
-      const double alpha = std::abs(entries[i].scheme.hht_alpha);
+      const double alpha = std::abs(entries[i].scheme.values["HHT alpha"]);
       char         line[120];
       std::snprintf(line,
                     sizeof(line),

@@ -189,19 +189,19 @@ private:
 Sphere::Sphere()
   : gravity({0., 0., -.1})
 {
-  impact.time.final_time       = 60.;
-  impact.time.time_step        = .25;
-  impact.time.fields_every     = 4;
-  impact.scheme.name           = "Crank-Nicolson";
-  impact.contact.treatment     = "Nitsche";
-  impact.contact.nitsche_theta = 1.;
+  impact.time.final_time                 = 60.;
+  impact.time.time_step                  = .25;
+  impact.time.fields_every               = 4;
+  impact.scheme.name                     = "Crank-Nicolson";
+  impact.contact.treatment               = "Nitsche";
+  impact.contact.values["Nitsche theta"] = 1.;
   // $\gamma_0 = 100\, \mu$, as the paper has it; the penalty parameter
   // $\epsilon_0$ is its inverse.
-  impact.contact.nitsche_gamma_0        = 2000.;
-  impact.contact.augmentation           = 2000.;
-  impact.contact.penalty_epsilon_0      = 5e-4;
-  impact.contact.compliance_coefficient = 2000.;
-  impact.contact.tangential_compliance  = 2000.;
+  impact.contact.values["Nitsche gamma0"]         = 2000.;
+  impact.contact.values["Augmentation"]           = 2000.;
+  impact.contact.values["Penalty epsilon0"]       = 5e-4;
+  impact.contact.values["Compliance coefficient"] = 2000.;
+  impact.contact.values["Tangential compliance"]  = 2000.;
 }
 
 

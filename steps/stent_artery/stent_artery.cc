@@ -127,30 +127,32 @@ private:
 // strains: about 1 MPa and 1.4 MPa for the wall.
 StentArtery::StentArtery()
 {
-  artery.section     = "Artery";
-  artery.law         = "Ciarlet-Geymonat";
-  artery.plane_state = "plane stress";
-  artery.density     = 1e-9;
-  artery.c1          = .5;
-  artery.c2          = .005;
-  artery.d           = .35;
+  artery.section      = "Artery";
+  artery.law          = "Ciarlet-Geymonat";
+  artery.plane_state  = "plane stress";
+  artery.density      = 1e-9;
+  artery.values["c1"] = .5;
+  artery.values["c2"] = .005;
+  artery.values["d"]  = .35;
 
-  stent         = artery;
-  stent.section = "Stent";
-  stent.c1      = 200.;
-  stent.c2      = 2.;
-  stent.d       = 140.;
+  stent              = artery;
+  stent.section      = "Stent";
+  stent.values["c1"] = 200.;
+  stent.values["c2"] = 2.;
+  stent.values["d"]  = 140.;
 
   impact.time.final_time   = 1.;
   impact.time.time_step    = 1. / 50.;
   impact.time.fields_every = 5;
   impact.scheme.name       = "midpoint";
 
-  impact.contact.treatment              = "persistent contact";
-  impact.contact.compliance_coefficient = 1e5;  // The numbers of B's c_nu
-  impact.contact.tangential_compliance  = 100.; // and c_tau of active sets.
-  impact.contact.augmentation           = 5.;
-  impact.contact.penalty_epsilon_0      = 1e-5;
+  impact.contact.treatment = "persistent contact";
+  impact.contact.values["Compliance coefficient"] =
+    1e5; // The numbers of B's c_nu
+  impact.contact.values["Tangential compliance"] =
+    100.; // and c_tau of active sets.
+  impact.contact.values["Augmentation"]     = 5.;
+  impact.contact.values["Penalty epsilon0"] = 1e-5;
 }
 
 
@@ -229,7 +231,7 @@ StentArtery::validate() const
   for (const MaterialParameters *material : {&artery, &stent})
     {
       material->validate(2, impact.scheme.name);
-      impact.validate(material->law == "linear elastic",
+      impact.validate(material->is_linear(),
                       material->viscosity != "none" &&
                         material->viscosity_eta > 0.);
     }
@@ -300,8 +302,8 @@ StentArtery::run(RunFolder &folder)
   Impact<2> assembly(impact, triangulation, setup, folder.communicator);
   folder.log(std::to_string(triangulation.n_global_active_cells()) +
              " cells, " + std::to_string(assembly.body.owned_indices().size()) +
-             " unknowns, " + impact.contact.treatment +
-             ", mu = " + to_text(impact.contact.friction_coefficient));
+             " unknowns, " + impact.contact.treatment + ", mu = " +
+             to_text(impact.contact.values["Friction coefficient"]));
 
   // Both begin at rest.
   const State initial_state = assembly.state_of_parts();

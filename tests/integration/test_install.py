@@ -38,6 +38,27 @@ class Installed(ProgramTest):
         # What falls by h on the ground has the energy m g h.
         self.assertAlmostEqual(max(ledger["external_work"]), 500. * 9.81 * .1,
                                delta=.2 * 500. * 9.81 * .1)
+        # Laws, material and scheme that the library does not know.
+        def run_own(name, *settings):
+            options = [word for setting in settings for word in ("--set", setting)]
+            self.call(build / "own_step", "--output-dir", self.folder / name, "--quiet",
+                      "--set", "Output/Fields every=0",
+                      "--set", "Contact/Treatment=exponential pressure",
+                      "--set", "Material/Law=Yeoh", *options)
+            ledger = Ledger(self.folder / name)
+            self.assertGreater(max(ledger["contact_force_ground"]), 1e3)
+            self.assertLess(largest(ledger["balance_residual"]), 1e-9)
+            return ledger
+
+        # The promise of the law is checked by the program itself, which ends with 0.
+        run_own("own_law", "Contact/Friction law=limited by shear",
+                "Contact/Shear strength=100")
+        slow = run_own("own_scheme", "Time/Scheme=backward Euler")
+        self.assertGreater(slow["numerical_dissipation"][-1], 0.)
+        listed = self.call(build / "own_step", "--print-parameters")
+        for words in ("Exponential length", "Shear strength", "Yeoh c10", "backward Euler"):
+            self.assertIn(words, listed)
+
         self.call(sys.executable, programs / "ricochet-plot", self.folder / "run",
                   "-o", self.folder / "pictures")
         self.assertTrue(list((self.folder / "pictures").glob("*.png")))

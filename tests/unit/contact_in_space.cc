@@ -499,14 +499,14 @@ namespace
       parameters.contact.treatment = treatment.substr(0, comma);
       if (comma != std::string::npos)
         parameters.contact.coupling = treatment.substr(comma + 2);
-      parameters.scheme.name                    = "midpoint";
-      parameters.contact.compliance_coefficient = 2e4;
-      parameters.contact.compliance_exponent    = 2.;
-      parameters.contact.penalty_epsilon_0      = 1e-4;
-      parameters.contact.augmentation           = 500.;
-      parameters.contact.friction_coefficient   = friction;
-      parameters.contact.tangential_compliance  = 300.;
-      parameters.newton.reuse_tangent_below     = 0.;
+      parameters.scheme.name                              = "midpoint";
+      parameters.contact.values["Compliance coefficient"] = 2e4;
+      parameters.contact.values["Compliance exponent"]    = 2.;
+      parameters.contact.values["Penalty epsilon0"]       = 1e-4;
+      parameters.contact.values["Augmentation"]           = 500.;
+      parameters.contact.values["Friction coefficient"]   = friction;
+      parameters.contact.values["Tangential compliance"]  = 300.;
+      parameters.newton.reuse_tangent_below               = 0.;
     }
 
     double
@@ -660,8 +660,8 @@ namespace
         MPI_COMM_WORLD);
       set_treatment(treatment, friction);
       // Few points hold a whole arm.
-      parameters.contact.compliance_coefficient = 4e3;
-      const Material<3> soft                    = rubber(200.);
+      parameters.contact.values["Compliance coefficient"] = 4e3;
+      const Material<3> soft                              = rubber(200.);
       ImpactSetup<3>    setup{soft};
       setup.pairs = {touching_itself({1})};
       impact =
@@ -1213,9 +1213,9 @@ BOOST_AUTO_TEST_CASE(degenerate_configurations)
         parameters.contact.treatment = treatment.substr(0, comma);
         if (comma != std::string::npos)
           parameters.contact.coupling = treatment.substr(comma + 2);
-        parameters.scheme.name          = "midpoint";
-        parameters.contact.augmentation = 500.;
-        const Material<3> soft          = rubber(200.);
+        parameters.scheme.name                    = "midpoint";
+        parameters.contact.values["Augmentation"] = 500.;
+        const Material<3> soft                    = rubber(200.);
         ImpactSetup<3>    setup{soft};
         setup.parts.push_back({"left", soft, 1.});
         setup.parts.push_back({"right", soft, 1.});

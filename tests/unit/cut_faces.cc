@@ -84,11 +84,11 @@ namespace
     dealii::parallel::shared::Triangulation<2> mesh(MPI_COMM_WORLD);
     make_blocks(shape, 3, 3, mesh);
     ImpactParameters parameters;
-    parameters.contact.treatment       = "Nitsche";
-    parameters.contact.coupling        = "cut faces";
-    parameters.contact.nitsche_gamma_0 = gamma_0;
-    parameters.contact.nitsche_theta   = theta;
-    parameters.scheme.name             = "HHT";
+    parameters.contact.treatment                = "Nitsche";
+    parameters.contact.coupling                 = "cut faces";
+    parameters.contact.values["Nitsche gamma0"] = gamma_0;
+    parameters.contact.values["Nitsche theta"]  = theta;
+    parameters.scheme.name                      = "HHT";
     Impact<2>        impact(parameters, mesh, two_blocks(), MPI_COMM_WORLD);
     const Body<2>   &body    = impact.body;
     ContactOperator &contact = *impact.contact;

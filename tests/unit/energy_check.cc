@@ -202,7 +202,7 @@ BOOST_AUTO_TEST_CASE(promises_depend_on_scheme_variant_and_coupling)
   BOOST_TEST((kind("Crank-Nicolson") == Kind::none));
   parameters.treatment = "Nitsche-hybrid";
   BOOST_TEST((kind("midpoint") == Kind::never_gains));
-  parameters.nitsche_theta = -1.;
+  parameters.values["Nitsche theta"] = -1.;
   BOOST_TEST((kind("midpoint") == Kind::none));
   parameters.treatment = "standard normal compliance at midpoint";
   BOOST_TEST((kind("midpoint") == Kind::none));

@@ -110,14 +110,14 @@ namespace
   {
     const CubeAbovePlane<dim> cube(treatment.simplices, 3);
     ContactParameters         parameters;
-    parameters.treatment              = treatment.name;
-    parameters.nitsche_theta          = treatment.theta;
-    parameters.nitsche_gamma_0        = 50.;
-    parameters.compliance_coefficient = 20.;
-    parameters.compliance_exponent    = 3.;
-    parameters.friction_coefficient   = treatment.friction;
-    parameters.tangential_compliance  = .5;
-    parameters.augmentation           = .5;
+    parameters.treatment                        = treatment.name;
+    parameters.values["Nitsche theta"]          = treatment.theta;
+    parameters.values["Nitsche gamma0"]         = 50.;
+    parameters.values["Compliance coefficient"] = 20.;
+    parameters.values["Compliance exponent"]    = 3.;
+    parameters.values["Friction coefficient"]   = treatment.friction;
+    parameters.values["Tangential compliance"]  = .5;
+    parameters.values["Augmentation"]           = .5;
     const Body<dim> body(cube.triangulation,
                          treatment.degree,
                          {2},

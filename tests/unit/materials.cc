@@ -336,6 +336,132 @@ namespace
       }
   }
 
+  /// Energy, gradient and Hessian of a law, and nothing else.
+  template <typename Law>
+  struct Bare
+  {
+    Law law;
+
+    template <typename Number>
+    Number
+    energy(const Invariants<Number> &i) const
+    {
+      return law.template energy<Number>(i);
+    }
+
+    template <typename Number>
+    std::array<Number, 3>
+    gradient(const Invariants<Number> &i) const
+    {
+      return law.gradient(i);
+    }
+
+    template <typename Number>
+    std::array<std::array<Number, 3>, 3>
+    hessian(const Invariants<Number> &i) const
+    {
+      return law.hessian(i);
+    }
+  };
+
+  template <typename Law>
+  void
+  compare_general_formulas(const Law &law, const ThirdDerivatives &third)
+  {
+    const CompletedLaw<Law> own(law);
+    // The differences of invariants from tiny to as large as they are.
+    for (unsigned int seed = 0; seed < 20; ++seed)
+      for (const double size : {1e-13, 1e-9, 1e-5, 1e-2, .1, .5, 2., 10.})
+        {
+          const auto   c = cauchy_green(deformation_gradient<3>(.2, seed));
+          std::mt19937 generator(100 + seed);
+          std::uniform_real_distribution<double> number(-1., 1.);
+          const Invariants<>                     i{dealii::first_invariant(c),
+                               dealii::second_invariant(c),
+                               dealii::third_invariant(c)};
+          Invariants<> difference{size * number(generator),
+                                  size * number(generator),
+                                  size * number(generator)};
+          if (i.third + difference.third < .05)
+            difference.third = std::abs(difference.third);
+          const double expected = own.energy_difference(i, difference);
+          const double change   = std::max({std::abs(difference.first),
+                                            std::abs(difference.second),
+                                            std::abs(difference.third)});
+          // Round-off of the difference where it is small, of the energies where not.
+          BOOST_CHECK_SMALL(own.integrated_difference(i, difference) - expected,
+                            size <= .01 ? 2e-15 * change
+                                        : 4e-14 * (1. + std::abs(expected)));
+
+          Invariants<Lanes> i_lanes{i.first, i.second, i.third};
+          const Lanes       lanes =
+            own.integrated_difference(i_lanes,
+                                      Invariants<Lanes>{difference.first,
+                                                        difference.second,
+                                                        difference.third});
+          for (unsigned int lane = 0; lane < Lanes::size(); ++lane)
+            BOOST_CHECK_SMALL(lanes[lane] - expected,
+                              size <= .01 ? 2e-15 * change
+                                          : 4e-14 * (1. + std::abs(expected)));
+        }
+
+    // Sheets, squeezed and stretched; each lane another one.
+    for (const double size : {0., .1, .5, 3.})
+      {
+        Lanes traces, determinants;
+        for (unsigned int lane = 0; lane < Lanes::size(); ++lane)
+          {
+            auto f = deformation_gradient<2>(size, 11 * lane);
+            if (dealii::determinant(f) < .2)
+              f = dealii::unit_symmetric_tensor<2>() * (.5 + size);
+            const auto c       = cauchy_green(f);
+            traces[lane]       = dealii::trace(c);
+            determinants[lane] = dealii::determinant(c);
+          }
+        const Lanes lanes = own.c33_by_newton(traces, determinants);
+        for (unsigned int lane = 0; lane < Lanes::size(); ++lane)
+          {
+            // Saint Venant and Kirchhoff's sheet of a large trace has no thickness.
+            const double expected =
+              own.plane_stress_c33(traces[lane], determinants[lane]);
+            if (expected < 1e-3)
+              continue;
+            BOOST_CHECK_CLOSE(own.c33_by_newton(traces[lane],
+                                                determinants[lane]),
+                              expected,
+                              1e-12);
+            BOOST_CHECK_CLOSE(lanes[lane], expected, 1e-12);
+          }
+      }
+
+    const auto found = own.differentiated_hessian({3.3, 3.2, .8});
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int l = 0; l < 3; ++l)
+        for (unsigned int m = 0; m < 3; ++m)
+          BOOST_CHECK_SMALL(found[k][l][m] - third[k][l][m], 1e-14);
+
+    const LinearElastic small = own.at_small_strains();
+    BOOST_CHECK_CLOSE(own.linearised_at_rest().lambda, small.lambda, 1e-12);
+    BOOST_CHECK_CLOSE(own.linearised_at_rest().mu, small.mu, 1e-12);
+
+    for (const auto state :
+         {PlaneState::plane_strain, PlaneState::plane_stress})
+      {
+        const Hyperelastic<2> bare(
+          std::make_shared<HyperelasticLawImplementation<Bare<Law>>>(
+            Bare<Law>{law}),
+          state);
+        check_gonzalez(bare);
+        check_several_points(bare);
+      }
+    const Hyperelastic<3> bare(
+      std::make_shared<HyperelasticLawImplementation<Bare<Law>>>(
+        Bare<Law>{law}),
+      PlaneState::plane_strain);
+    check_gonzalez(bare);
+    check_several_points(bare);
+  }
+
   template <typename Function>
   void
   for_all_materials(const Function &function)
@@ -442,6 +568,57 @@ BOOST_AUTO_TEST_CASE(several_points_at_once_are_as_one)
           const double error = log_of_one_plus(Lanes(sign * x))[0] / exact - 1.;
           BOOST_CHECK_SMALL(error, 8e-16);
         }
+}
+
+BOOST_AUTO_TEST_CASE(functions_of_several_points)
+{
+  const auto check =
+    [](const auto &lanes_of, const auto &exact, const double from) {
+      Lanes x;
+      for (unsigned int lane = 0; lane < Lanes::size(); ++lane)
+        x[lane] = from + .7 * lane;
+      const Lanes y = lanes_of(x);
+      for (unsigned int lane = 0; lane < Lanes::size(); ++lane)
+        BOOST_CHECK_LE(std::abs(y[lane] - exact(x[lane])),
+                       4e-16 * std::abs(exact(x[lane])));
+    };
+  for (const double from : {1e-12, .3, 2., 40.})
+    {
+      check([](const Lanes &x) { return sqrt(x); },
+            [](const double x) { return std::sqrt(x); },
+            from);
+      check([](const Lanes &x) { return cbrt(x); },
+            [](const double x) { return std::cbrt(x); },
+            from);
+      check([](const Lanes &x) { return log(x); },
+            [](const double x) { return std::log(x); },
+            from);
+      check([](const Lanes &x) { return pow(x, -1. / 3.); },
+            [](const double x) { return std::pow(x, -1. / 3.); },
+            from);
+      for (const double sign : {1., -1.})
+        {
+          check([](const Lanes &x) { return exp(x); },
+                [](const double x) { return std::exp(x); },
+                sign * from);
+          check([](const Lanes &x) { return expm1(x); },
+                [](const double x) { return std::expm1(x); },
+                sign * from);
+        }
+    }
+}
+
+// The general formulas for what a law does not write itself, against the laws' own.
+BOOST_AUTO_TEST_CASE(what_a_law_leaves_out)
+{
+  ThirdDerivatives third{};
+  compare_general_formulas(saint_venant_kirchhoff, third);
+  const double i3 = .8, cube = i3 * i3 * i3;
+  third[2][2][2] = -2. * (.5 + 2. * .005 + .35) / cube;
+  compare_general_formulas(ciarlet_geymonat, third);
+  // h = (mu/2 + lambda/4 (1 - ln I3)) / I3^2
+  third[2][2][2] = (-1.2 / 4. - .8 - 1.2 / 2. * (1. - std::log(i3))) / cube;
+  compare_general_formulas(neo_hookean, third);
 }
 
 BOOST_AUTO_TEST_CASE(viscosity_dissipates)

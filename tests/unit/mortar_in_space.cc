@@ -445,12 +445,12 @@ namespace
       },
       MPI_COMM_WORLD);
     ImpactParameters parameters;
-    parameters.contact.treatment              = treatment;
-    parameters.contact.coupling               = coupling;
-    parameters.contact.augmentation           = 10.;
-    parameters.contact.compliance_coefficient = stiffness_of_contact;
-    parameters.newton.tolerance               = 1e-12;
-    parameters.scheme.name                    = "midpoint";
+    parameters.contact.treatment                        = treatment;
+    parameters.contact.coupling                         = coupling;
+    parameters.contact.values["Augmentation"]           = 10.;
+    parameters.contact.values["Compliance coefficient"] = stiffness_of_contact;
+    parameters.newton.tolerance                         = 1e-12;
+    parameters.scheme.name                              = "midpoint";
     ImpactSetup<3> setup{Material<3>(soft)};
     setup.parts.push_back({"lower", Material<3>(soft), 1.});
     setup.parts.push_back({"upper", Material<3>(stiff), 1.});

@@ -76,15 +76,15 @@ namespace
           const std::string                          &scheme = "midpoint")
       : cube(false)
     {
-      parameters.scheme.name                    = scheme;
-      parameters.contact.treatment              = treatment;
-      parameters.contact.compliance_coefficient = 1e5;
-      parameters.contact.compliance_exponent    = 2.;
-      parameters.contact.penalty_epsilon_0      = 1e-4;
-      parameters.contact.augmentation           = 500.;
-      parameters.contact.friction_coefficient   = friction;
-      parameters.contact.tangential_compliance  = 300.;
-      parameters.newton.reuse_tangent_below     = 0.;
+      parameters.scheme.name                              = scheme;
+      parameters.contact.treatment                        = treatment;
+      parameters.contact.values["Compliance coefficient"] = 1e5;
+      parameters.contact.values["Compliance exponent"]    = 2.;
+      parameters.contact.values["Penalty epsilon0"]       = 1e-4;
+      parameters.contact.values["Augmentation"]           = 500.;
+      parameters.contact.values["Friction coefficient"]   = friction;
+      parameters.contact.values["Tangential compliance"]  = 300.;
+      parameters.newton.reuse_tangent_below               = 0.;
       const auto law =
         std::make_shared<HyperelasticLawImplementation<NeoHookean>>(
           NeoHookean{200., 200.});

@@ -88,14 +88,14 @@ namespace
     parameters.contact.treatment = method.substr(0, comma);
     if (comma != std::string::npos)
       parameters.contact.coupling = method.substr(comma + 2);
-    parameters.scheme.name                    = "midpoint";
-    parameters.contact.compliance_coefficient = 2e4;
-    parameters.contact.compliance_exponent    = 2.;
-    parameters.contact.penalty_epsilon_0      = 1e-4;
-    parameters.contact.augmentation           = 500.;
-    parameters.contact.friction_coefficient   = friction;
-    parameters.contact.tangential_compliance  = 300.;
-    parameters.newton.reuse_tangent_below     = 0.;
+    parameters.scheme.name                              = "midpoint";
+    parameters.contact.values["Compliance coefficient"] = 2e4;
+    parameters.contact.values["Compliance exponent"]    = 2.;
+    parameters.contact.values["Penalty epsilon0"]       = 1e-4;
+    parameters.contact.values["Augmentation"]           = 500.;
+    parameters.contact.values["Friction coefficient"]   = friction;
+    parameters.contact.values["Tangential compliance"]  = 300.;
+    parameters.newton.reuse_tangent_below               = 0.;
     return parameters;
   }
 
@@ -579,9 +579,9 @@ namespace
       , parameters(parameters_of(treatment, 0.))
       , velocities(velocities)
     {
-      parameters.contact.augmentation           = 1e9;
-      parameters.contact.compliance_coefficient = 1e14;
-      parameters.contact.penalty_epsilon_0      = 1e-10;
+      parameters.contact.values["Augmentation"]           = 1e9;
+      parameters.contact.values["Compliance coefficient"] = 1e14;
+      parameters.contact.values["Penalty epsilon0"]       = 1e-10;
       std::vector<Rectangle> rectangles;
       for (unsigned int b = 0; b < velocities.size(); ++b)
         rectangles.push_back({Point<2>(b * 1e-3, 0.),

@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(springs)
   MaterialParameters material;
   material.law                             = "Saint Venant-Kirchhoff";
   material.plane_state                     = "plane strain";
-  material.young_modulus                   = 100.;
+  material.values["Young modulus"]         = 100.;
   const std::vector<Material<2>> materials = {material.make<2>()};
   const double                   k = 30., c = 2., step = .1;
   const HyperelasticBulk<2>      alone(body, materials);

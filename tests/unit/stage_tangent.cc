@@ -49,15 +49,15 @@ namespace
   {
     const CubeAbovePlane<dim> cube(simplices);
     ContactParameters         parameters;
-    parameters.treatment              = treatment;
-    parameters.nitsche_theta          = theta;
-    parameters.nitsche_gamma_0        = 50.;
-    parameters.compliance_coefficient = 20.;
-    parameters.compliance_exponent    = 2.5;
-    parameters.friction_coefficient   = friction;
-    parameters.tangential_compliance  = .5;
+    parameters.treatment                        = treatment;
+    parameters.values["Nitsche theta"]          = theta;
+    parameters.values["Nitsche gamma0"]         = 50.;
+    parameters.values["Compliance coefficient"] = 20.;
+    parameters.values["Compliance exponent"]    = 2.5;
+    parameters.values["Friction coefficient"]   = friction;
+    parameters.values["Tangential compliance"]  = .5;
     // A light augmentation: active nodes are then pressed, as at a solution.
-    parameters.augmentation = .5;
+    parameters.values["Augmentation"] = .5;
     const Body<dim> body(cube.triangulation,
                          degree,
                          {},
@@ -281,8 +281,8 @@ BOOST_AUTO_TEST_CASE(pressure_fields_do_not_remember_iterates)
        {"Hauret-Le Tallec", "improved normal compliance", "penalty"})
     {
       ContactParameters parameters;
-      parameters.treatment              = treatment;
-      parameters.compliance_coefficient = 20.;
+      parameters.treatment                        = treatment;
+      parameters.values["Compliance coefficient"] = 20.;
       const Body<2> body(cube.triangulation,
                          1,
                          {},

@@ -52,12 +52,12 @@ namespace
   {
     const double              rise = .05, mu = 3.;
     const CubeAbovePlane<dim> cube(simplices);
-    ImpactParameters          parameters = on_all_ranks();
-    parameters.contact.treatment         = treatment;
-    parameters.contact.nitsche_theta     = theta;
-    parameters.contact.nitsche_gamma_0   = 100. * mu;
-    parameters.contact.augmentation      = 100. * mu;
-    parameters.scheme.name               = scheme;
+    ImpactParameters          parameters;
+    parameters.contact.treatment                = treatment;
+    parameters.contact.values["Nitsche theta"]  = theta;
+    parameters.contact.values["Nitsche gamma0"] = 100. * mu;
+    parameters.contact.values["Augmentation"]   = 100. * mu;
+    parameters.scheme.name                      = scheme;
     Impact<dim> impact(parameters,
                        cube.triangulation,
                        ImpactSetup<dim>{Material<dim>(LinearElastic{0., mu}),
@@ -141,10 +141,10 @@ namespace
                                   : face->center().norm() < .3 ? 1
                                                                : 0);
 
-    ImpactParameters parameters        = on_all_ranks();
-    parameters.contact.treatment       = "Nitsche";
-    parameters.contact.nitsche_gamma_0 = 100. * material.mu;
-    parameters.scheme.name             = "Crank-Nicolson";
+    ImpactParameters parameters = on_all_ranks();
+    parameters.contact.treatment                = "Nitsche";
+    parameters.contact.values["Nitsche gamma0"] = 100. * material.mu;
+    parameters.scheme.name                      = "Crank-Nicolson";
     dealii::Point<3> plane(0., 0., approach);
     Impact<3>        impact(
       parameters,
@@ -251,10 +251,10 @@ namespace
       },
       mesh);
 
-    ImpactParameters parameters     = on_all_ranks();
-    parameters.contact.treatment    = "Signorini active set";
-    parameters.contact.coupling     = coupling;
-    parameters.contact.augmentation = 1.;
+    ImpactParameters parameters = on_all_ranks();
+    parameters.contact.treatment              = "Signorini active set";
+    parameters.contact.coupling               = coupling;
+    parameters.contact.values["Augmentation"] = 1.;
     // At rest there is no large force to measure by.
     parameters.newton.tolerance = 1e-11;
     parameters.scheme.name      = "midpoint";
@@ -395,16 +395,16 @@ namespace
        {Point<2>(0., -overlap), Point<2>(1., 1.), {{n_upper, 3}}, 0., {}}},
       shape,
       mesh);
-    ImpactParameters parameters               = on_all_ranks();
-    parameters.contact.treatment              = treatment;
-    parameters.contact.coupling               = coupling;
-    parameters.contact.augmentation           = 10.;
-    parameters.contact.compliance_coefficient = 1e3;
-    parameters.contact.nitsche_gamma_0        = 60.;
-    parameters.contact.nitsche_theta          = theta;
-    parameters.contact.penalty_epsilon_0      = 1e-2;
-    parameters.newton.tolerance               = 1e-12;
-    parameters.scheme.name                    = is_still ? "HHT" : "midpoint";
+    ImpactParameters parameters = on_all_ranks();
+    parameters.contact.treatment                        = treatment;
+    parameters.contact.coupling                         = coupling;
+    parameters.contact.values["Augmentation"]           = 10.;
+    parameters.contact.values["Compliance coefficient"] = 1e3;
+    parameters.contact.values["Nitsche gamma0"]         = 60.;
+    parameters.contact.values["Nitsche theta"]          = theta;
+    parameters.contact.values["Penalty epsilon0"]       = 1e-2;
+    parameters.newton.tolerance                         = 1e-12;
+    parameters.scheme.name = is_still ? "HHT" : "midpoint";
     ImpactSetup<2> setup{Material<2>(soft)};
     setup.parts.push_back({"lower", Material<2>(soft), 1.});
     setup.parts.push_back({"upper", Material<2>(stiff), 1.});

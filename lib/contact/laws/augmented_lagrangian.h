@@ -2,6 +2,8 @@
 #ifndef ricochet_contact_laws_augmented_lagrangian_h
 #define ricochet_contact_laws_augmented_lagrangian_h
 
+#include <contact/energy_promise.h>
+#include <contact/laws/augmentation.h>
 #include <contact/laws/contact_law.h>
 
 namespace Ricochet
@@ -16,6 +18,28 @@ namespace Ricochet
   {
     /// gamma_a (Pa).
     double gamma_a = 1.;
+
+    static constexpr const char *name = "proximal augmented Lagrangian";
+
+    static OwnParameters
+    parameters()
+    {
+      return augmentation_parameters();
+    }
+
+    static ProximalAugmentedLagrangian
+    make(const ParameterValues &values)
+    {
+      return {values["Augmentation"]};
+    }
+
+    static EnergyPromise
+    promise()
+    {
+      return {EnergyPromise::Kind::never_gains,
+              "the potential, at its largest over the multipliers, is convex "
+              "in the gaps, and the force is its slope at the end of the step"};
+    }
 
     static constexpr ContactLawTraits
     traits()

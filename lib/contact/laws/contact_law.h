@@ -4,6 +4,11 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <Sacado_Fad_SFad.hpp>
+
+#include <type_traits>
+#include <utility>
+
 namespace Ricochet
 {
   /**
@@ -80,8 +85,8 @@ namespace Ricochet
    * A pointwise contact law: a pure function of the state of one point, which
    * knows nothing of meshes, materials and time schemes.
    *
-   * Concrete laws derive from ContactLawImplementation and are listed in
-   * contact_treatment_table.cc.
+   * A concrete law is a struct from which ContactLawImplementation makes one of this
+   * class, see contact_law_table.h; the table is in contact_treatment_table.cc.
    */
   class ContactLaw
   {
@@ -135,7 +140,7 @@ namespace Ricochet
   /**
    * Turns a struct with a templated force into a ContactLaw. The template lets
    * the tests differentiate the very force that the programs use by automatic
-   * differentiation.
+   * differentiation, which also gives the tangent of a law that does not write it.
    */
   template <typename Law>
   class ContactLawImplementation : public ContactLaw
@@ -164,15 +169,39 @@ namespace Ricochet
             const ContactPointState<> &old_state,
             const double               cell_diameter) const override
     {
-      return law.tangent(new_state, old_state, cell_diameter);
+      if constexpr (has_tangent<Law>::value)
+        return law.tangent(new_state, old_state, cell_diameter);
+      else
+        {
+          using AD = Sacado::Fad::SFad<double, 3>;
+          const ContactPointState<AD> variables{AD(3, 0, new_state.gap),
+                                                AD(3,
+                                                   1,
+                                                   new_state.stress_pressure),
+                                                AD(3, 2, new_state.multiplier)};
+          const ContactPointForce<AD> force =
+            law.template force<AD>(variables, old_state, cell_diameter);
+          ContactPointTangent tangent;
+          for (unsigned int c = 0; c < 3; ++c)
+            {
+              tangent[0][c] = force.gap.dx(c);
+              tangent[1][c] = force.stress_pressure.dx(c);
+              tangent[2][c] = force.multiplier.dx(c);
+            }
+          return tangent;
+        }
     }
 
+    /// Of a law that does not write it: whether it presses.
     int
     branch(const ContactPointState<> &new_state,
            const ContactPointState<> &old_state,
            const double               cell_diameter) const override
     {
-      return law.branch(new_state, old_state, cell_diameter);
+      if constexpr (has_branch<Law>::value)
+        return law.branch(new_state, old_state, cell_diameter);
+      else
+        return force(new_state, old_state, cell_diameter).gap != 0.;
     }
 
     double
@@ -186,7 +215,10 @@ namespace Ricochet
     pressure(const ContactPointState<> &state,
              const double               cell_diameter) const override
     {
-      return law.pressure(state, cell_diameter);
+      if constexpr (has_pressure<Law>::value)
+        return law.pressure(state, cell_diameter);
+      else
+        return -force(state, state, cell_diameter).gap;
     }
 
     double
@@ -199,6 +231,39 @@ namespace Ricochet
     }
 
   private:
+    // Which functions the law writes itself.
+    template <typename L, typename = void>
+    struct has_tangent : std::false_type
+    {};
+    template <typename L>
+    struct has_tangent<L,
+                       std::void_t<decltype(std::declval<const L &>().tangent(
+                         std::declval<ContactPointState<>>(),
+                         std::declval<ContactPointState<>>(),
+                         1.))>> : std::true_type
+    {};
+
+    template <typename L, typename = void>
+    struct has_branch : std::false_type
+    {};
+    template <typename L>
+    struct has_branch<L,
+                      std::void_t<decltype(std::declval<const L &>().branch(
+                        std::declval<ContactPointState<>>(),
+                        std::declval<ContactPointState<>>(),
+                        1.))>> : std::true_type
+    {};
+
+    template <typename L, typename = void>
+    struct has_pressure : std::false_type
+    {};
+    template <typename L>
+    struct has_pressure<L,
+                        std::void_t<decltype(std::declval<const L &>().pressure(
+                          std::declval<ContactPointState<>>(),
+                          1.))>> : std::true_type
+    {};
+
     const Law law;
   };
 } // namespace Ricochet

@@ -2,7 +2,12 @@
 #ifndef ricochet_contact_laws_nitsche_h
 #define ricochet_contact_laws_nitsche_h
 
+#include <base/own_parameter.h>
+#include <base/parameter_file.h>
+#include <contact/energy_promise.h>
 #include <contact/laws/contact_law.h>
+
+#include <string>
 
 namespace Ricochet
 {
@@ -24,6 +29,69 @@ namespace Ricochet
     double gamma_0 = 1.;
     /// theta: 1, -1 or 0.
     double theta = 1.;
+
+    static constexpr const char *name = "Nitsche";
+
+    static OwnParameters
+    parameters()
+    {
+      return {OwnParameter("Nitsche gamma0", 5.)
+                .means("Parameter gamma_0",
+                       "Pa",
+                       " of Nitsche's method; gamma = gamma_0/h_T (paper C, "
+                       "(7)). Used by Nitsche and Nitsche-hybrid.")
+                .at_least(1e-30)
+                .by_scale([](const Scales &scales, const ParameterValues &) {
+                  return 20. * scales.degree * scales.degree *
+                    scales.wave_modulus;
+                })
+                .belongs_to("Nitsche's method"),
+              OwnParameter("Nitsche theta", 1.)
+                .means("Variant of Nitsche's method: 1 symmetric, -1 "
+                       "skew-symmetric, 0 non-symmetric. Used by Nitsche and "
+                       "Nitsche-hybrid.",
+                       "",
+                       "")
+                .one_of("1|-1|0")
+                .belongs_to("Nitsche's method")};
+    }
+
+    static Nitsche
+    make(const ParameterValues &values)
+    {
+      return {values["Nitsche gamma0"], values["Nitsche theta"]};
+    }
+
+    static EnergyPromise
+    promise()
+    {
+      return {EnergyPromise::Kind::never_gains,
+              "the part of the potential that is convex is taken at the end of "
+              "the step, the quadratic rest in its middle"};
+    }
+
+    std::string
+    lacks_potential() const
+    {
+      return theta == 1. ? ""
+                         : "with theta = " + to_text(theta) +
+          " Nitsche's method has no potential";
+    }
+
+    /// The method is not stable where energy could grow without bound.
+    std::string
+    instability(const double trace_constant) const
+    {
+      const double bound = .25 * (1. + theta) * (1. + theta) * trace_constant;
+      // Equal is not enough, and both come with round-off.
+      if (gamma_0 > (1. + 1e-9) * bound)
+        return "";
+      return "Nitsche gamma0 = " + to_text(gamma_0) +
+        " is too small for theta = " + to_text(theta) +
+        ", this material and this mesh: the method is not stable. It must be "
+        "larger than " +
+        to_text(bound) + ".";
+    }
 
     static constexpr ContactLawTraits
     traits()

@@ -41,6 +41,52 @@ namespace Ricochet
     double     theta      = 1.;
     Evaluation evaluation = Evaluation::hybrid;
 
+    static constexpr const char *name = "Nitsche-hybrid";
+
+    static OwnParameters
+    parameters()
+    {
+      return Nitsche::parameters();
+    }
+
+    static NitscheTwoPoint
+    make(const ParameterValues &values)
+    {
+      return {values["Nitsche gamma0"],
+              values["Nitsche theta"],
+              Evaluation::hybrid};
+    }
+
+    /// Nitsche's method itself, over a step.
+    static NitscheTwoPoint
+    at_end_of_step(const ParameterValues &values)
+    {
+      return {values["Nitsche gamma0"],
+              values["Nitsche theta"],
+              Evaluation::end_of_step};
+    }
+
+    static EnergyPromise
+    promise()
+    {
+      return {EnergyPromise::Kind::never_gains,
+              "each of its two means grows by no more than its work where it "
+              "is taken (Chouly et al. 2015, part 2; paper C, A.3, says that "
+              "it is stable)"};
+    }
+
+    std::string
+    lacks_potential() const
+    {
+      return Nitsche{gamma_0, theta}.lacks_potential();
+    }
+
+    std::string
+    instability(const double trace_constant) const
+    {
+      return Nitsche{gamma_0, theta}.instability(trace_constant);
+    }
+
     static constexpr ContactLawTraits
     traits()
     {

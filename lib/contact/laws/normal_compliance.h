@@ -2,6 +2,10 @@
 #ifndef ricochet_contact_laws_normal_compliance_h
 #define ricochet_contact_laws_normal_compliance_h
 
+#include <base/exceptions.h>
+#include <base/own_parameter.h>
+#include <base/parameter_file.h>
+#include <contact/energy_promise.h>
 #include <contact/laws/contact_law.h>
 
 #include <algorithm>
@@ -21,6 +25,49 @@ namespace Ricochet
     double coefficient = 0.;
     /// alpha >= 2
     double exponent = 2.;
+
+    static OwnParameter
+    coefficient_parameter()
+    {
+      return OwnParameter("Compliance coefficient", 1e9)
+        .means("Parameter c_nu",
+               "Pa/m^(alpha-1)",
+               " of normal compliance: pressure c_nu alpha/2 "
+               "penetration^(alpha-1) (paper A, (2.10)). Used by standard and "
+               "improved normal compliance and, with alpha = 2, Hauret-Le "
+               "Tallec.")
+        .at_least(1e-30)
+        .by_scale([](const Scales &scales, const ParameterValues &values) {
+          return 10. * scales.wave_modulus /
+            std::pow(scales.cell_diameter, values["Compliance exponent"] - 1.);
+        })
+        .belongs_to("normal compliance");
+    }
+
+    static OwnParameters
+    parameters()
+    {
+      return {coefficient_parameter(),
+              OwnParameter("Compliance exponent", 2.)
+                .means("Exponent alpha of normal compliance, at least 2. Used "
+                       "by standard and improved normal compliance.",
+                       "",
+                       "")
+                .must([](const double value) {
+                  if (value < 2.)
+                    throw InputError(
+                      "The exponent alpha of normal compliance must be at "
+                      "least 2 (the regularisation of paper A, (2.7)); it is " +
+                      to_text(value) + ".");
+                })
+                .belongs_to("standard and improved normal compliance")};
+    }
+
+    static CompliancePotential
+    make(const ParameterValues &values)
+    {
+      return {values["Compliance coefficient"], values["Compliance exponent"]};
+    }
 
     double
     value(const double penetration) const
@@ -125,6 +172,26 @@ namespace Ricochet
   {
     CompliancePotential compliance;
 
+    static constexpr const char *name = "standard normal compliance";
+
+    static OwnParameters
+    parameters()
+    {
+      return CompliancePotential::parameters();
+    }
+
+    static StandardNormalCompliance
+    make(const ParameterValues &values)
+    {
+      return {CompliancePotential::make(values)};
+    }
+
+    static EnergyPromise
+    promise()
+    {
+      return falls_by_convexity();
+    }
+
     static constexpr ContactLawTraits
     traits()
     {
@@ -188,6 +255,23 @@ namespace Ricochet
    */
   struct MidpointNormalCompliance : public StandardNormalCompliance
   {
+    static constexpr const char *name =
+      "standard normal compliance at midpoint";
+
+    static MidpointNormalCompliance
+    make(const ParameterValues &values)
+    {
+      return {{CompliancePotential::make(values)}};
+    }
+
+    static EnergyPromise
+    promise()
+    {
+      return {EnergyPromise::Kind::none,
+              "the pressure of the mean gap is neither a quotient nor a slope "
+              "of the potential, and its work can be any"};
+    }
+
     static constexpr ContactLawTraits
     traits()
     {
@@ -243,6 +327,44 @@ namespace Ricochet
   template <bool in_nodes>
   struct DiscreteDerivativeCompliance : public StandardNormalCompliance
   {
+    static constexpr const char *name =
+      in_nodes ? "improved normal compliance" : "Hauret-Le Tallec";
+
+    static OwnParameters
+    parameters()
+    {
+      if constexpr (in_nodes)
+        return CompliancePotential::parameters();
+      else
+        return {CompliancePotential::coefficient_parameter()};
+    }
+
+    static DiscreteDerivativeCompliance
+    make(const ParameterValues &values)
+    {
+      if constexpr (in_nodes)
+        return {{CompliancePotential::make(values)}};
+      else
+        return {{CompliancePotential{values["Compliance coefficient"], 2.}}};
+    }
+
+    static void
+    check(const ParameterValues &values)
+    {
+      if (!in_nodes && values["Compliance exponent"] != 2.)
+        throw InputError(
+          "Hauret-Le Tallec is a penalisation with the exponent 2; Contact/"
+          "Compliance exponent is " +
+          to_text(values["Compliance exponent"]) +
+          ". For others take improved normal compliance.");
+    }
+
+    static EnergyPromise
+    promise()
+    {
+      return keeps_by_quotient();
+    }
+
     static constexpr ContactLawTraits
     traits()
     {

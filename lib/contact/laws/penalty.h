@@ -2,6 +2,8 @@
 #ifndef ricochet_contact_laws_penalty_h
 #define ricochet_contact_laws_penalty_h
 
+#include <base/own_parameter.h>
+#include <contact/energy_promise.h>
 #include <contact/laws/contact_law.h>
 
 namespace Ricochet
@@ -14,6 +16,35 @@ namespace Ricochet
   {
     /// epsilon_0 (1/Pa).
     double epsilon_0 = 1.;
+
+    static constexpr const char *name = "penalty";
+
+    static OwnParameters
+    parameters()
+    {
+      return {OwnParameter("Penalty epsilon0", .2)
+                .means("Parameter epsilon_0",
+                       "1/Pa",
+                       " of the penalty method; epsilon = epsilon_0 h_T "
+                       "(paper C, (14)). Used by penalty.")
+                .at_least(1e-30)
+                .by_scale([](const Scales &scales, const ParameterValues &) {
+                  return .1 / scales.wave_modulus;
+                })
+                .belongs_to("penalty")};
+    }
+
+    static Penalty
+    make(const ParameterValues &values)
+    {
+      return {values["Penalty epsilon0"]};
+    }
+
+    static EnergyPromise
+    promise()
+    {
+      return falls_by_convexity();
+    }
 
     static constexpr ContactLawTraits
     traits()

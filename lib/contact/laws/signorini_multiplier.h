@@ -2,6 +2,8 @@
 #ifndef ricochet_contact_laws_signorini_multiplier_h
 #define ricochet_contact_laws_signorini_multiplier_h
 
+#include <contact/energy_promise.h>
+#include <contact/laws/augmentation.h>
 #include <contact/laws/contact_law.h>
 
 namespace Ricochet
@@ -18,6 +20,26 @@ namespace Ricochet
   {
     /// r_0 (Pa).
     double augmentation = 1.;
+
+    static constexpr const char *name = "Signorini multipliers";
+
+    static OwnParameters
+    parameters()
+    {
+      return augmentation_parameters();
+    }
+
+    static SignoriniMultiplier
+    make(const ParameterValues &values)
+    {
+      return {values["Augmentation"]};
+    }
+
+    static EnergyPromise
+    promise()
+    {
+      return falls_by_complementarity();
+    }
 
     static constexpr ContactLawTraits
     traits()

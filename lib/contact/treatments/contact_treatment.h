@@ -2,6 +2,7 @@
 #ifndef ricochet_contact_treatments_contact_treatment_h
 #define ricochet_contact_treatments_contact_treatment_h
 
+#include <base/own_parameter.h>
 #include <base/parameter_file.h>
 #include <contact/contact_operator.h>
 #include <contact/surfaces/contact_pair.h>
@@ -22,35 +23,13 @@ namespace Ricochet
   struct ContactParameters
   {
     /// Of the parameter file; several contacts have sections of their own.
-    std::string section           = "Contact";
-    std::string treatment         = "Nitsche";
-    double      nitsche_gamma_0   = 5.;
-    double      nitsche_theta     = 1.;
-    double      penalty_epsilon_0 = .2;
-    double      augmentation      = 5.;
-    /// c_nu (Pa/m^(alpha-1)) and alpha of the compliance laws.
-    double compliance_coefficient = 1e9;
-    double compliance_exponent    = 2.;
-    /// mu and c_tau (Pa s/m) of Coulomb's friction.
-    double friction_coefficient  = 0.;
-    double tangential_compliance = 1e3;
+    std::string section      = "Contact";
+    std::string treatment    = "Nitsche";
+    std::string friction_law = "Coulomb";
+    /// The parameters of all laws, as they declare them.
+    ParameterValues values = all_parameters();
     /// Between bodies: "points", "mortar", "dual mortar" or "cut faces".
     std::string coupling = "points";
-
-    /// What the values that have a unit are measured by.
-    struct Scales
-    {
-      /// Young's modulus of the softer body (Pa).
-      double young_modulus;
-      /// lambda + 2 mu of the softer body (Pa).
-      double wave_modulus;
-      /// kg/m^dim
-      double density;
-      /// Mean diameter of the cells at the surface (m).
-      double cell_diameter;
-      /// Of the displacement.
-      unsigned int degree;
-    };
 
     /// Let the values that have a unit be zero, which stands for set_missing().
     void
@@ -77,9 +56,17 @@ namespace Ricochet
     void
     add_pair_parameters(dealii::ParameterHandler &parameters);
 
+    /// Those of all treatments and friction laws.
+    static OwnParameters
+    all_parameters();
+
     /// The parameters that the treatment makes no use of.
     std::vector<UnusedParameter>
     unused_parameters() const;
+
+  private:
+    OwnParameters
+    used_parameters() const;
   };
 
   /// Names of all contact treatments, as a pattern for Patterns::Selection.

@@ -4,12 +4,16 @@
 #include <contact/kinematics/cut_faces.h>
 #include <contact/treatments/active_set_contact.h>
 #include <contact/treatments/contact_treatment.h>
+#include <contact/laws/augmentation.h>
 #include <contact/laws/augmented_lagrangian.h>
+#include <contact/laws/coulomb_friction.h>
 #include <contact/laws/nitsche.h>
 #include <contact/laws/nitsche_two_point.h>
 #include <contact/laws/normal_compliance.h>
 #include <contact/laws/penalty.h>
+#include <contact/laws/regularised_friction.h>
 #include <contact/laws/signorini_multiplier.h>
+#include <contact/treatments/contact_law_table.h>
 #include <contact/treatments/cut_face_contact.h>
 #include <contact/treatments/nitsche_bound.h>
 #include <contact/treatments/pair_contact.h>
@@ -27,180 +31,78 @@ namespace Ricochet
 
   namespace
   {
-    struct Treatment
-    {
-      std::string      name;
-      ContactLawTraits traits;
-      /// Makes the pointwise law; empty for active sets, which have none.
-      std::function<std::unique_ptr<ContactLaw>(const ContactParameters &)>
-        make_law;
-      /// The law within a midpoint step, if it is another one.
-      std::function<std::unique_ptr<ContactLaw>(const ContactParameters &)>
-        make_midpoint_law = {};
-      /// What an active set imposes.
-      ClosingCondition condition = ClosingCondition::signorini;
-      /// The promise over the steps of the midpoint scheme.
-      EnergyPromise promise = {};
-    };
-
-    using Promise = EnergyPromise::Kind;
-
-    const EnergyPromise keeps_by_quotient = {
-      Promise::keeps,
-      "the pressure is the quotient of potential and gap increment, so that its work is "
-      "the change of the potential"};
-    const EnergyPromise keeps_by_no_work = {
-      Promise::keeps,
-      "pressure times gap increment is zero in each point, so that contact does no work"};
-    const EnergyPromise falls_by_convexity = {
-      Promise::never_gains,
-      "the force is the slope, at the end of the step, of a potential that is convex in "
-      "the gap: the potential grows by no more than the work"};
-    const EnergyPromise falls_by_complementarity = {
-      Promise::never_gains,
-      "where there is pressure the gap is zero at the end of the step, and was not "
-      "negative at its beginning, so that its increment is not positive"};
-
-    template <typename Law>
-    std::unique_ptr<ContactLaw>
-    pointwise(const Law &law)
-    {
-      return std::make_unique<ContactLawImplementation<Law>>(law);
-    }
+    using Treatment = ContactLawEntry;
 
     /// Nodal, no multipliers, no potential: a constraint.
-    constexpr ContactLawTraits
-    active_set_traits(const bool is_two_point)
+    Treatment
+    active_set(const std::string     &name,
+               const ClosingCondition condition,
+               const EnergyPromise   &promise)
     {
-      ContactLawTraits traits;
-      traits.nodal          = true;
-      traits.has_potential  = false;
-      traits.takes_friction = true;
-      traits.is_two_point   = is_two_point;
-      return traits;
+      Treatment treatment;
+      treatment.name                  = name;
+      treatment.parameters            = augmentation_parameters();
+      treatment.traits.nodal          = true;
+      treatment.traits.has_potential  = false;
+      treatment.traits.takes_friction = true;
+      treatment.traits.is_two_point = condition != ClosingCondition::signorini;
+      treatment.promise             = promise;
+      treatment.condition           = condition;
+      return treatment;
     }
 
-    CompliancePotential
-    compliance(const ContactParameters &p)
+    /// Nitsche's method, with another law over the steps of the midpoint scheme.
+    Treatment
+    nitsche()
     {
-      return {p.compliance_coefficient, p.compliance_exponent};
+      Treatment treatment         = contact_law_entry<Nitsche>();
+      treatment.make_midpoint_law = [](const ParameterValues &values) {
+        return std::make_unique<ContactLawImplementation<NitscheTwoPoint>>(
+          NitscheTwoPoint::at_end_of_step(values));
+      };
+      return treatment;
     }
 
     // The table of all contact treatments: a new pointwise law is one file in
     // laws/ and one line here.
-    const std::vector<Treatment> &
+    std::vector<Treatment> &
     table()
     {
-      using P                                        = ContactParameters;
-      static const std::vector<Treatment> treatments = {
-        {"Nitsche",
-         Nitsche::traits(),
-         [](const P &p) {
-           return pointwise(Nitsche{p.nitsche_gamma_0, p.nitsche_theta});
-         },
-         [](const P &p) {
-           return pointwise(
-             NitscheTwoPoint{p.nitsche_gamma_0,
-                             p.nitsche_theta,
-                             NitscheTwoPoint::Evaluation::end_of_step});
-         },
-         {},
-         {Promise::never_gains,
-          "the part of the potential that is convex is taken at the end of the step, the "
-          "quadratic rest in its middle"}},
-        {"Nitsche-hybrid",
-         NitscheTwoPoint::traits(),
-         [](const P &p) {
-           return pointwise(
-             NitscheTwoPoint{p.nitsche_gamma_0,
-                             p.nitsche_theta,
-                             NitscheTwoPoint::Evaluation::hybrid});
-         },
-         {},
-         {},
-         {Promise::never_gains,
-          "each of its two means grows by no more than its work where it is taken (Chouly et "
-          "al. 2015, part 2; paper C, A.3, says that it is stable)"}},
-        {"penalty",
-         Penalty::traits(),
-         [](const P &p) { return pointwise(Penalty{p.penalty_epsilon_0}); },
-         {},
-         {},
-         falls_by_convexity},
-        {"proximal augmented Lagrangian",
-         ProximalAugmentedLagrangian::traits(),
-         [](const P &p) {
-           return pointwise(ProximalAugmentedLagrangian{p.augmentation});
-         },
-         {},
-         {},
-         {Promise::never_gains,
-          "the potential, at its largest over the multipliers, is convex in the gaps, and "
-          "the force is its slope at the end of the step"}},
-        {"Signorini multipliers",
-         SignoriniMultiplier::traits(),
-         [](const P &p) {
-           return pointwise(SignoriniMultiplier{p.augmentation});
-         },
-         {},
-         {},
-         falls_by_complementarity},
-        {"Signorini active set",
-         active_set_traits(false),
-         {},
-         {},
-         ClosingCondition::signorini,
-         falls_by_complementarity},
-        {"standard normal compliance",
-         StandardNormalCompliance::traits(),
-         [](const P &p) {
-           return pointwise(StandardNormalCompliance{compliance(p)});
-         },
-         {},
-         {},
-         falls_by_convexity},
-        {"standard normal compliance at midpoint",
-         MidpointNormalCompliance::traits(),
-         [](const P &p) {
-           return pointwise(MidpointNormalCompliance{{compliance(p)}});
-         },
-         {},
-         {},
-         {Promise::none,
-          "the pressure of the mean gap is neither a quotient nor a slope of the "
-          "potential, and its work can be any"}},
-        {"improved normal compliance",
-         ImprovedNormalCompliance::traits(),
-         [](const P &p) {
-           return pointwise(ImprovedNormalCompliance{{compliance(p)}});
-         },
-         {},
-         {},
-         keeps_by_quotient},
-        {"Hauret-Le Tallec",
-         HauretLeTallec::traits(),
-         [](const P &p) {
-           return pointwise(HauretLeTallec{
-             {CompliancePotential{p.compliance_coefficient, 2.}}});
-         },
-         {},
-         {},
-         keeps_by_quotient},
-        {"persistent contact",
-         active_set_traits(true),
-         {},
-         {},
-         ClosingCondition::persistent,
-         keeps_by_no_work},
-        {"Ayyad-Barboteu two-step",
-         active_set_traits(true),
-         {},
-         {},
-         ClosingCondition::two_step,
-         {Promise::keeps,
-          "in the second pass pressure times gap increment is zero in each point, and the "
-          "first one leaves no trace"}}};
+      static std::vector<Treatment> treatments = {
+        nitsche(),
+        contact_law_entry<NitscheTwoPoint>(),
+        contact_law_entry<Penalty>(),
+        contact_law_entry<ProximalAugmentedLagrangian>(),
+        contact_law_entry<SignoriniMultiplier>(),
+        active_set("Signorini active set",
+                   ClosingCondition::signorini,
+                   falls_by_complementarity()),
+        contact_law_entry<StandardNormalCompliance>(),
+        contact_law_entry<MidpointNormalCompliance>(),
+        contact_law_entry<ImprovedNormalCompliance>(),
+        contact_law_entry<HauretLeTallec>(),
+        active_set("persistent contact",
+                   ClosingCondition::persistent,
+                   keeps_by_no_work()),
+        active_set(
+          "Ayyad-Barboteu two-step",
+          ClosingCondition::two_step,
+          {EnergyPromise::Kind::keeps,
+           "in the second pass pressure times gap increment is zero in "
+           "each point, and the first one leaves no trace"})};
       return treatments;
+    }
+
+    // The table of friction laws: a new one is one file in laws/ and one line here.
+    std::vector<FrictionLawEntry> &
+    friction_table()
+    {
+      static std::vector<FrictionLawEntry> laws = [] {
+        FrictionLawEntry coulomb = friction_law_entry<CoulombFriction>();
+        coulomb.is_coulomb       = true;
+        return std::vector<FrictionLawEntry>{coulomb};
+      }();
+      return laws;
     }
 
     const Treatment &
@@ -218,15 +120,107 @@ namespace Ricochet
 
 
 
+  void
+  register_contact_law(const ContactLawEntry &entry)
+  {
+    for (const Treatment &other : table())
+      AssertThrow(other.name != entry.name,
+                  ExcMessage("There is a contact treatment '" + entry.name +
+                             "' already."));
+    table().push_back(entry);
+  }
+
+
+
+  void
+  register_friction_law(const FrictionLawEntry &entry)
+  {
+    for (const FrictionLawEntry &other : friction_table())
+      AssertThrow(other.name != entry.name,
+                  ExcMessage("There is a friction law '" + entry.name +
+                             "' already."));
+    friction_table().push_back(entry);
+  }
+
+
+
   namespace
   {
-    /// Nitsche's method has a potential in its symmetric variant only. A
-    /// constraint stores nothing.
+    const FrictionLawEntry &
+    find_friction(const ContactParameters &parameters)
+    {
+      for (const FrictionLawEntry &entry : friction_table())
+        if (entry.name == parameters.friction_law)
+          return entry;
+      AssertThrow(false,
+                  ExcMessage("unknown friction law " +
+                             parameters.friction_law));
+      return friction_table().front();
+    }
+
+    bool
+    is_of_friction_law(const OwnParameter &parameter)
+    {
+      for (const FrictionLawEntry &entry : friction_table())
+        for (const OwnParameter &own : entry.parameters)
+          if (own.name == parameter.name)
+            return true;
+      return false;
+    }
+
+    bool
+    has_friction(const ContactParameters &parameters)
+    {
+      return find_friction(parameters).absent(parameters.values).empty();
+    }
+
+    RegularisedFriction
+    make_friction(const ContactParameters &parameters)
+    {
+      if (!has_friction(parameters))
+        return {};
+      return {find_friction(parameters).make(parameters.values),
+              parameters.values[RegularisedFriction::compliance_name]};
+    }
+
+    /// mu of exact friction; 0 for none.
+    double
+    exact_coefficient(const ContactParameters &parameters)
+    {
+      return has_friction(parameters)
+        ? CoulombFriction::make(parameters.values).coefficient
+        : 0.;
+    }
+
+    double
+    augmentation(const ContactParameters &parameters)
+    {
+      return parameters.values[augmentation_parameters().front().name];
+    }
+
+    /// The reason why there is no potential; empty if there is one. A constraint stores
+    /// nothing.
+    std::string
+    lacks_potential(const ContactParameters &parameters)
+    {
+      const Treatment &treatment = find(parameters);
+      return treatment.lacks_potential
+        ? treatment.lacks_potential(parameters.values)
+        : "";
+    }
+
     bool
     has_modified_energy(const ContactParameters &parameters)
     {
-      return !find(parameters).traits.uses_stress ||
-        parameters.nitsche_theta == 1.;
+      return lacks_potential(parameters).empty();
+    }
+
+    /// "theta = 1" for a parameter "Nitsche theta" that is one of a list.
+    std::string
+    choice_in_words(const OwnParameter &parameter, const double value)
+    {
+      return parameter.name.substr(parameter.name.rfind(' ') + 1) + " = " +
+        to_text(value);
     }
   } // namespace
 
@@ -239,22 +233,20 @@ namespace Ricochet
   {
     const ContactLawTraits traits = find(parameters).traits;
     if (scheme.needs_potential)
-      return {Promise::none,
+      return {EnergyPromise::Kind::none,
               "the time scheme " + scheme.name +
                 " keeps the total energy to its tolerance only"};
     if (!scheme.contact_over_step)
       return {
-        Promise::none,
+        EnergyPromise::Kind::none,
         "the time scheme " + scheme.name +
           " takes contact forces at instants, and the mean of two of them is no "
           "change of a potential over its step"};
     if (!has_modified_energy(parameters))
-      return {Promise::none,
-              "with theta = " + to_text(parameters.nitsche_theta) +
-                " Nitsche's method has no potential"};
+      return {EnergyPromise::Kind::none, lacks_potential(parameters)};
     if (mortar_dim == 3 && traits.has_potential)
       return {
-        Promise::none,
+        EnergyPromise::Kind::none,
         "in 3D gaps of mortar are means over pieces that are cut anew in each "
         "step, so that the potential jumps in between"};
     return find(parameters).promise;
@@ -277,14 +269,17 @@ namespace Ricochet
         ContactParameters parameters;
         parameters.treatment = treatment.name;
         add(treatment.name, energy_promise(parameters, midpoint));
-        if (!treatment.traits.uses_stress)
-          continue;
-        parameters.nitsche_theta = -1.;
-        add(treatment.name + ", theta = -1",
-            energy_promise(parameters, midpoint));
-        parameters.nitsche_theta = 0.;
-        add(treatment.name + ", theta = 0",
-            energy_promise(parameters, midpoint));
+        for (const OwnParameter &parameter : treatment.parameters)
+          for (const std::string &choice :
+               Utilities::split_string_list(parameter.choices, '|'))
+            {
+              const double value = Utilities::string_to_double(choice);
+              if (value == parameter.default_value)
+                continue;
+              parameters.values[parameter.name] = value;
+              add(treatment.name + ", " + choice_in_words(parameter, value),
+                  energy_promise(parameters, midpoint));
+            }
       }
     ContactParameters parameters;
     parameters.treatment = "penalty";
@@ -363,15 +358,47 @@ namespace Ricochet
       return text;
     }
 
+    std::string
+    names_of_treatments(const std::function<bool(const Treatment &)> &good)
+    {
+      std::vector<std::string> names;
+      for (const Treatment &treatment : table())
+        if (good(treatment))
+          names.push_back(treatment.name);
+      return join(names);
+    }
+
     /// The names of all treatments whose traits are good.
     std::string
     names_of(const std::function<bool(const ContactLawTraits &)> &good)
     {
+      return names_of_treatments(
+        [&](const Treatment &treatment) { return good(treatment.traits); });
+    }
+
+    /// The laws that make a differential equation with a potential, with the choices of
+    /// which that depends: "A with theta = 1, B or C".
+    std::string
+    names_of_potential_laws()
+    {
       std::vector<std::string> names;
       for (const Treatment &treatment : table())
-        if (good(treatment.traits))
-          names.push_back(treatment.name);
-      return join(names);
+        if (treatment.make_law && treatment.traits.has_potential &&
+            !treatment.traits.is_two_point &&
+            !treatment.traits.needs_multiplier)
+          {
+            std::string name = treatment.name;
+            if (treatment.lacks_potential)
+              for (const OwnParameter &parameter : treatment.parameters)
+                if (!parameter.choices.empty())
+                  name += " with " +
+                    choice_in_words(parameter, parameter.default_value);
+            names.push_back(name);
+          }
+      std::string text;
+      for (unsigned int k = 0; k < names.size(); ++k)
+        text += (k == 0 ? "" : k + 1 < names.size() ? ", " : " or ") + names[k];
+      return text;
     }
   } // namespace
 
@@ -397,14 +424,9 @@ namespace Ricochet
                     const bool               viscous)
   {
     const ContactLawTraits traits = find(parameters).traits;
-    if (parameters.compliance_exponent < 2.)
-      throw InputError(
-        "The exponent alpha of normal compliance must be at least 2 (the "
-        "regularisation of paper A, (2.7)); it is " +
-        to_text(parameters.compliance_exponent) + ".");
-    if (parameters.friction_coefficient < 0.)
-      throw InputError("The friction coefficient must not be negative; it is " +
-                       to_text(parameters.friction_coefficient) + ".");
+    for (const OwnParameter &parameter : ContactParameters::all_parameters())
+      if (parameter.condition)
+        parameter.condition(parameters.values[parameter.name]);
     if (!linear_material && traits.uses_stress)
       throw InputError(
         "The contact treatment '" + parameters.treatment +
@@ -417,14 +439,9 @@ namespace Ricochet
         "' uses the elastic stress on the contact boundary and cannot be "
         "combined with a viscous body.\nAllowed with it: " +
         names_of([](const auto &t) { return !t.uses_stress; }) + ".");
-    if (parameters.treatment == "Hauret-Le Tallec" &&
-        parameters.compliance_exponent != 2.)
-      throw InputError(
-        "Hauret-Le Tallec is a penalisation with the exponent 2; Contact/"
-        "Compliance exponent is " +
-        to_text(parameters.compliance_exponent) +
-        ". For others take improved normal compliance.");
-    if (parameters.friction_coefficient > 0.)
+    if (find(parameters).check)
+      find(parameters).check(parameters.values);
+    if (has_friction(parameters))
       {
         if (!traits.takes_friction)
           throw InputError(
@@ -436,11 +453,19 @@ namespace Ricochet
             "Friction cannot be combined with the time scheme '" + scheme.name +
             "'.\nAllowed with it: midpoint. There friction acts against the "
             "mean slip rate of the step, so that its work is never negative.");
-        if (find(parameters).make_law &&
-            !(parameters.tangential_compliance > 0.))
+        if (find(parameters).make_law)
+          RegularisedFriction::check(parameters.values);
+        else if (!find_friction(parameters).is_coulomb)
           throw InputError(
-            "The tangential compliance must be positive; it is " +
-            to_text(parameters.tangential_compliance) + ".");
+            "The friction law '" + parameters.friction_law +
+            "' is regularised and cannot be combined with the contact "
+            "treatment '" +
+            parameters.treatment +
+            "', whose friction is exact.\nAllowed with it: " +
+            names_of_treatments([](const Treatment &t) {
+              return t.traits.takes_friction && t.make_law;
+            }) +
+            ".");
       }
 
     const std::vector<std::string> allowed =
@@ -448,18 +473,23 @@ namespace Ricochet
     if (std::find(allowed.begin(), allowed.end(), scheme.name) != allowed.end())
       return;
 
+    // A two-point law is one for the midpoint scheme whatever is chosen.
+    std::string choices;
+    if (!traits.is_two_point)
+      for (const OwnParameter &parameter : find(parameters).parameters)
+        if (!parameter.choices.empty())
+          choices += " with " +
+            choice_in_words(parameter, parameters.values[parameter.name]);
     std::string message = "The contact treatment '" + parameters.treatment +
-      (parameters.treatment == "Nitsche"
-         ? "' with theta = " + to_text(parameters.nitsche_theta)
-         : "'") +
-      " and the " + (redistributed_mass ? "redistributed" : "consistent") +
+      "'" + choices + " and the " +
+      (redistributed_mass ? "redistributed" : "consistent") +
       " mass cannot be combined with the time scheme '" + scheme.name +
       "'.\nAllowed with them: " + join(allowed) + ".\n";
     if (scheme.needs_potential)
       message += scheme.name +
         " integrates ordinary differential equations with a "
-        "potential: Nitsche with theta = 1, penalty or standard normal "
-        "compliance, with the consistent mass.";
+        "potential: " +
+        names_of_potential_laws() + ", with the consistent mass.";
     else
       message +=
         "A condition over the whole step needs the two ends of a "
@@ -553,7 +583,7 @@ namespace Ricochet
     if (treatment.make_law)
       return MultiplierSpace::none;
     // A second multiplier is for friction, or for the other facet of a valley.
-    return parameters.friction_coefficient > 0. ||
+    return has_friction(parameters) ||
         (treatment.condition == ClosingCondition::signorini &&
          parameters.coupling == "points")
       ? MultiplierSpace::nodal_vector
@@ -577,11 +607,12 @@ namespace Ricochet
                                  : parameters.coupling == "dual mortar"
                                  ? PairCoupling::dual_mortar
                                  : PairCoupling::points,
-                 treatment.make_law ? treatment.make_law(parameters) : nullptr,
+                 treatment.make_law ? treatment.make_law(parameters.values)
+                                                  : nullptr,
                  treatment.condition,
-                 parameters.augmentation,
-                 {parameters.friction_coefficient,
-                                parameters.tangential_compliance}});
+                 augmentation(parameters),
+                 make_friction(parameters),
+                 exact_coefficient(parameters)});
     contact->promise =
       energy_promise(parameters,
                      scheme,
@@ -594,65 +625,82 @@ namespace Ricochet
   std::vector<UnusedParameter>
   ContactParameters::unused_parameters() const
   {
-    const Treatment             &own = find(*this);
+    const OwnParameters          used = used_parameters();
     std::vector<UnusedParameter> unused;
-    const auto                   need =
-      [&](const bool used, const std::string &name, const std::string &owner) {
-        if (!used)
-          unused.push_back(
-            {section + "/" + name,
-             owner + "; " + section + "/Treatment is " + treatment});
-      };
-    const bool compliant        = own.make_law && !own.traits.piecewise_linear;
-    const bool exponent_is_free = treatment != "Hauret-Le Tallec";
-    const bool friction         = friction_coefficient > 0.;
-    need(own.traits.uses_stress, "Nitsche gamma0", "Nitsche's method");
-    need(own.traits.uses_stress, "Nitsche theta", "Nitsche's method");
-    need(treatment == "penalty", "Penalty epsilon0", "penalty");
-    need(compliant, "Compliance coefficient", "normal compliance");
-    need(compliant && exponent_is_free,
-         "Compliance exponent",
-         "standard and improved normal compliance");
-    need(!own.make_law || own.traits.needs_multiplier || compliant || friction,
-         "Augmentation",
-         "multipliers, active sets, normal compliance and friction");
-    if (!friction)
-      unused.push_back({section + "/Tangential compliance",
-                        "friction; " + section + "/Friction coefficient is 0"});
-    else
-      need(bool(own.make_law), "Tangential compliance", "regularised friction");
+    const std::string            absent = find_friction(*this).absent(values);
+    const std::string of_treatment = section + "/Treatment is " + treatment;
+    const std::string of_friction =
+      section + "/Friction law is " + friction_law;
+    for (const OwnParameter &parameter : all_parameters())
+      {
+        const auto has_it = [&](const OwnParameters &list) {
+          return std::any_of(list.begin(), list.end(), [&](const auto &other) {
+            return other.name == parameter.name;
+          });
+        };
+        if (has_it(used))
+          continue;
+        std::string belongs_to = parameter.owner + "; ";
+        if (!has_it(RegularisedFriction::parameters()))
+          belongs_to +=
+            is_of_friction_law(parameter) ? of_friction : of_treatment;
+        else if (absent.empty())
+          belongs_to += of_treatment;
+        else
+          belongs_to = "friction; " + section + "/" + absent;
+        unused.push_back({section + "/" + parameter.name, belongs_to});
+      }
     return unused;
+  }
+
+
+
+  OwnParameters
+  ContactParameters::all_parameters()
+  {
+    OwnParameters all;
+    for (const Treatment &entry : table())
+      unite(all, entry.parameters);
+    for (const FrictionLawEntry &entry : friction_table())
+      unite(all, entry.parameters);
+    unite(all, RegularisedFriction::parameters());
+    return all;
+  }
+
+
+
+  OwnParameters
+  ContactParameters::used_parameters() const
+  {
+    const Treatment &own  = find(*this);
+    OwnParameters    used = own.parameters;
+    // Without friction, the coefficient that says so is of use.
+    unite(used, find_friction(*this).parameters);
+    if (!own.traits.piecewise_linear || has_friction(*this))
+      unite(used, augmentation_parameters());
+    if (own.make_law && has_friction(*this))
+      unite(used, RegularisedFriction::parameters());
+    return used;
   }
 
 
 
   namespace
   {
-    /// Refuse a parameter with which Nitsche's method is not stable: energy could
-    /// grow without bound.
+    /// Refuse values with which a law is not stable. @throws InputError
     void
-    check_nitsche_bound(const ContactParameters &parameters,
-                        const double             trace_constant)
+    check_stability(const ContactParameters &parameters,
+                    const double             trace_constant)
     {
-      const double theta = parameters.nitsche_theta;
-      const double bound = .25 * (1. + theta) * (1. + theta) * trace_constant;
-      // Equal is not enough, and both come with round-off.
-      if (parameters.nitsche_gamma_0 > (1. + 1e-9) * bound)
+      const Treatment &treatment = find(parameters);
+      if (!treatment.instability)
         return;
-      throw InputError(
-        parameters.section +
-        "/Nitsche gamma0 = " + to_text(parameters.nitsche_gamma_0) +
-        " is too small for theta = " + to_text(theta) +
-        ", this material and this mesh: the method is not stable. It must be "
-        "larger than " +
-        to_text(bound) + ".");
+      const std::string reason =
+        treatment.instability(parameters.values, trace_constant);
+      if (!reason.empty())
+        throw InputError(parameters.section + "/" + reason);
     }
-  } // namespace
 
-
-
-  namespace
-  {
     /// The law as the scheme needs it.
     std::unique_ptr<ContactLaw>
     make_law(const ContactParameters &parameters, const SchemeTraits &scheme)
@@ -660,7 +708,7 @@ namespace Ricochet
       const Treatment &treatment = find(parameters);
       return (scheme.contact_over_step && treatment.make_midpoint_law
                 ? treatment.make_midpoint_law
-                : treatment.make_law)(parameters);
+                : treatment.make_law)(parameters.values);
     }
   } // namespace
 
@@ -700,17 +748,16 @@ namespace Ricochet
                             constants[j] *
                               CutFaces<dim>::stress_weight(materials[j], materials[i])});
           }
-        check_nitsche_bound(parameters, largest);
+        check_stability(parameters, largest);
       }
-    auto contact = std::make_unique<CutFaceContact>(
-      body,
-      make_law(parameters, scheme),
-      cut_faces.points,
-      cut_faces.slave_area,
-      CoulombFriction{parameters.friction_coefficient,
-                      parameters.tangential_compliance},
-      parameters.augmentation,
-      has_modified_energy(parameters));
+    auto contact =
+      std::make_unique<CutFaceContact>(body,
+                                       make_law(parameters, scheme),
+                                       cut_faces.points,
+                                       cut_faces.slave_area,
+                                       make_friction(parameters),
+                                       augmentation(parameters),
+                                       has_modified_energy(parameters));
     contact->promise = energy_promise(parameters, scheme);
     return contact;
   }
@@ -727,8 +774,8 @@ namespace Ricochet
   {
     const Treatment &treatment = find(parameters);
     if (treatment.traits.uses_stress)
-      check_nitsche_bound(parameters,
-                          nitsche_trace_constant(body, stress, obstacles));
+      check_stability(parameters,
+                      nitsche_trace_constant(body, stress, obstacles));
     ContactPoints stress_points;
     if (stress || !treatment.traits.nodal)
       stress_points = make_quadrature_contact_points(body, stress, obstacles);
@@ -746,18 +793,17 @@ namespace Ricochet
                                            std::move(points),
                                            std::move(stress_points),
                                            treatment.condition,
-                                           parameters.augmentation,
-                                           parameters.friction_coefficient);
+                                           augmentation(parameters),
+                                           exact_coefficient(parameters));
     else
-      contact = std::make_unique<PointwiseContact>(
-        body,
-        make_law(parameters, scheme),
-        std::move(points),
-        std::move(stress_points),
-        CoulombFriction{parameters.friction_coefficient,
-                        parameters.tangential_compliance},
-        parameters.augmentation,
-        has_modified_energy(parameters));
+      contact =
+        std::make_unique<PointwiseContact>(body,
+                                           make_law(parameters, scheme),
+                                           std::move(points),
+                                           std::move(stress_points),
+                                           make_friction(parameters),
+                                           augmentation(parameters),
+                                           has_modified_energy(parameters));
     contact->promise = energy_promise(parameters, scheme);
     return contact;
   }
@@ -767,21 +813,15 @@ namespace Ricochet
   std::vector<std::pair<std::string, double>>
   ContactParameters::used_values() const
   {
-    std::vector<std::pair<std::string, double>> values = {
-      {"Nitsche gamma0", nitsche_gamma_0},
-      {"Penalty epsilon0", penalty_epsilon_0},
-      {"Augmentation", augmentation},
-      {"Compliance coefficient", compliance_coefficient},
-      {"Tangential compliance", tangential_compliance}};
-    for (const UnusedParameter &unused : unused_parameters())
-      values.erase(std::remove_if(values.begin(),
-                                  values.end(),
-                                  [&](const auto &value) {
-                                    return unused.name ==
-                                      section + "/" + value.first;
-                                  }),
-                   values.end());
-    return values;
+    std::vector<std::pair<std::string, double>> list;
+    const OwnParameters                         used = used_parameters();
+    for (const OwnParameter &parameter : all_parameters())
+      if (parameter.scale_rule &&
+          std::any_of(used.begin(), used.end(), [&](const auto &other) {
+            return other.name == parameter.name;
+          }))
+        list.emplace_back(parameter.name, values[parameter.name]);
+    return list;
   }
 
 
@@ -789,8 +829,9 @@ namespace Ricochet
   void
   ContactParameters::leave_open()
   {
-    nitsche_gamma_0 = penalty_epsilon_0 = augmentation =
-      compliance_coefficient = tangential_compliance = 0.;
+    for (const OwnParameter &parameter : all_parameters())
+      if (parameter.scale_rule)
+        values[parameter.name] = 0.;
   }
 
 
@@ -798,19 +839,9 @@ namespace Ricochet
   void
   ContactParameters::set_missing(const Scales &scales)
   {
-    const auto set = [](double &value, const double other) {
-      if (value == 0.)
-        value = other;
-    };
-    const double h = scales.cell_diameter;
-    set(nitsche_gamma_0,
-        20. * scales.degree * scales.degree * scales.wave_modulus);
-    set(penalty_epsilon_0, .1 / scales.wave_modulus);
-    set(augmentation, scales.young_modulus);
-    set(compliance_coefficient,
-        10. * scales.wave_modulus / std::pow(h, compliance_exponent - 1.));
-    set(tangential_compliance,
-        std::sqrt(scales.young_modulus * scales.density));
+    for (const OwnParameter &parameter : all_parameters())
+      if (parameter.scale_rule && values[parameter.name] == 0.)
+        values[parameter.name] = parameter.scale_rule(scales, values);
   }
 
 
@@ -818,67 +849,24 @@ namespace Ricochet
   void
   ContactParameters::add_parameters(ParameterHandler &parameters)
   {
-    // Zero is for what is still to be found.
-    const auto at_least = [](const double &value) {
-      return Patterns::Double(value == 0. ? 0. : 1e-30);
-    };
     parameters.enter_subsection(section);
     parameters.add_parameter("Treatment",
                              treatment,
                              "How the Signorini condition is treated.",
                              Patterns::Selection(contact_treatment_names()));
-    parameters.add_parameter(
-      "Nitsche gamma0",
-      nitsche_gamma_0,
-      "Parameter gamma_0 (Pa) of Nitsche's method; gamma = gamma_0/h_T (paper "
-      "C, (7)). Used by Nitsche and Nitsche-hybrid.",
-      at_least(nitsche_gamma_0));
-    parameters.add_parameter(
-      "Nitsche theta",
-      nitsche_theta,
-      "Variant of Nitsche's method: 1 symmetric, -1 skew-symmetric, 0 "
-      "non-symmetric. Used by Nitsche and Nitsche-hybrid.",
-      Patterns::Selection("1|-1|0"));
-    parameters.add_parameter(
-      "Penalty epsilon0",
-      penalty_epsilon_0,
-      "Parameter epsilon_0 (1/Pa) of the penalty method; epsilon = epsilon_0 "
-      "h_T (paper C, (14)). Used by penalty.",
-      at_least(penalty_epsilon_0));
-    parameters.add_parameter(
-      "Augmentation",
-      augmentation,
-      "Parameter gamma_a (Pa) of the proximal augmented Lagrangian (paper C, "
-      "(18)). For the other treatments it steers Newton's method, best with "
-      "about Young's modulus, and leaves the solution alone.",
-      at_least(augmentation));
-    parameters.add_parameter(
-      "Compliance coefficient",
-      compliance_coefficient,
-      "Parameter c_nu (Pa/m^(alpha-1)) of normal compliance: pressure c_nu "
-      "alpha/2 penetration^(alpha-1) (paper A, (2.10)). Used by standard and "
-      "improved normal compliance and, with alpha = 2, Hauret-Le Tallec.",
-      at_least(compliance_coefficient));
-    parameters.add_parameter(
-      "Compliance exponent",
-      compliance_exponent,
-      "Exponent alpha of normal compliance, at least 2. Used by standard and "
-      "improved normal compliance.",
-      Patterns::Double());
-    parameters.add_parameter(
-      "Friction coefficient",
-      friction_coefficient,
-      "Coulomb's coefficient mu of friction; 0 for none. Stick and slip are "
-      "exact with Signorini active set, persistent contact and "
-      "Ayyad-Barboteu two-step, regularised with the others.",
-      Patterns::Double());
-    parameters.add_parameter(
-      "Tangential compliance",
-      tangential_compliance,
-      "Parameter c_tau (Pa s/m) of regularised friction: while a point "
-      "sticks, its traction is c_tau times the slip rate (paper A, (2.11)). "
-      "Used with friction by the treatments that regularise it.",
-      Patterns::Double());
+    if (friction_table().size() > 1)
+      {
+        std::string names;
+        for (const FrictionLawEntry &entry : friction_table())
+          names += (names.empty() ? "" : "|") + entry.name;
+        parameters.add_parameter(
+          "Friction law",
+          friction_law,
+          "The traction at which points slip. Only Coulomb's is there for "
+          "treatments whose friction is exact.",
+          Patterns::Selection(names));
+      }
+    values.add_parameters(all_parameters(), parameters);
     parameters.leave_subsection();
   }
 

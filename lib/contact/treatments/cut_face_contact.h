@@ -28,7 +28,7 @@ namespace Ricochet
       std::unique_ptr<ContactLaw>                         law,
       const ContactPoints                                &points,
       const std::map<dealii::types::boundary_id, double> &slave_area,
-      const CoulombFriction                              &friction,
+      const RegularisedFriction                          &friction,
       const double                                        augmentation,
       const bool                                          modified_energy)
       : PointwiseContact(body,

@@ -46,7 +46,7 @@ namespace Ricochet
           pair,
           !nodal ? Points::PointsIn::quadrature_points
             : !method.law && method.condition == ClosingCondition::signorini &&
-              method.friction.coefficient == 0.
+              !method.friction.exists()
             ? Points::PointsIn::nodes_and_valleys
             : Points::PointsIn::nodes);
       AssertThrow(nodal, ExcMessage("Mortar couples nodes."));
@@ -106,7 +106,7 @@ namespace Ricochet
     : communicator(body.communicator)
     , owned(body.owned_indices())
     , method(std::move(pair_method))
-    , has_friction(dim > 1 && method.friction.coefficient > 0.)
+    , has_friction(dim > 1 && method.friction.exists())
     , friction(method.friction, method.augmentation)
     , force(body.make_vector())
     , friction_part(body.make_vector())
@@ -412,8 +412,8 @@ namespace Ricochet
     const Tangential slip           = pair.rows(p).slip;
     const Tangential friction_trial = state.traction + r * slip;
     const double     trial_size     = friction_trial.norm();
-    const double limit = method.friction.coefficient * positive_part(pressure);
-    state.direction    = 0.;
+    const double     limit = method.exact_coefficient * positive_part(pressure);
+    state.direction        = 0.;
     if (trial_size > 0.)
       state.direction = friction_trial / trial_size;
     else
@@ -424,7 +424,7 @@ namespace Ricochet
     const bool sticks = pressure > 0. ? trial_size < limit
                                       : !sets_recur &&
         slip.norm() <=
-          method.friction.coefficient * std::abs(pair.rows(p).gap_increment);
+          method.exact_coefficient * std::abs(pair.rows(p).gap_increment);
     if (sticks)
       state.status = Status::stick;
   }
@@ -656,7 +656,7 @@ namespace Ricochet
           if (c > 0 && state.status == Status::stick)
             equation = softness(state) * multiplier - pair.rows(p).slip[c - 1];
           if (c > 0 && state.status == Status::slip)
-            equation = (method.friction.coefficient * state.pressure *
+            equation = (method.exact_coefficient * state.pressure *
                           state.direction[c - 1] -
                         multiplier) /
               r;
@@ -1003,7 +1003,7 @@ namespace Ricochet
               {
                 add_entry(point.multipliers[c],
                           point.multipliers[0],
-                          weight * point.weight * method.friction.coefficient *
+                          weight * point.weight * method.exact_coefficient *
                             state.direction[c - 1] / r);
                 // How the direction turns with the multipliers.
                 for (unsigned int d = 0; n_tangents > 1 && d < n_tangents; ++d)

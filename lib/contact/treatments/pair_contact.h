@@ -34,9 +34,10 @@ namespace Ricochet
     ClosingCondition condition = ClosingCondition::signorini;
     /// r_0 (Pa): r = r_0 / h_T steers Newton's method and leaves the solution alone.
     double augmentation = 1.;
-    /// Exact with a constraint, regularised with a law; none if the coefficient is
-    /// 0.
-    CoulombFriction friction;
+    /// Of a law; with a constraint it only has to exist if there is friction.
+    RegularisedFriction friction;
+    /// Coulomb's mu of a constraint, whose friction is exact.
+    double exact_coefficient = 0.;
   };
 
   /**

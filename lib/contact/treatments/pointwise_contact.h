@@ -25,7 +25,7 @@ namespace Ricochet
      * @param points where the law is enforced.
      * @param stress_points quadrature points at which the summary evaluates the
      * body's own stress; nodes know none.
-     * @param friction none if its coefficient is 0.
+     * @param friction none if it does not exist.
      * @param augmentation r_0 (Pa); a stiffness r_0 / h_T, the body's own in
      * order of magnitude, tells stick and slip apart and chooses where power
      * laws are linearised. It leaves the solution alone.
@@ -36,7 +36,7 @@ namespace Ricochet
                      std::unique_ptr<ContactLaw> law,
                      ContactPoints               points,
                      ContactPoints               stress_points,
-                     const CoulombFriction      &friction        = {},
+                     const RegularisedFriction  &friction        = {},
                      const double                augmentation    = 1.,
                      const bool                  modified_energy = true)
       : law(std::move(law))
@@ -45,7 +45,7 @@ namespace Ricochet
       , modified_energy(modified_energy)
       , kinematics(make_kinematics(body,
                                    std::move(points),
-                                   {/* way */ friction.coefficient > 0. ||
+                                   {/* way */ friction.exists() ||
                                       prefers_displacements(),
                                     /* prediction */ false}))
       , evaluator(kinematics->evaluator)

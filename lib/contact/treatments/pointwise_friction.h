@@ -2,23 +2,23 @@
 #ifndef ricochet_contact_treatments_pointwise_friction_h
 #define ricochet_contact_treatments_pointwise_friction_h
 
-#include <contact/laws/coulomb_friction.h>
+#include <contact/laws/regularised_friction.h>
 
 #include <vector>
 
 namespace Ricochet
 {
   /**
-   * Coulomb's friction with a tangential compliance in the points of a pointwise
+   * Friction with a tangential compliance in the points of a pointwise
    * treatment, with the mean slip rate of the step: what each point knows of stick
    * and slip in the course of Newton's method.
    */
   class PointwiseFriction
   {
   public:
-    /// @param law none if its coefficient is 0.
+    /// @param law of Coulomb or another one; none if it does not exist.
     /// @param augmentation r_0 (Pa); r_0 / h_T tells stick and slip apart.
-    PointwiseFriction(const CoulombFriction &law, const double augmentation)
+    PointwiseFriction(const RegularisedFriction &law, const double augmentation)
       : law(law)
       , augmentation(augmentation)
     {}
@@ -27,7 +27,7 @@ namespace Ricochet
     bool
     exists() const
     {
-      return law.coefficient > 0.;
+      return law.exists();
     }
 
     void
@@ -71,14 +71,14 @@ namespace Ricochet
       return branch[p].sticks;
     }
 
-    /// Pa; the same as Coulomb's at a solution.
+    /// Pa; the same as the law's at a solution.
     dealii::Tensor<1, 3>
     traction(const unsigned int p) const
     {
       return law.traction_on(branch[p], pressures[p], slip_rate[p]);
     }
 
-    /// By how much traction() is not Coulomb's (Pa).
+    /// By how much traction() is not the law's (Pa).
     dealii::Tensor<1, 3>
     error(const unsigned int p) const
     {
@@ -113,14 +113,14 @@ namespace Ricochet
     }
 
   private:
-    const CoulombFriction law;
-    const double          augmentation;
-    double                time_step  = 0.;
-    unsigned int          n_iterates = 0;
-    std::vector<double>   pressures;
+    const RegularisedFriction law;
+    const double              augmentation;
+    double                    time_step  = 0.;
+    unsigned int              n_iterates = 0;
+    std::vector<double>       pressures;
     // m/s
-    std::vector<dealii::Tensor<1, 3>>    slip_rate;
-    std::vector<CoulombFriction::Branch> branch, accepted_branch;
+    std::vector<dealii::Tensor<1, 3>>        slip_rate;
+    std::vector<RegularisedFriction::Branch> branch, accepted_branch;
   };
 } // namespace Ricochet
 

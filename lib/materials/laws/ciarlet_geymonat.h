@@ -26,6 +26,38 @@ namespace Ricochet
     /// Pa
     double d = 0.;
 
+    static constexpr const char *name   = "Ciarlet-Geymonat";
+    static constexpr const char *remark = "papers A and B call it Ogden's";
+
+    static OwnParameters
+    parameters()
+    {
+      return {OwnParameter("c1", .5e6)
+                .means("Factor of I1 - 3", "Pa", ". Used by Ciarlet-Geymonat.")
+                .at_least(1e-30)
+                .belongs_to("the law Ciarlet-Geymonat"),
+              OwnParameter("c2", 5e3)
+                .means("Factor of I2 - 3", "Pa", ". Used by Ciarlet-Geymonat.")
+                .at_least(0.)
+                .belongs_to("the law Ciarlet-Geymonat"),
+              OwnParameter("d", .35e6)
+                .means("Factor of I3 - 1", "Pa", ". Used by Ciarlet-Geymonat.")
+                .at_least(1e-30)
+                .belongs_to("the law Ciarlet-Geymonat")};
+    }
+
+    static CiarletGeymonat
+    make(const ParameterValues &values)
+    {
+      return {values["c1"], values["c2"], values["d"]};
+    }
+
+    LinearElastic
+    at_small_strains() const
+    {
+      return {4. * (c2 + d), 2. * (c1 + c2)};
+    }
+
     template <typename Number>
     Number
     energy(const Invariants<Number> &i) const

@@ -23,6 +23,39 @@ namespace Ricochet
     /// Pa
     double mu = 0.;
 
+    static constexpr const char *name = "neo-Hookean";
+
+    static OwnParameters
+    parameters()
+    {
+      return LinearElastic::parameters();
+    }
+
+    static NeoHookean
+    make(const ParameterValues &values)
+    {
+      const LinearElastic lame = LinearElastic::make(values);
+      return {lame.lambda, lame.mu};
+    }
+
+    /// See plane_stress_c33().
+    static void
+    check(const ParameterValues &values, const PlaneState plane_state)
+    {
+      const double poisson_ratio = values["Poisson ratio"];
+      if (plane_state == PlaneState::plane_stress && poisson_ratio < 0.)
+        throw InputError(
+          "A neo-Hookean body in plane stress needs a Poisson ratio "
+          "that is not negative; it is " +
+          to_text(poisson_ratio) + ".");
+    }
+
+    LinearElastic
+    at_small_strains() const
+    {
+      return {lambda, mu};
+    }
+
     template <typename Number>
     Number
     energy(const Invariants<Number> &i) const

@@ -22,6 +22,27 @@ namespace Ricochet
     /// Pa
     double mu = 0.;
 
+    static constexpr const char *name = "Saint Venant-Kirchhoff";
+
+    static OwnParameters
+    parameters()
+    {
+      return LinearElastic::parameters();
+    }
+
+    static SaintVenantKirchhoff
+    make(const ParameterValues &values)
+    {
+      const LinearElastic lame = LinearElastic::make(values);
+      return {lame.lambda, lame.mu};
+    }
+
+    LinearElastic
+    at_small_strains() const
+    {
+      return {lambda, mu};
+    }
+
     template <typename Number>
     Number
     energy(const Invariants<Number> &i) const

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_laws_augmentation_h
+#define ricochet_contact_laws_augmentation_h
+
+#include <base/own_parameter.h>
+
+namespace Ricochet
+{
+  /// The parameter of multipliers and active sets, and of what is solved as they are:
+  /// friction, and laws that are not linear in pieces.
+  inline OwnParameters
+  augmentation_parameters()
+  {
+    return {
+      OwnParameter("Augmentation", 5.)
+        .means("Parameter gamma_a",
+               "Pa",
+               " of the proximal augmented Lagrangian (paper C, (18)). For the "
+               "other treatments it steers Newton's method, best with about "
+               "Young's modulus, and leaves the solution alone.")
+        .at_least(1e-30)
+        .by_scale([](const Scales &scales, const ParameterValues &) {
+          return scales.young_modulus;
+        })
+        .belongs_to(
+          "multipliers, active sets, normal compliance and friction")};
+  }
+} // namespace Ricochet
+
+#endif

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_laws_regularised_friction_h
+#define ricochet_contact_laws_regularised_friction_h
+
+#include <base/exceptions.h>
+#include <base/own_parameter.h>
+#include <base/parameter_file.h>
+#include <contact/laws/friction_law.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace Ricochet
+{
+  /**
+   * Friction regularised by a tangential compliance (paper A, (2.11)): with the slip
+   * rate v in the tangent plane and the limit of a FrictionLaw, of Coulomb's mu pressure,
+   *
+   *     traction = c_tau v          if c_tau |v| < limit (stick),
+   *     traction = limit v/|v|      otherwise (slip).
+   *
+   * The traction stands on the side of the internal forces: its power,
+   * traction . v, is what friction takes away and is never negative.
+   */
+  class RegularisedFriction
+  {
+  public:
+    static constexpr const char *compliance_name = "Tangential compliance";
+
+    static OwnParameters
+    parameters()
+    {
+      return {
+        OwnParameter(compliance_name, 1e3)
+          .means("Parameter c_tau",
+                 "Pa s/m",
+                 " of regularised friction: while a point sticks, its traction "
+                 "is c_tau times the slip rate (paper A, (2.11)). Used with "
+                 "friction by the treatments that regularise it.")
+          .by_scale([](const Scales &scales, const ParameterValues &) {
+            return std::sqrt(scales.young_modulus * scales.density);
+          })
+          .belongs_to("regularised friction")};
+    }
+
+    /// @throws InputError for a compliance that is not positive.
+    static void
+    check(const ParameterValues &values)
+    {
+      if (!(values[compliance_name] > 0.))
+        throw InputError("The tangential compliance must be positive; it is " +
+                         to_text(values[compliance_name]) + ".");
+    }
+
+    /// No friction.
+    RegularisedFriction() = default;
+
+    /// @param law null for none. @param tangential_compliance c_tau (Pa s/m)
+    RegularisedFriction(std::shared_ptr<const FrictionLaw> law,
+                        const double tangential_compliance)
+      : tangential_compliance(tangential_compliance)
+      , law(std::move(law))
+    {}
+
+    bool
+    exists() const
+    {
+      return law != nullptr;
+    }
+
+    /**
+     * The law again, with stick and slip told apart by @p trial instead of the
+     * slip rate: a trial = traction + r (v - traction/c_tau) of the last
+     * iterate, with a small r. At a solution both are the same, for any r > 0;
+     * on the way there a point that should stick is not thrown from one
+     * direction of slip into the other (the primal-dual active set of Hüeber,
+     * Stadler and Wohlmuth 2008, for the regularised law).
+     */
+    struct Branch
+    {
+      bool sticks = true;
+      /// Direction of slip.
+      dealii::Tensor<1, 3> direction;
+      /// The direction is that of the slip rate and changes with it.
+      bool follows_slip_rate = false;
+    };
+
+    Branch
+    choose_branch(const double                pressure,
+                  const dealii::Tensor<1, 3> &slip_rate,
+                  const dealii::Tensor<1, 3> &trial) const
+    {
+      Branch       branch;
+      const double size = trial.norm();
+      branch.sticks     = size == 0. || size < limit(pressure, slip_rate).value;
+      if (branch.sticks)
+        return branch;
+      branch.follows_slip_rate = slip_rate * trial > 0.;
+      branch.direction =
+        branch.follows_slip_rate ? slip_rate / slip_rate.norm() : trial / size;
+      return branch;
+    }
+
+    /// The traction (Pa) on @p branch; the same as traction() at a solution.
+    dealii::Tensor<1, 3>
+    traction_on(const Branch               &branch,
+                const double                pressure,
+                const dealii::Tensor<1, 3> &slip_rate) const
+    {
+      return branch.sticks
+        ? tangential_compliance * slip_rate
+        : limit(pressure, slip_rate).value * branch.direction;
+    }
+
+    /// The traction (Pa) at a @p pressure (Pa, not negative) and a slip rate
+    /// (m/s).
+    dealii::Tensor<1, 3>
+    traction(const double pressure, const dealii::Tensor<1, 3> &slip_rate) const
+    {
+      const double square = slip_rate.norm_square();
+      if (!(square > 0.))
+        return {};
+      const double speed   = std::sqrt(square);
+      const double largest = law->limit(pressure, speed).value;
+      return (tangential_compliance * speed < largest ? tangential_compliance
+                                                      : largest / speed) *
+        slip_rate;
+    }
+
+    /// The derivatives of traction_on(): with respect to the slip rate (within
+    /// the tangent plane, whose projection @p tangent_plane is) and to the
+    /// pressure.
+    void
+    derivatives(const Branch               &branch,
+                const double                pressure,
+                const dealii::Tensor<1, 3> &slip_rate,
+                const dealii::Tensor<2, 3> &tangent_plane,
+                dealii::Tensor<2, 3>       &with_slip_rate,
+                dealii::Tensor<1, 3>       &with_pressure) const
+    {
+      with_slip_rate = 0.;
+      with_pressure  = 0.;
+      if (branch.sticks)
+        {
+          with_slip_rate = tangential_compliance * tangent_plane;
+          return;
+        }
+      const FrictionLimit own = limit(pressure, slip_rate);
+      with_pressure           = own.with_pressure * branch.direction;
+      if (branch.follows_slip_rate)
+        with_slip_rate = own.value / slip_rate.norm() *
+          (tangent_plane - outer_product(branch.direction, branch.direction));
+      if (own.with_slip_speed != 0. && slip_rate.norm() > 0.)
+        with_slip_rate += own.with_slip_speed *
+          outer_product(branch.direction, slip_rate / slip_rate.norm());
+    }
+
+    /// c_tau (Pa s/m)
+    const double tangential_compliance = 0.;
+
+  private:
+    FrictionLimit
+    limit(const double pressure, const dealii::Tensor<1, 3> &slip_rate) const
+    {
+      return law->limit(pressure, slip_rate.norm());
+    }
+
+    const std::shared_ptr<const FrictionLaw> law;
+  };
+} // namespace Ricochet
+
+#endif

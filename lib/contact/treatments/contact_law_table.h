@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_contact_treatments_contact_law_table_h
+#define ricochet_contact_treatments_contact_law_table_h
+
+#include <base/own_parameter.h>
+#include <contact/energy_promise.h>
+#include <contact/laws/contact_law.h>
+#include <contact/laws/friction_law.h>
+#include <contact/treatments/closing_condition.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+
+namespace Ricochet
+{
+  /**
+   * A contact treatment as parameter files know it. A pointwise law is a struct with
+   *
+   *     static constexpr const char *name;
+   *     static OwnParameters parameters();
+   *     static Law make(const ParameterValues &);
+   *     static EnergyPromise promise();        over the steps of the midpoint scheme
+   *     static constexpr ContactLawTraits traits();
+   *     force(), potential()                   see ContactLaw
+   *
+   * and, if it likes, tangent(), branch() and pressure(), which otherwise follow from its
+   * force; and
+   *
+   *     static void check(const ParameterValues &)        throws InputError
+   *     std::string lacks_potential() const               why, with its values; or empty
+   *     std::string instability(double trace_constant) const    see nitsche_bound.h; or empty
+   */
+  struct ContactLawEntry
+  {
+    std::string      name;
+    OwnParameters    parameters;
+    ContactLawTraits traits;
+    /// The promise over the steps of the midpoint scheme.
+    EnergyPromise promise = {};
+    /// Makes the pointwise law; empty for active sets, which have none.
+    std::function<std::unique_ptr<ContactLaw>(const ParameterValues &)>
+      make_law = {};
+    /// The law within a midpoint step, if it is another one.
+    std::function<std::unique_ptr<ContactLaw>(const ParameterValues &)>
+      make_midpoint_law = {};
+    /// The condition that an active set imposes.
+    ClosingCondition condition = ClosingCondition::signorini;
+    /// Throws InputError for values that do not go together.
+    std::function<void(const ParameterValues &)> check = {};
+    /// The reason why there is no potential with these values; empty if there is one.
+    std::function<std::string(const ParameterValues &)> lacks_potential = {};
+    /// The reason why the law is not stable on a mesh with a trace constant (Pa); empty
+    /// if it is.
+    std::function<std::string(const ParameterValues &, const double)>
+      instability = {};
+  };
+
+  /// A friction law as parameter files know it; see FrictionLaw.
+  struct FrictionLawEntry
+  {
+    std::string   name;
+    OwnParameters parameters;
+    std::function<std::shared_ptr<const FrictionLaw>(const ParameterValues &)>
+      make;
+    /// The reason why there is no friction with these values; empty if there is some.
+    std::function<std::string(const ParameterValues &)> absent;
+    /// Stick and slip can be exact, in treatments with active sets.
+    bool is_coulomb = false;
+  };
+
+  /// Add a contact law to the table of treatments. Programs do this before they declare
+  /// parameters.
+  /// @throws dealii::ExcMessage when there is one of its name.
+  void
+  register_contact_law(const ContactLawEntry &entry);
+
+  /// The same for a friction law. With more than one, contacts have a parameter
+  /// `Friction law`.
+  void
+  register_friction_law(const FrictionLawEntry &entry);
+
+
+
+  namespace internal
+  {
+    template <typename Law, typename = void>
+    struct has_contact_check : std::false_type
+    {};
+    template <typename Law>
+    struct has_contact_check<
+      Law,
+      std::void_t<decltype(Law::check(std::declval<ParameterValues>()))>>
+      : std::true_type
+    {};
+
+    template <typename Law, typename = void>
+    struct has_potential_condition : std::false_type
+    {};
+    template <typename Law>
+    struct has_potential_condition<
+      Law,
+      std::void_t<decltype(std::declval<const Law &>().lacks_potential())>>
+      : std::true_type
+    {};
+
+    template <typename Law, typename = void>
+    struct has_stability_bound : std::false_type
+    {};
+    template <typename Law>
+    struct has_stability_bound<
+      Law,
+      std::void_t<decltype(std::declval<const Law &>().instability(1.))>>
+      : std::true_type
+    {};
+
+    template <typename Law, typename = void>
+    struct can_be_absent : std::false_type
+    {};
+    template <typename Law>
+    struct can_be_absent<
+      Law,
+      std::void_t<decltype(Law::absent(std::declval<ParameterValues>()))>>
+      : std::true_type
+    {};
+  } // namespace internal
+
+  /// The entry of the pointwise law @p Law.
+  template <typename Law>
+  ContactLawEntry
+  contact_law_entry()
+  {
+    ContactLawEntry entry;
+    entry.name       = Law::name;
+    entry.parameters = Law::parameters();
+    entry.traits     = Law::traits();
+    entry.promise    = Law::promise();
+    entry.make_law   = [](const ParameterValues &values) {
+      return std::make_unique<ContactLawImplementation<Law>>(Law::make(values));
+    };
+    if constexpr (internal::has_contact_check<Law>::value)
+      entry.check = Law::check;
+    if constexpr (internal::has_potential_condition<Law>::value)
+      entry.lacks_potential = [](const ParameterValues &values) {
+        return Law::make(values).lacks_potential();
+      };
+    if constexpr (internal::has_stability_bound<Law>::value)
+      entry.instability = [](const ParameterValues &values,
+                             const double           trace_constant) {
+        return Law::make(values).instability(trace_constant);
+      };
+    return entry;
+  }
+
+  /// Add the pointwise law @p Law to the table.
+  template <typename Law>
+  void
+  register_contact_law()
+  {
+    register_contact_law(contact_law_entry<Law>());
+  }
+
+  /// The entry of the friction law @p Law.
+  template <typename Law>
+  FrictionLawEntry
+  friction_law_entry()
+  {
+    FrictionLawEntry entry;
+    entry.name       = Law::name;
+    entry.parameters = Law::parameters();
+    entry.make       = [](const ParameterValues &values) {
+      return std::make_shared<FrictionLawImplementation<Law>>(
+        Law::make(values));
+    };
+    entry.absent = [](const ParameterValues &values) -> std::string {
+      if constexpr (internal::can_be_absent<Law>::value)
+        return Law::absent(values);
+      else
+        return "";
+    };
+    return entry;
+  }
+
+  /// Add the friction law @p Law to the table.
+  template <typename Law>
+  void
+  register_friction_law()
+  {
+    register_friction_law(friction_law_entry<Law>());
+  }
+} // namespace Ricochet
+
+#endif

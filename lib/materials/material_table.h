@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef ricochet_materials_material_table_h
+#define ricochet_materials_material_table_h
+
+#include <base/own_parameter.h>
+#include <materials/hyperelastic_law_implementation.h>
+#include <materials/linear_elastic.h>
+#include <materials/plane_state.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace Ricochet
+{
+  /**
+   * An elastic law as parameter files know it. A hyperelastic law is a struct with
+   *
+   *     static constexpr const char *name;
+   *     static OwnParameters parameters();
+   *     static Law make(const ParameterValues &);
+   *     energy(), gradient(), hessian()            see HyperelasticLaw
+   *
+   * and, if it likes, what CompletedLaw finds otherwise, `static void check(const
+   * ParameterValues &, PlaneState)` that throws InputError for values without meaning,
+   * and `static constexpr const char *remark` for the documentation.
+   */
+  struct MaterialEntry
+  {
+    std::string   name;
+    std::string   remark;
+    OwnParameters parameters;
+    /// Large strains; empty for the linear law.
+    std::function<std::shared_ptr<const HyperelasticLaw>(
+      const ParameterValues &)>
+      make;
+    /// Lamé's parameters in 3D (Pa).
+    std::function<LinearElastic(const ParameterValues &)> at_small_strains;
+    /// Throws InputError.
+    std::function<void(const ParameterValues &, const PlaneState)> check;
+  };
+
+  /// All elastic laws; the linear one is the first.
+  const std::vector<MaterialEntry> &
+  material_table();
+
+  /// Add a law to the table. Programs do this before they declare parameters.
+  /// @throws dealii::ExcMessage when there is one of its name.
+  void
+  register_material(const MaterialEntry &entry);
+
+
+
+  namespace internal
+  {
+    template <typename Law, typename = void>
+    struct has_material_check : std::false_type
+    {};
+    template <typename Law>
+    struct has_material_check<
+      Law,
+      std::void_t<decltype(Law::check(std::declval<ParameterValues>(),
+                                      PlaneState::plane_strain))>>
+      : std::true_type
+    {};
+
+    template <typename Law, typename = void>
+    struct has_remark : std::false_type
+    {};
+    template <typename Law>
+    struct has_remark<Law, std::void_t<decltype(Law::remark)>> : std::true_type
+    {};
+  } // namespace internal
+
+  /// The entry of the hyperelastic law @p Law.
+  template <typename Law>
+  MaterialEntry
+  material_entry()
+  {
+    MaterialEntry entry;
+    entry.name       = Law::name;
+    entry.parameters = Law::parameters();
+    entry.make       = [](const ParameterValues &values) {
+      return std::make_shared<HyperelasticLawImplementation<Law>>(
+        Law::make(values));
+    };
+    entry.at_small_strains = [](const ParameterValues &values) {
+      return CompletedLaw<Law>(Law::make(values)).at_small_strains();
+    };
+    if constexpr (internal::has_remark<Law>::value)
+      entry.remark = Law::remark;
+    if constexpr (internal::has_material_check<Law>::value)
+      entry.check = Law::check;
+    return entry;
+  }
+
+  /// Add the hyperelastic law @p Law to the table.
+  template <typename Law>
+  void
+  register_material()
+  {
+    register_material(material_entry<Law>());
+  }
+} // namespace Ricochet
+
+#endif
