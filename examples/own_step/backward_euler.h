@@ -2,7 +2,6 @@
 #ifndef own_step_backward_euler_h
 #define own_step_backward_euler_h
 
-#include <base/vector_operations.h>
 #include <time_integration/hht.h>
 #include <time_integration/time_scheme_table.h>
 
@@ -54,9 +53,9 @@ public:
     new_state.time = old_state.time + time_step;
 
     // u_new = u_old + dt v_old + dt^2 a_new
-    stage.inertia  = 1. / (time_step * time_step);
-    stage.end_time = new_state.time;
-    copy_values(old_state.solution, stage.inertia_origin);
+    stage.inertia        = 1. / (time_step * time_step);
+    stage.end_time       = new_state.time;
+    stage.inertia_origin = old_state.solution;
     stage.inertia_origin.add(time_step, old_state.velocity);
     stage.load.reinit(old_state.solution, true);
     system.external_load(new_state.time, stage.load);
@@ -67,14 +66,14 @@ public:
     report.newton_iterations = system.solve_stage(stage, old_state, new_state);
     report.linear_solves     = report.newton_iterations;
 
-    copy_values(new_state.solution, new_state.acceleration);
+    new_state.acceleration = new_state.solution;
     new_state.acceleration -= stage.inertia_origin;
     new_state.acceleration *= stage.inertia;
     new_state.velocity.add(time_step, new_state.acceleration);
 
     // The kinetic energy changes by -F_new . (u_new - u_old) - |v_new - v_old|_M^2/2, and
     // the works are those of the mean of both forces.
-    Vector old_force(old_state.solution), increment(old_state.solution);
+    Vector old_force(old_state.solution), increment(new_state.solution);
     new_state.scheme_force.reinit(old_state.solution, true);
     system.total_force(old_state.solution,
                        old_state.contact_force,
@@ -84,7 +83,6 @@ public:
                        new_state.contact_force,
                        new_state.time,
                        new_state.scheme_force);
-    copy_values(new_state.solution, increment);
     increment -= old_state.solution;
     report.numerical_dissipation =
       .5 * (new_state.scheme_force * increment - old_force * increment);

@@ -165,7 +165,8 @@ namespace Ricochet
         if (!parameter.choices.empty())
           add(Patterns::Selection(parameter.choices));
         else
-          add(Patterns::Double(is_missing ? 0. : parameter.smallest,
+          add(Patterns::Double(is_missing ? std::min(0., parameter.smallest)
+                                          : parameter.smallest,
                                parameter.largest));
         // The default text has six digits; as many as the value needs.
         for (int n_digits = 7; value != given && n_digits < 18; ++n_digits)
