@@ -141,7 +141,7 @@ namespace
                                   : face->center().norm() < .3 ? 1
                                                                : 0);
 
-    ImpactParameters parameters = on_all_ranks();
+    ImpactParameters parameters                 = on_all_ranks();
     parameters.contact.treatment                = "Nitsche";
     parameters.contact.values["Nitsche gamma0"] = 100. * material.mu;
     parameters.scheme.name                      = "Crank-Nicolson";
@@ -251,7 +251,7 @@ namespace
       },
       mesh);
 
-    ImpactParameters parameters = on_all_ranks();
+    ImpactParameters parameters               = on_all_ranks();
     parameters.contact.treatment              = "Signorini active set";
     parameters.contact.coupling               = coupling;
     parameters.contact.values["Augmentation"] = 1.;
@@ -395,7 +395,7 @@ namespace
        {Point<2>(0., -overlap), Point<2>(1., 1.), {{n_upper, 3}}, 0., {}}},
       shape,
       mesh);
-    ImpactParameters parameters = on_all_ranks();
+    ImpactParameters parameters                         = on_all_ranks();
     parameters.contact.treatment                        = treatment;
     parameters.contact.coupling                         = coupling;
     parameters.contact.values["Augmentation"]           = 10.;
