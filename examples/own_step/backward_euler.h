@@ -63,8 +63,7 @@ public:
     // The guess is free flight.
     new_state.solution.add(time_step, old_state.velocity);
     StepReport report;
-    report.newton_iterations = system.solve_stage(stage, old_state, new_state);
-    report.linear_solves     = report.newton_iterations;
+    report.solver = system.solve_stage(stage, old_state, new_state);
 
     new_state.acceleration = new_state.solution;
     new_state.acceleration -= stage.inertia_origin;
