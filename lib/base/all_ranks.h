@@ -12,8 +12,9 @@
 
 namespace Ricochet
 {
-  /// The lists of all ranks one behind the other. (deal.II's all_gather() compresses what
-  /// it sends, which takes longer than all that is done with it.) Collective.
+  /// The lists of all ranks, concatenated. (deal.II's all_gather() compresses
+  /// what it sends, which takes longer than all that is done with it.)
+  /// Collective.
   template <typename T>
   std::vector<T>
   of_all_ranks(const std::vector<T> &own, const MPI_Comm communicator)

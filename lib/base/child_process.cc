@@ -23,7 +23,7 @@ namespace Ricochet
     {
       failed        = 1,
       out_of_memory = 2,
-      // What a library's own exit() cannot be taken for.
+      // Exit code that a library's own exit() does not use.
       good_end = 77
     };
 
@@ -34,7 +34,7 @@ namespace Ricochet
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent)
         _exit(failed);
-      // Where an exception would end in std::terminate().
+      // Exceptions end here, before std::terminate().
       std::set_new_handler([]() { _exit(out_of_memory); });
       // MPI's handlers would print pages about a crash.
       for (const int signal :
@@ -42,7 +42,7 @@ namespace Ricochet
         std::signal(signal, SIG_DFL);
       const rlimit no_core = {0, 0};
       setrlimit(RLIMIT_CORE, &no_core);
-      // What the user allows may be less.
+      // The user's limit may be lower.
       const rlim_t memory = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) *
         sysconf(_SC_PAGE_SIZE) / 5 * 4;
       rlimit most = {memory, memory};
@@ -119,7 +119,8 @@ namespace Ricochet
         const ExitCode code = run_task(task, message);
         const ssize_t  written =
           write(pipe_ends[1], message.data(), message.size());
-        // Without the ends of MPI and of static objects, which are the parent's.
+        // No finalisation of MPI and of static objects: both belong to the
+        // parent.
         _exit(written == static_cast<ssize_t>(message.size()) ? code : failed);
       }
     close(pipe_ends[1]);

@@ -8,10 +8,10 @@
 namespace Ricochet
 {
   /**
-   * What the user asked for cannot be done: a typo in a parameter, a value out
-   * of range, a combination of methods that has no meaning, a file that cannot
-   * be read or written. The text is a complete sentence for the user; it is
-   * printed once, without a stack trace, and the program ends with code 1.
+   * A request of the user that cannot be met: a typo in a parameter, a value
+   * out of range, a combination of methods that has no meaning, a file that
+   * cannot be read or written. The text is a complete sentence for the user; it
+   * is printed once, without a stack trace, and the program ends with code 1.
    */
   class InputError : public std::runtime_error
   {
@@ -21,8 +21,8 @@ namespace Ricochet
 
   /**
    * A computation failed although the input was valid: Newton's method did not
-   * converge, or the state is not finite. What was computed before is on disk.
-   * The program ends with code 2.
+   * converge, or the state is not finite. Earlier steps are on disk. The
+   * program ends with code 2.
    */
   class ComputationError : public std::runtime_error
   {

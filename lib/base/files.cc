@@ -152,7 +152,8 @@ namespace Ricochet
           }
       }
     on_first_rank(communicator, [&]() {
-      // A problem is reported when all pieces have come: nobody waits for ever.
+      // A problem is reported when all pieces have come: no rank waits for
+      // ever.
       std::string              problem;
       std::unique_ptr<NewFile> new_file;
       const auto               careful = [&](const auto &action) {
@@ -376,7 +377,7 @@ namespace Ricochet
                 const std::function<void()> &action)
   {
     using namespace dealii::Utilities::MPI;
-    // What went wrong: nothing, the input, or the computation.
+    // Kind of the failure: none, the input, or the computation.
     std::pair<int, std::string> problem;
     if (this_mpi_process(communicator) == 0)
       try

@@ -16,8 +16,8 @@ class Epetra_Import;
 namespace Ricochet
 {
   /**
-   * Values of a vector on this rank, those of other ranks that it needs included. What
-   * is exchanged between ranks is found out once, and not with each vector.
+   * Values of a vector on this rank, including those of other ranks that it
+   * needs. The communication pattern is set up once, and not for each vector.
    */
   class GhostedVector
   {
@@ -42,11 +42,12 @@ namespace Ricochet
       return ghosted->MyLength();
     }
 
-    /// Place of the unknown @p index among the values(); -1 if it is not known here.
+    /// Position of the unknown @p index among the values(); -1 if it is not on
+    /// this rank.
     int
     local_index(const dealii::types::global_dof_index index) const;
 
-    /// The unknown at a place among the values().
+    /// The unknown at a position among the values().
     dealii::types::global_dof_index
     index(const int local_index) const
     {
@@ -59,7 +60,7 @@ namespace Ricochet
       return ghosted->Values();
     }
 
-    /// The value of the unknown @p index, which is known here.
+    /// The value of the unknown @p index, which must be on this rank.
     double
     operator()(const dealii::types::global_dof_index index) const
     {

@@ -15,8 +15,9 @@ namespace Ricochet
 {
   /**
    * Memory of arrays that are read from end to end again and again, as factors are:
-   * where the system has pages of 2 MB it is asked for them. With those of 4 kB it
-   * spends its time on finding pages, and what reads ahead stops at their ends.
+   * where the system has pages of 2 MB it is asked for them. With pages of 4 kB
+   * the time goes into address translation, and the hardware prefetcher stops
+   * at the end of each page.
    *
    * Small arrays are those of the standard allocator.
    */
@@ -43,7 +44,7 @@ namespace Ricochet
         return static_cast<T *>(::operator new(n_bytes));
       void *const memory = ::operator new(n_bytes, std::align_val_t(page_size));
 #ifdef MADV_HUGEPAGE
-      // If it cannot be done, all works without.
+      // The request is a hint; without it only speed is lost.
       madvise(memory, n_bytes, MADV_HUGEPAGE);
 #endif
       return static_cast<T *>(memory);

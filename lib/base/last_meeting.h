@@ -12,10 +12,10 @@
 namespace Ricochet
 {
   /**
-   * Ranks that end with an error. It is thrown alike on all of them, except where what a
-   * user gives fails in one place only, such as an expression: then the others wait for a
-   * message that never comes, and nothing may be done together any more. One object lives
-   * as long as a program runs.
+   * Ranks that end with an error. The error is thrown on all of them alike,
+   * unless an input such as an expression fails on one rank only: then the
+   * others wait for a message that never comes, and no collective operation is
+   * possible any more. One object lives as long as a program runs.
    */
   class LastMeeting
   {

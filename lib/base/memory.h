@@ -11,7 +11,7 @@ namespace Ricochet
 {
   /// Return freed memory to the system. The GNU C library keeps it, in pieces
   /// that large matrices and vectors do not fit in: after the set-up of a large
-  /// body half a kilobyte for each unknown.
+  /// body, half a kilobyte for each unknown.
   inline void
   return_freed_memory()
   {

@@ -30,8 +30,8 @@ namespace Ricochet
   };
 
   /**
-   * A number that a law, a material or a time scheme takes from the parameter file: all
-   * that is to be said of it stands with the law that owns it, in a function
+   * A number that a law, a material or a time scheme takes from the parameter
+   * file. Its whole declaration stands with the law that owns it, in a function
    * `parameters()`. Laws that share a parameter share its declaration.
    *
    *     OwnParameter("Penalty epsilon0", .2)
@@ -76,7 +76,7 @@ namespace Ricochet
     OwnParameter
     belongs_to(std::string name_of_owner) const;
 
-    /// What --print-parameters says.
+    /// The description in --print-parameters.
     std::string
     documentation() const
     {

@@ -25,8 +25,8 @@ namespace Ricochet
     using dealii::Utilities::trim;
     using Path = std::vector<std::string>;
 
-    /// What is declared: the full name "Section/Name" of each parameter and
-    /// the pattern that its value must match.
+    /// The declared parameters: the full name "Section/Name" of each parameter
+    /// and the pattern that its value must match.
     struct Declaration
     {
       Path                                           path;
@@ -267,10 +267,11 @@ namespace Ricochet
               value != declaration.value};
     }
 
-    /// What reading a file and those that it includes carries along.
+    /// State while a file and those that it includes are read.
     struct Reading
     {
-      // Far more than anybody writes; files may include each other twice each.
+      // A bound far beyond any use: files that include each other twice each
+      // would never end.
       static constexpr std::size_t max_depth = 100, max_files = 1000,
                                    max_bytes = 1 << 24;
 
@@ -400,7 +401,7 @@ namespace Ricochet
         }
       if (!section.empty())
         {
-          // Of several with this name, the last one is open.
+          // The last of several sections with this name is open.
           const auto opened =
             std::find_if(reading.text.sections.rbegin(),
                          reading.text.sections.rend(),
@@ -434,7 +435,8 @@ namespace Ricochet
     constexpr unsigned int                            shortest_part = 3;
     for (const std::string &candidate : candidates)
       {
-        // Nobody types a name this long; the distance takes time.
+        // Names of this length are no misprints; the edit distance would take
+        // long.
         const unsigned int distance =
           edit_distance(name.substr(0, 200), candidate);
         const bool is_part =

@@ -18,7 +18,7 @@ namespace Ricochet
     /// Where: "file.prm, line 3" or the option of the command line.
     std::string where;
     bool        on_command_line = false;
-    /// It differs from the program's own default.
+    /// Whether it differs from the program's own default.
     bool changes_default = false;
   };
 
@@ -27,7 +27,7 @@ namespace Ricochet
   {
     /// "Section/Name".
     std::string name;
-    /// What it belongs to: "the time scheme HHT; Time/Scheme is midpoint".
+    /// Its owner: "the time scheme HHT; Time/Scheme is midpoint".
     std::string belongs_to;
   };
 
@@ -37,14 +37,14 @@ namespace Ricochet
     /// "Section/Name".
     std::string name;
     std::string value;
-    /// It is the name of a file that is read.
+    /// Whether it is the name of a file that is read.
     bool is_input_file = false;
-    /// What is allowed, in deal.II's words; empty if anything is.
+    /// Allowed values, in deal.II's words; empty if any value is allowed.
     std::string allowed = {};
   };
 
-  /// What parameter files and command line say, before any parameter is declared: for
-  /// programs whose sections depend on it.
+  /// Contents of parameter files and command line, before any parameter is
+  /// declared: for programs whose sections depend on them.
   struct ParameterText
   {
     /// A value for a parameter.
@@ -90,7 +90,8 @@ namespace Ricochet
   ParameterText::Assignment
   parse_assignment(const std::string &assignment);
 
-  /// Set what @p text says. @return all settings, in their order.
+  /// Set the parameters as given in @p text. @return all settings, in their
+  /// order.
   /// @throws InputError unknown parameter, value that does not match its pattern, file
   /// of another program.
   std::vector<Setting>

@@ -5,9 +5,9 @@
 
 namespace
 {
-  /// A library that was compiled for another processor says so, instead of dying of an
-  /// instruction that this one does not know. Runs before all else of the library, and
-  /// has no such instruction itself.
+  /// A library that was compiled for another processor says so, instead of
+  /// ending with an illegal instruction. This check runs before the rest of the
+  /// library and has no such instruction itself.
   [[gnu::constructor(101), gnu::target("no-avx")]] void
   check_processor()
   {

@@ -130,7 +130,7 @@ namespace Ricochet
 
 
 
-    /// Print what was asked for, on rank 0. @throws ComputationError
+    /// Print the requested text, on rank 0. @throws ComputationError
     void
     print(const std::string &text)
     {
@@ -143,8 +143,8 @@ namespace Ricochet
 
 
 
-    /// The parameters but for those that say what to write, when to stop, and
-    /// how hard the solvers try. A file counts by what is in it.
+    /// The parameters except for those of output, final time and solvers. A
+    /// file counts by its contents.
     std::string
     parameters_that_matter(const dealii::ParameterHandler &parameters)
     {
@@ -281,8 +281,9 @@ namespace Ricochet
               }
             catch (const ComputationError &error)
               {
-                // A load that is not finite at the start, or a folder that cannot be
-                // written to: nothing is computed here that could fail otherwise.
+                // Exceptions here mean a load that is not finite at the start,
+                // or a folder that cannot be written to; no other computation
+                // has begun.
                 throw InputError(error.what());
               }
           for (const std::string &note : notes)
@@ -291,11 +292,11 @@ namespace Ricochet
           return no_run;
         }
 
-      // Who stops reading the console does not stop the run.
+      // A closed console does not stop the run.
       std::signal(SIGPIPE, SIG_IGN);
       if (!command_line.output_dir.empty())
         output_dir = command_line.output_dir;
-      // Runs of different files do not meet by themselves.
+      // Runs of different files have different default folders.
       if (output_dir.empty())
         output_dir = "output/" + program.name + "/" +
           (command_line.parameter_file.empty()
@@ -401,7 +402,8 @@ namespace Ricochet
     const bool is_root =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
 
-    // A stack trace in an assertion helps nobody who runs a finished program.
+    // Users of a finished program have no use for the stack trace of an
+    // assertion.
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
 
     const LastMeeting meeting;

@@ -16,7 +16,7 @@
 
 namespace Ricochet
 {
-  /// What was given on the command line. See run_program() for the options.
+  /// The arguments of the command line. See run_program() for the options.
   struct CommandLine
   {
     std::string              parameter_file;
@@ -36,7 +36,7 @@ namespace Ricochet
   CommandLine
   parse_command_line(const int argc, char **argv);
 
-  /// What run_program() needs to know about one of the programs in steps/.
+  /// Description of one of the programs in steps/ for run_program().
   struct Program
   {
     /// Name of the executable.
@@ -45,20 +45,20 @@ namespace Ricochet
     std::string description;
     /// Declare all parameters.
     std::function<void(dealii::ParameterHandler &)> add_parameters;
-    /// Refuse what has no meaning, before any time is spent (InputError).
+    /// Refuse meaningless input before any time is spent (InputError).
     std::function<void()> validate;
     /// Do the work.
     std::function<void(RunFolder &)> run;
     /// The parameters without effect; may be left out.
     std::function<std::vector<UnusedParameter>()> unused_parameters = {};
-    /// Called with what the user has written before #add_parameters, which may depend
-    /// on it; may be left out.
+    /// Called before #add_parameters with the settings of the user, on which
+    /// the declarations may depend; may be left out.
     std::function<void(const ParameterText &)> prepare = {};
-    /// What `--validate` prints besides, after #validate: lines; may be left out. Where a
-    /// folder is given (not empty), pictures may be written there.
+    /// Lines that `--validate` prints besides, after #validate; may be left
+    /// out. Pictures may be written to the folder, if its name is not empty.
     std::function<std::string(const std::string &folder)> description_of_input =
       {};
-    /// What `--promises` prints; may be left out.
+    /// Output of `--promises`; may be left out.
     std::function<std::string()> promises = {};
   };
 

@@ -15,7 +15,7 @@ namespace Ricochet
 {
   namespace
   {
-    // What a run leaves in its folder.
+    // Names of the files that a run leaves in its folder.
     const std::string identity_file                = "run.txt";
     const std::string checkpoint_file              = "checkpoint.bin";
     const std::string all_values                   = "parameters.prm";
@@ -31,7 +31,7 @@ namespace Ricochet
                                                       all_values,
                                                       all_values_of_resumed};
 
-    // A run that has come to its end, and was not resumed in between, can be made again.
+    // A finished run that was not resumed in between can be repeated.
     const std::string complete = "complete", resumed = "resumed",
                       running = "running";
 
@@ -241,7 +241,7 @@ namespace Ricochet
         if (error)
           throw ComputationError(
             "'" + file(name) + "' cannot be removed: " + error.message() + ".");
-        // Left by a run that was killed.
+        // Files left by a run that was killed.
         fs::remove(file(name) + unfinished, error);
       }
   }

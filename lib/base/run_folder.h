@@ -15,9 +15,10 @@ namespace Ricochet
    * `run.txt` that says whose run it is, and what the output classes add. All
    * members are called on all ranks; only rank 0 touches files.
    *
-   * One process at a time writes to a folder. What an earlier run has left is
+   * One process at a time writes to a folder. Results of an earlier run are
    * untouched until begin(): a run that is refused while it is set up leaves
-   * everything as it was. What is not of a run, or not of Ricochet, stays as it is.
+   * everything as it was. Files that do not belong to a run of Ricochet stay as
+   * they are.
    */
   class RunFolder
   {
@@ -43,12 +44,12 @@ namespace Ricochet
      */
     RunFolder(const Options &options, const MPI_Comm communicator);
 
-    /// Take away what an earlier run has left, unless it is resumed, and begin
-    /// the log. Called when the set-up has succeeded; further calls do nothing.
+    /// Remove the files of an earlier run, unless it is resumed, and begin the
+    /// log. Called when the set-up has succeeded; further calls do nothing.
     void
     begin();
 
-    /// Note that the run has come to its end. Called after it.
+    /// Record that the run is complete. Called at its end.
     void
     end();
 
@@ -57,7 +58,8 @@ namespace Ricochet
     void
     log(const std::string &line);
 
-    /// The run is complete, but what @p lines say is open: the program ends with code 4.
+    /// The run is complete, but the checks that @p lines describe have failed:
+    /// the program ends with code 4.
     void
     leave_open(const std::vector<std::string> &lines)
     {
@@ -92,8 +94,8 @@ namespace Ricochet
     void
     check_parameter_file() const;
 
-    /// Whether a copy of the parameter file goes into the folder: it may lie there itself,
-    /// or have the name of a result.
+    /// Whether a copy of the parameter file goes into the folder: not if the
+    /// file is there itself, or has the name of a result.
     bool
     has_copy() const;
 
@@ -109,11 +111,11 @@ namespace Ricochet
 
     const Options options;
     FolderLock    lock;
-    // What run.txt says of this run: its program and parameter file.
+    // The identity of this run in run.txt: its program and parameter file.
     std::string identity;
     bool        begun = false;
     GrowingFile log_file;
-    // What was logged before begin().
+    // Lines logged before begin().
     std::string              early_lines;
     std::vector<std::string> open_lines;
   };

@@ -17,8 +17,8 @@ namespace Ricochet
   {
     unsigned int n_threads = 1;
 
-    /// OpenBLAS has threads of its own, which do not sleep between the small products of
-    /// our solvers, and are in the way of others.
+    /// OpenBLAS has threads of its own, which keep the cores busy between the
+    /// small products of our solvers and slow down the other threads.
     void
     stop_threads_of_blas()
     {
@@ -158,7 +158,7 @@ namespace Ricochet
     const unsigned int                                                 smallest,
     const std::function<void(const unsigned int, const unsigned int)> &action)
   {
-    // A few for each, for they do not take equally long.
+    // A few parts for each thread, as they do not take equally long.
     const unsigned int n_parts = number() == 1
       ? 1
       : std::max(1u, std::min(4 * number(), n / std::max(1u, smallest)));

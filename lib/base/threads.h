@@ -8,23 +8,23 @@
 namespace Ricochet
 {
   /**
-   * Threads of a rank, for work that falls into parts which have nothing to do with each
-   * other: bodies, between contacts, and points before facets. Ranks are what large
-   * problems are distributed over (MPI); threads are for cores that would wait else, as
-   * all but one do where a program is started without MPI.
+   * Threads of a rank, for work in independent parts: bodies between contacts,
+   * and contact points against facets. Ranks are what large problems are
+   * distributed over (MPI); threads are for cores that would be idle otherwise,
+   * as all but one are where a program is started without MPI.
    *
    * Parts are chosen such that results are the same to the last digit, however many
    * threads there are.
    *
-   * They are those of OpenMP, which waits for the next part for a moment before it goes
-   * to sleep; OMP_NUM_THREADS says how many there may be.
+   * Threads are those of OpenMP, which wait actively for the next part for a
+   * moment before they sleep; OMP_NUM_THREADS bounds their number.
    */
   namespace Threads
   {
     /**
-     * To be called once MPI has begun: as many threads as the environment allows; if it
-     * says nothing, this rank's share of the cores that it may run on. Without this
-     * call there is one.
+     * To be called once MPI has begun: as many threads as the environment
+     * allows; if it sets none, this rank's part of the cores that it may run
+     * on. Without this call there is one.
      *
      * Libraries are not to begin threads of OpenMP themselves (CHOLMOD asks for four
      * whatever the environment says, which wait more than they work).
@@ -32,7 +32,7 @@ namespace Ricochet
     void
     begin();
 
-    /// How many there are; in a part, one.
+    /// Number of threads; within a part, one.
     unsigned int
     number();
 

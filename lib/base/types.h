@@ -8,7 +8,7 @@
 #include <vector>
 
 /**
- * Ricochet: what happens, in time, when an elastic body hits something.
+ * Ricochet: the dynamics of elastic bodies that hit obstacles and each other.
  */
 namespace Ricochet
 {

@@ -7,8 +7,8 @@
 namespace Ricochet
 {
   /**
-   * What lengths, masses and times are measured in. Nothing is converted: numbers are
-   * the user's, in any consistent system, and only names change.
+   * Units of length, mass and time. Nothing is converted: numbers are the
+   * user's, in any consistent system, and only names change.
    */
   class Units
   {

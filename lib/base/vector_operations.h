@@ -44,8 +44,8 @@ namespace Ricochet
             static_cast<Eigen::Index>(vector.locally_owned_size())};
   }
 
-  /// The l2 norm of the first @p n values of each rank of @p vector, several of them at a
-  /// time, which Epetra does not. Collective.
+  /// The l2 norm of the first @p n values of each rank of @p vector, with
+  /// several partial sums at a time, for speed; Epetra has one. Collective.
   inline double
   l2_norm(const Vector &vector, const unsigned int n)
   {

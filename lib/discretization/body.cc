@@ -144,7 +144,7 @@ namespace Ricochet
         multiplier_element =
           std::make_unique<FESystem<dim>>(FE_Q<dim>(degree_of_multipliers),
                                           n_multipliers);
-        // MappingQ and not MappingFE: the latter knows no faces in 1D.
+        // MappingQ and not MappingFE: the latter has no faces in 1D.
         geometry  = std::make_unique<MappingQ<dim>>(1);
         cell_rule = std::make_unique<QGauss<dim>>(degree + 1);
         face_rule = std::make_unique<QGauss<dim - 1>>(degree + 1);
@@ -372,7 +372,7 @@ namespace Ricochet
       displacement_element->n_dofs_per_cell());
     std::vector<types::global_dof_index> multiplier_cell_dofs(
       multiplier_element->n_dofs_per_cell());
-    // Of a cell, those that couple to each other.
+    // Unknowns of a cell that couple to each other.
     std::vector<std::vector<types::global_dof_index>> groups(by_component ? dim
                                                                           : 1);
 
@@ -524,7 +524,8 @@ namespace Ricochet
     const std::vector<types::global_dof_index> &more) const
   {
     IndexSet known = relevant;
-    // What does not exist stays unknown. Indices that are sorted are added at once.
+    // Multipliers that do not exist keep an invalid index. Indices that are
+    // sorted are added at once.
     std::vector<types::global_dof_index> unknown;
     for (const auto index : more)
       if (index < known.size() && !relevant.is_element(index))

@@ -28,10 +28,10 @@ namespace Ricochet
     none,
     /// Continuous, piecewise linear: W^h of paper C, (4).
     linear,
-    /// Of the degree of the displacements: one in each node.
+    /// Multipliers of the degree of the displacements: one in each node.
     nodal,
-    /// As many in each node as there are directions: one for pressure, the others for
-    /// traction.
+    /// As many multipliers in each node as there are directions: one for the
+    /// pressure, the others for the tangential traction.
     nodal_vector
   };
 
@@ -107,7 +107,7 @@ namespace Ricochet
       const std::vector<dealii::types::global_dof_index> &more = {}) const;
 
     /**
-     * For each owned unknown, in the order of their indices, its place in an
+     * For each owned unknown, in the order of their indices, its position in an
      * order of all unknowns that does not depend on the number of ranks: by the
      * first cell that has it, and its number there. For files. Collective.
      */
@@ -151,9 +151,9 @@ namespace Ricochet
       return multiplier_dofs;
     }
 
-    /// A body may be made of parts that do not hang together, or differ in what they
-    /// are made of: which of @p n_parts the @p cell belongs to, by its material id.
-    /// With one part ids do not matter.
+    /// The number, of @p n_parts, of the part that @p cell belongs to, which is
+    /// its material id. Parts of a body are not connected, or have different
+    /// materials. With one part ids do not matter.
     unsigned int
     part(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
          const unsigned int n_parts) const
@@ -252,7 +252,8 @@ namespace Ricochet
     const MPI_Comm communicator;
 
   private:
-    /// The owned ones of displacements of the DoFHandler, as system indices.
+    /// System indices of the owned ones of these displacements of the
+    /// DoFHandler.
     dealii::IndexSet
     owned_system_indices(const dealii::IndexSet &displacement_set) const;
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <tuple>
 
-// What a checkpoint has to know of a body, whatever the number of ranks: an order of the
-// unknowns, and a checksum of the mesh.
+// Data of a body for checkpoints that do not depend on the number of ranks: an
+// order of the unknowns, and a checksum of the mesh.
 
 namespace Ricochet
 {
@@ -56,7 +56,7 @@ namespace Ricochet
             }
       }
 
-    // The first rank sorts the keys of all and tells each rank its places.
+    // The first rank sorts the keys of all and sends each rank its positions.
     std::vector<std::string>  names;
     std::vector<unsigned int> numbers;
     for (const auto &entry : key_of)
@@ -86,7 +86,7 @@ namespace Ricochet
   std::uint64_t
   Body<dim>::mesh_checksum() const
   {
-    // The sum of those of all cells, which does not know their order.
+    // The sum over all cells, which does not depend on their order.
     std::uint64_t sum = 0;
     for (const auto &cell : displacement_dofs.active_cell_iterators())
       {

@@ -12,8 +12,8 @@
 #include <functional>
 #include <map>
 
-// What multigrid needs of a body: rigid motions, and from degree 2 the space of
-// degree 1 beneath it.
+// Data of a body for multigrid: rigid body modes, and from degree 2 the space
+// of degree 1 beneath it.
 
 namespace Ricochet
 {
@@ -28,7 +28,7 @@ namespace Ricochet
                      const DoFHandler<dim> &dofs,
                      const MPI_Comm         communicator)
     {
-      // A translation and a gradient of each.
+      // A translation and a gradient of each rigid body mode.
       std::vector<std::pair<Tensor<1, dim>, Tensor<2, dim>>> modes;
       for (unsigned int c = 0; c < dim; ++c)
         {

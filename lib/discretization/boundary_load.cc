@@ -9,8 +9,8 @@ namespace Ricochet
 
   namespace
   {
-    /// A quadrature point: where it is, and what a traction of 1 Pa does there to the
-    /// unknowns of each component (N).
+    /// A quadrature point: its position, and the forces (N) of a traction of 1
+    /// Pa on the unknowns of each component.
     template <int dim>
     struct LoadPoint
     {

@@ -8,8 +8,9 @@
 
 namespace Ricochet
 {
-  /// What adds the forces (N) of the @p traction (Pa), at a time (s) and a place (m),
-  /// on the undeformed boundary @p id to a vector. Collective.
+  /// Functor that adds the forces (N) of the @p traction (Pa), at a time (s)
+  /// and a position (m), on the undeformed boundary @p id to a vector.
+  /// Collective.
   template <int dim>
   std::function<void(const double time, Vector &load)>
   boundary_load(

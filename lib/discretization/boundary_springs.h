@@ -11,8 +11,8 @@
 
 namespace Ricochet
 {
-  /// Springs and dashpots between a part of the undeformed boundary and where it is at
-  /// the start: a traction -k u - c u_t in some directions.
+  /// Springs and dashpots between a part of the boundary and its undeformed
+  /// position: a traction -k u - c u_t in some directions.
   template <int dim>
   struct BoundarySprings
   {
@@ -25,9 +25,10 @@ namespace Ricochet
   };
 
   /**
-   * A body on springs: what they store and take is part of its energy and of its
-   * viscous dissipation. Both are linear, so that the balance of a step is exact: with
-   * the matrices K and C of the springs, u_m the mean and d the difference of both ends,
+   * A body on springs: their stored energy and dissipation are part of its
+   * energy and of its viscous dissipation. Both are linear, so that the balance
+   * of a step is exact: with the matrices K and C of the springs, u_m the mean
+   * and d the difference of both ends,
    *
    *     K u_m . d = 1/2 u_1 . K u_1 - 1/2 u_0 . K u_0,     C d/dt . d >= 0.
    */

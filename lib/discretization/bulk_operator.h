@@ -11,15 +11,15 @@ namespace Ricochet
 {
   /**
    * The internal forces of a body as a time scheme sees them: a two-point
-   * operator of the old and the new displacement, that knows nothing of
-   * contact nor of the scheme. A scheme asks either for the force at one point
-   * (collocation) or for that of a step: the discrete derivative of the stored
-   * energy between two points, whose work is exactly the difference of stored
-   * energy, plus the viscous force at the rate of the step.
+   * operator of the old and the new displacement, independent of contact and of
+   * the scheme. A scheme asks either for the force at one point (collocation)
+   * or for that of a step: the discrete derivative of the stored energy between
+   * two points, whose work is exactly the difference of stored energy, plus the
+   * viscous force at the rate of the step.
    *
    * All vectors are system vectors without ghost values; all functions are
-   * collective. A force at a state that the body cannot take (an element is
-   * turned inside out) is not a number; failure() then says why.
+   * collective. The force at an inadmissible state (an element is inverted) is
+   * not a number; failure() then says why.
    */
   class BulkOperator
   {
@@ -56,8 +56,8 @@ namespace Ricochet
                      Matrix            &tangent,
                      const UnknownList *near = nullptr) const = 0;
 
-    /// What add_tangent() adds, for a linear body: the matrices live as long as
-    /// this object. Empty if the body is not linear.
+    /// The terms of add_tangent() for a linear body; the matrices live as long
+    /// as this object. Empty if the body is not linear.
     virtual MatrixSum
     tangent_terms(const double /*factor*/) const
     {
@@ -79,7 +79,7 @@ namespace Ricochet
     virtual std::vector<double>
     energies_of_parts(const Vector &solution) const = 0;
 
-    /// Energy (J) that viscosity takes in a step; never negative.
+    /// Viscous dissipation (J) in a step; never negative.
     virtual double
     viscous_dissipation(const Vector &old_solution,
                         const Vector &new_solution,
@@ -106,13 +106,14 @@ namespace Ricochet
       return 0.;
     }
 
-    /// Whether the tangents are the same for all states, so that
-    /// factorisations can be kept.
+    /// Whether the tangents are the same for all states, so that factorisations
+    /// can be reused.
     virtual bool
     is_linear() const = 0;
 
-    /// Where a corner of a cell is turned inside out, though the cell is not where stresses
-    /// are evaluated, which is within; empty if that is nowhere, or is not looked at.
+    /// Position of a corner at which a cell is inverted, although det F is
+    /// positive in its quadrature points, where stresses are evaluated; empty
+    /// if there is none, or if it is not checked.
     virtual std::string
     inverted_corner(const Vector & /*solution*/) const
     {

@@ -66,8 +66,8 @@ namespace Ricochet
 
 
 
-    /// Nothing of the first rank's list stays on it but what the part of the mesh on
-    /// this rank has.
+    /// Only the nodes of this rank's part of the mesh are kept, also on the
+    /// first rank.
     template <int dim>
     typename GivenNodes<dim>::Nodes
     distribute(const CellNodes<dim>     &of_first_rank,

@@ -14,8 +14,8 @@ namespace Ricochet
   public:
     virtual ~FollowerLoad() = default;
 
-    /// The force (N) on the body over the step from @p begin to @p end (s); with equal
-    /// ends that of an instant.
+    /// The force (N) on the body over the step from @p begin to @p end (s);
+    /// with equal ends, the force at that instant.
     virtual void
     step_force(const Vector &old_solution,
                const Vector &new_solution,

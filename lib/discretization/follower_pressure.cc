@@ -28,7 +28,7 @@ namespace Ricochet
       return result;
     }
 
-    /// The mean of the cofactors along the straight way from @p f0 to @p f1.
+    /// The mean of the cofactors along the segment from @p f0 to @p f1.
     Tensor<2, 2>
     mean_cofactors(const Tensor<2, 2> &f0, const Tensor<2, 2> &f1)
     {
@@ -42,7 +42,7 @@ namespace Ricochet
         6.;
     }
 
-    /// Its derivative with respect to @p f1 in the direction @p g.
+    /// Derivative of the mean with respect to @p f1 in the direction @p g.
     Tensor<2, 2>
     mean_cofactors_derivative(const Tensor<2, 2> &,
                               const Tensor<2, 2> &,

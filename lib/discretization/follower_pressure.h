@@ -16,17 +16,18 @@ namespace Ricochet
   struct BoundaryPressure
   {
     dealii::types::boundary_id boundary_id;
-    /// Pa, at a time (s) and a place of the undeformed body (m); towards the body.
+    /// Pa, at a time (s) and a point of the undeformed body (m); towards the
+    /// body.
     std::function<double(const double time, const dealii::Point<dim> &place)>
       pressure;
   };
 
   /**
    * A pressure that follows the surface: the force -p n da of the deformed boundary, with
-   * n da = cof(F) N dA. Over a step the way is taken for straight, and the mean of cof(F)
-   * along it is exact, since cof(F) is a polynomial of degree dim - 1 in it,
+   * n da = cof(F) N dA. Over a step F is taken to vary linearly, and the mean
+   * of cof(F) is exact, since cof(F) is a polynomial of degree dim - 1 in F,
    *
-   *     mean = cof(F_m) in the plane,     (cof(F_0) + 4 cof(F_m) + cof(F_1))/6 in space,
+   *     mean = cof(F_m) in 2D, (cof(F_0) + 4 cof(F_m) + cof(F_1))/6 in 3D,
    *
    * F_m belonging to the middle; p is that of the middle of the step. So the work over a
    * step of a pressure that is the same everywhere on a closed surface is -p times the
@@ -65,7 +66,7 @@ namespace Ricochet
 
     struct QuadraturePoint
     {
-      /// Of the list of pressures.
+      /// Index in the list of pressures.
       unsigned int       pressure;
       dealii::Point<dim> place;
       /// N dA (m^(dim-1)).
@@ -80,7 +81,7 @@ namespace Ricochet
 
     const Body<dim>                         &body;
     const std::vector<BoundaryPressure<dim>> pressures;
-    // On the cells of this rank.
+    // Quadrature points of the cells of this rank.
     std::vector<QuadraturePoint> points;
     mutable GhostedVector        ghosted_old, ghosted_new;
   };

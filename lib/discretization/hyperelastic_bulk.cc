@@ -33,8 +33,8 @@ namespace Ricochet
         return {{{{0, 0}}, {{1, 1}}, {{2, 2}}, {{0, 1}}, {{0, 2}}, {{1, 2}}}};
     }
 
-    /// An element with a smaller det F counts as turned inside out: det C, its
-    /// square, would drown in round-off.
+    /// An element with a smaller det F counts as inverted: det C, its square,
+    /// would drown in round-off.
     constexpr double flat = 1e-6;
 
     /// The derivatives of (F^T dF) : S with respect to the displacements of a
@@ -230,8 +230,8 @@ namespace Ricochet
           sum += std::abs(values[j]);
         const double force = sum * diameter[row];
         square += force * force;
-        // Stored in what belongs to the node, if all terms were as large as Young's
-        // modulus; a row has some eight times that.
+        // Energy in the volume of the node, if all terms were as large as
+        // Young's modulus; a row has some eight times that.
         const double energy = .125 * force * diameter[row];
         energy_square += energy * energy;
       }

@@ -21,10 +21,10 @@ namespace Ricochet
    * Gonzalez' stress with the mean deformation gradient (papers A (3.7), B
    * (3.2)), and its tangent is the exact one, which is not symmetric.
    *
-   * Shape gradients and the places of all matrix entries are computed once. Cells go
-   * through all loops in batches, a cell to each lane of Lanes. A rank assembles its
-   * own rows, from all cells that touch them, so that assembly needs no
-   * communication but for ghost values.
+   * Shape gradients and the positions of all matrix entries are computed once.
+   * Cells go through all loops in batches, a cell to each lane of Lanes. A rank
+   * assembles its own rows, from all cells that touch them, so that assembly
+   * needs no communication except for ghost values.
    */
   template <int dim>
   class HyperelasticBulk : public BulkOperator
@@ -98,8 +98,8 @@ namespace Ricochet
     std::string
     failure() const override;
 
-    /// Looks at quadrilaterals and hexahedra of degree 1: in a triangle or tetrahedron
-    /// the gradient is that of the corners.
+    /// Check of quadrilaterals and hexahedra of degree 1: in a triangle or
+    /// tetrahedron the gradient is constant.
     std::string
     inverted_corner(const Vector &solution) const override;
 
@@ -117,7 +117,7 @@ namespace Ricochet
     /**
      * @p force = the virtual work of @p stress with the test gradient
      * (1 - @p new_weight) F_old + @p new_weight F_new. Not a number when an
-     * element is turned inside out.
+     * element is inverted.
      */
     template <typename StressFunction>
     void
@@ -200,8 +200,8 @@ namespace Ricochet
                 Gradient                            &old_f,
                 Gradient                            &difference) const;
 
-    /// Where elements are flat or turned inside out, which it remembers, take the body
-    /// at rest. @return 1 elsewhere.
+    /// Replace flat or inverted elements, which are recorded, by the body at
+    /// rest. @return 1 elsewhere.
     Lanes
     mend(const unsigned int batch, Gradient &old_f, Gradient &difference) const;
 
@@ -224,7 +224,7 @@ namespace Ricochet
     // without weight.
     std::vector<unsigned int>                            batch_part;
     std::vector<std::array<unsigned int, Lanes::size()>> batch_cells;
-    // Corners of the cells of each batch (m), where they are looked at.
+    // Corners of the cells of each batch (m), where they are checked.
     bool                                                 has_corners = false;
     dealii::AlignedVector<dealii::Tensor<1, dim, Lanes>> corners;
     dealii::AlignedVector<dealii::Tensor<1, dim, Lanes>>

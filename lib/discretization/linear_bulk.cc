@@ -16,7 +16,7 @@ namespace Ricochet
 
   namespace
   {
-    /// The cell loop of all constant matrices, stored in one way or the other.
+    /// The cell loop of all constant matrices, in either storage format.
     /// @p integrand gets the FEValues and a quadrature point and adds to the cell
     /// matrix.
     template <int dim>
@@ -74,7 +74,8 @@ namespace Ricochet
       return BodyMatrix(std::move(matrix));
     }
 
-    /// The number of the part at which @p fe_values are, of @p n_parts.
+    /// The number, of @p n_parts, of the part that the cell of @p fe_values
+    /// belongs to.
     template <int dim>
     unsigned int
     part_of(const FEValues<dim> &fe_values, const unsigned int n_parts)
@@ -134,8 +135,8 @@ namespace Ricochet
     const std::vector<unsigned int> parts   = body.parts_of_unknowns(n_parts);
     const FiniteElement<dim>       &element = body.dof_handler().get_fe();
     std::vector<types::global_dof_index> indices(element.n_dofs_per_cell());
-    // Parts that share nodes, of one body, move as one: to take translations of
-    // their own from them would tear them apart.
+    // Connected parts, those with common nodes, move as one body: their
+    // translations must not be subtracted separately.
     std::vector<unsigned int> my_links(n_parts * n_parts, 0), links;
     for (const auto &cell : body.dof_handler().active_cell_iterators())
       if (!cell->is_artificial())
@@ -155,7 +156,7 @@ namespace Ricochet
         }
     links.resize(my_links.size());
     Utilities::MPI::max(my_links, communicator, links);
-    // Each part has the number of the first one that it hangs together with.
+    // Each part has the number of the first one that it is connected with.
     std::vector<unsigned int> first(n_parts);
     std::iota(first.begin(), first.end(), 0U);
     for (unsigned int p = 0; p < n_parts; ++p)
@@ -210,7 +211,7 @@ namespace Ricochet
     constexpr unsigned int n_known = 4;
     const auto             n       = solution.locally_owned_size();
     const double          *values  = solution.trilinos_vector()[0];
-    // To the last digit, so that it makes no difference to find it.
+    // Comparison to the last digit, so that reuse does not change results.
     const auto is_same = [&](const KnownForce &known) {
       const double *own = known.displacement.trilinos_vector()[0];
       return Utilities::MPI::min(std::equal(values, values + n, own) ? 1 : 0,

@@ -119,16 +119,16 @@ namespace Ricochet
     struct KnownForce
     {
       Vector displacement, force;
-      /// Of the parts (J); empty as long as nobody asks.
+      /// Energies of the parts (J); empty until they are requested.
       std::vector<double> energies;
     };
     mutable std::list<KnownForce> known_forces;
 
-    /// Found or made.
+    /// The stored entry, or a new one.
     KnownForce &
     known_force(const Vector &solution) const;
 
-    /// KnownForce::energies there.
+    /// KnownForce::energies at that displacement.
     const std::vector<double> &
     known_energies(const Vector &solution) const;
   };

@@ -23,7 +23,7 @@ namespace Ricochet
   class BarCharacteristics : public dealii::Function<1>
   {
   public:
-    /// What holds an end of the bar.
+    /// Condition at an end of the bar.
     struct End
     {
       /// Zero displacement; or an obstacle at a distance.
@@ -36,7 +36,7 @@ namespace Ricochet
      * @param left_displacement u(0, 0) (m).
      * @param strain u_x at time 0.
      * @param velocity u_t at time 0 (m/s).
-     * @param final_time largest time that will be asked for (s).
+     * @param final_time largest time of set_time() (s).
      */
     BarCharacteristics(const double left_displacement,
                        const double strain,

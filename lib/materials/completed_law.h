@@ -17,9 +17,9 @@
 namespace Ricochet
 {
   /**
-   * A hyperelastic law with all that HyperelasticLaw asks for: the law's own functions
-   * where it has them, and otherwise what follows from its energy, gradient and Hessian.
-   * A law of its own may write
+   * A hyperelastic law with all functions of HyperelasticLaw: the law's own
+   * functions where it has them, and otherwise general ones that follow from
+   * its energy, gradient and Hessian. A law of its own may write
    *
    *     energy_difference()   otherwise Gauss' rule along the segment between both states,
    *     plane_stress_c33()    otherwise Newton's method,
@@ -142,7 +142,7 @@ namespace Ricochet
       const Number zero(0.), unbounded(std::numeric_limits<double>::max());
       Number       s     = min(Number(1.), Number(1. / determinant));
       Number       lower = zero, upper = unbounded;
-      // Lanes that have arrived stay where they are.
+      // Lanes that have converged keep their value.
       Number moves(1.);
       for (unsigned int k = 0; k < 200; ++k)
         {

@@ -94,8 +94,8 @@ namespace Ricochet
         stress[i][j] = in_plane[i][j];
     if constexpr (dim == 2)
       {
-        // 2 dW/dC_33 C_33/J, and spatial() says how the invariants depend on
-        // C_33. In plane stress that is zero.
+        // 2 dW/dC_33 C_33/J, with the dependence of the invariants on C_33 from
+        // spatial(). In plane stress that is zero.
         const auto plane = Reduced::invariants_of(
           symmetrize(transpose(deformation_gradient) * deformation_gradient));
         const double s = reduced().c33(plane[0], plane[1]);

@@ -78,7 +78,7 @@ namespace Ricochet
     Symmetric2<double>
     cauchy_stress(const dealii::Tensor<2, dim> &deformation_gradient) const;
 
-    /// Cauchy stress (Pa) with the components out of the plane in 2D; in 1D there
+    /// Cauchy stress (Pa) with the out-of-plane components in 2D; in 1D there
     /// are none.
     dealii::SymmetricTensor<2, 3>
     spatial_cauchy_stress(

@@ -27,8 +27,8 @@ namespace Ricochet
 
   /**
    * An isotropic hyperelastic law: the energy density W as a function of the
-   * three invariants of C, with its derivatives. Whether the body is flat or
-   * not is no matter of the law: see Hyperelastic.
+   * three invariants of C, with its derivatives. Plane strain and plane stress
+   * are left to Hyperelastic.
    *
    * A concrete law is a struct with energy, gradient and Hessian, from which
    * HyperelasticLawImplementation makes one of this class; the table is in
@@ -63,7 +63,7 @@ namespace Ricochet
     /**
      * The C_33 for which a sheet has no stress across it, dW/dC_33 = 0.
      *
-     * @param trace, determinant of the part of C in the plane; the determinant
+     * @param trace, determinant of the in-plane part of C; the determinant
      * is positive.
      */
     virtual double
@@ -94,8 +94,8 @@ namespace Ricochet
     virtual Lanes
     plane_stress_c33(const Lanes &trace, const Lanes &determinant) const = 0;
 
-    /// GonzalezStress::stress() in several points (Pa): what most of the time of a time
-    /// step goes into is one function for each law.
+    /// GonzalezStress::stress() in several points (Pa): most of the time of a
+    /// time step is spent here, so that it is one function for each law.
     virtual dealii::SymmetricTensor<2, 2, Lanes>
     step_stress(
       const PlaneState                            plane_state,

@@ -12,7 +12,8 @@ namespace Ricochet
   /**
    * Turns a struct with templated functions into a HyperelasticLaw; CompletedLaw has
    * those that the struct does not write. The templates serve one point and several at
-   * once, and let the tests differentiate the very energy that the programs use.
+   * once, and let the tests differentiate the same energy that the programs
+   * use.
    */
   template <typename Law>
   class HyperelasticLawImplementation : public HyperelasticLaw
@@ -117,7 +118,7 @@ namespace Ricochet
     }
 
   private:
-    /// Without calls of functions in it.
+    /// Inlined completely, without function calls.
     template <int dim>
     [[gnu::flatten]] dealii::SymmetricTensor<2, dim, Lanes>
     stress_in(const PlaneState                              plane_state,

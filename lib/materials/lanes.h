@@ -182,7 +182,7 @@ namespace Ricochet
       if (!is_less_somewhere(Lanes(limit), abs(x)))
         {
           const Lanes y = x / (2. + x), y2 = y * y;
-          // y^2 <= .0028: what is left out is below 1e-17 of the sum.
+          // y^2 <= .0028: the remainder is below 1e-17 of the sum.
           const Lanes higher = (2. / 13. * y2 + 2. / 11.) * y2 + 2. / 9.;
           const Lanes lower  = ((higher * y2 + 2. / 7.) * y2 + 2. / 5.) * y2;
           return 2. * y + y * y2 * (lower + 2. / 3.);
@@ -190,7 +190,8 @@ namespace Ricochet
       return x.apply([](const double y) { return std::log1p(y); });
     }
 
-    /// Whether @p a < @p b is wrong in some lane, also where one is not a number.
+    /// Whether @p a < @p b is false in some lane, also where one is not a
+    /// number.
     friend bool
     is_not_less_somewhere(const Lanes &a, const Lanes &b)
     {

@@ -12,11 +12,11 @@
 
 namespace Ricochet
 {
-  /// What a body is made of: one elastic law and, beside it, a viscosity.
+  /// The material of a body: one elastic law and, in parallel, a viscosity.
   template <int dim>
   struct Material
   {
-    /// @param plane_state in 2D, what @p linear was reduced to.
+    /// @param plane_state in 2D, the plane state that @p linear was reduced to.
     Material(const LinearElastic &linear,
              const Viscosity     &viscosity   = {},
              const PlaneState     plane_state = PlaneState::plane_strain)
@@ -44,7 +44,7 @@ namespace Ricochet
     }
 
     /// Von Mises' stress (Pa), sqrt(3/2) times the norm of the deviator of the
-    /// elastic Cauchy stress, which in 2D has a component out of the plane. A bar
+    /// elastic Cauchy stress, which in 2D has an out-of-plane component. A bar
     /// is in uniaxial stress.
     double
     von_mises(const dealii::Tensor<2, dim> &displacement_gradient) const

@@ -13,10 +13,10 @@
 
 namespace Ricochet
 {
-  /// Everything about the material that a user chooses.
+  /// The material as chosen by the user.
   struct MaterialParameters
   {
-    /// Of the parameter file; several parts have sections of their own.
+    /// Section of the parameter file; several parts have sections of their own.
     std::string section       = "Material";
     std::string law           = "linear elastic";
     std::string plane_state   = "plane stress";
@@ -29,7 +29,7 @@ namespace Ricochet
     void
     add_parameters(dealii::ParameterHandler &parameters);
 
-    /// The names of all parameters, for those whose place is taken.
+    /// The names of all parameters, for callers that declare others instead.
     static std::vector<std::string>
     names();
 
@@ -39,7 +39,7 @@ namespace Ricochet
       return law == LinearElastic::name;
     }
 
-    /// The parameters that the law makes no use of.
+    /// The parameters that the law does not use.
     std::vector<UnusedParameter>
     unused_parameters() const;
 

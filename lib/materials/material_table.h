@@ -16,16 +16,18 @@
 namespace Ricochet
 {
   /**
-   * An elastic law as parameter files know it. A hyperelastic law is a struct with
+   * An elastic law as named in parameter files. A hyperelastic law is a struct
+   * with
    *
    *     static constexpr const char *name;
    *     static OwnParameters parameters();
    *     static Law make(const ParameterValues &);
    *     energy(), gradient(), hessian()            see HyperelasticLaw
    *
-   * and, if it likes, what CompletedLaw finds otherwise, `static void check(const
-   * ParameterValues &, PlaneState)` that throws InputError for values without meaning,
-   * and `static constexpr const char *remark` for the documentation.
+   * and, optionally, the functions that CompletedLaw provides otherwise,
+   * `static void check(const ParameterValues &, PlaneState)` that throws
+   * InputError for values without meaning, and `static constexpr const char
+   * *remark` for the documentation.
    */
   struct MaterialEntry
   {

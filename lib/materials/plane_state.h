@@ -4,8 +4,8 @@
 
 namespace Ricochet
 {
-  /// What a body in two dimensions stands for: the section of a long one, or a
-  /// thin sheet.
+  /// Meaning of a body in 2D: the section of a long one (plane strain), or a
+  /// thin sheet (plane stress).
   enum class PlaneState
   {
     plane_strain,

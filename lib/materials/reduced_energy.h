@@ -13,14 +13,14 @@ namespace Ricochet
 {
   /**
    * A hyperelastic law in @p dim dimensions, as a function of the right
-   * Cauchy-Green tensor C (dim x dim), which is what Hyperelastic is for laws of any
-   * kind. Here the kind of law is known when it is compiled, so that all of it can be
+   * Cauchy-Green tensor C (dim x dim), as Hyperelastic is for laws of any type.
+   * Here the type of the law is known at compile time, so that all of it can be
    * one loop.
    *
-   * In 2D the energy is a function of the trace and the determinant of C in the
-   * plane. C_33 is 1 in plane strain; in plane stress it minimises W, so that
-   * the reduced energy is hyperelastic again: its first derivative is that of W
-   * at fixed C_33, its second one is condensed.
+   * In 2D the energy is a function of the trace and the determinant of the
+   * in-plane part of C. C_33 is 1 in plane strain; in plane stress it minimises
+   * W, so that the reduced energy is hyperelastic again: its first derivative
+   * is that of W at fixed C_33, its second one is condensed.
    *
    * In all functions det C must be positive. Number is double, or Lanes for several
    * points at once.
@@ -34,7 +34,7 @@ namespace Ricochet
     template <typename Number>
     using Symmetric4 = dealii::SymmetricTensor<4, dim, Number>;
 
-    /// @param law is kept by reference. @param plane_state not used in 3D.
+    /// @param law is held by reference. @param plane_state not used in 3D.
     ReducedEnergy(const Law &law, const PlaneState plane_state)
       : law(law)
       , plane_state(plane_state)

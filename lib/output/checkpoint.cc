@@ -53,7 +53,7 @@ namespace Ricochet
       return line.size() > longest ? line.substr(0, longest) + "..." : line;
     }
 
-    /// What is in the file, apart from magic, size and checksum.
+    /// Contents of the file, apart from magic, size and checksum.
     struct Payload
     {
       std::string           parameters;
@@ -162,8 +162,8 @@ namespace Ricochet
 
     Payload            payload;
     std::istringstream data(bytes);
-    // Of a file that nobody but a run has written, the checksum says enough; it may be a
-    // stranger's.
+    // The checksum would suffice for a file written by a run; this one may come
+    // from elsewhere.
     const std::string strange =
       "is damaged: its content is none of a checkpoint";
     try

@@ -7,7 +7,8 @@
 
 namespace Ricochet
 {
-  /// The mesh and the unknowns, as checkpoints know them on any number of ranks.
+  /// The mesh and the unknowns as stored in checkpoints, for any number of
+  /// ranks.
   struct CheckpointMesh
   {
     /// Body::canonical_positions()
@@ -22,22 +23,22 @@ namespace Ricochet
     {}
   };
 
-  /// All that a run needs to go on as if it had not been stopped.
+  /// All data that a run needs to continue as if it had not been stopped.
   struct Checkpoint
   {
     /// Number of the last step that is complete.
     unsigned int step = 0;
     /// Sums that the time loop carries.
     std::vector<double> sums;
-    /// What the table of energies is known by.
+    /// Identification of the energy table.
     EnergyLedger::Seal ledger;
     State              state;
     /// SemiDiscreteSystem::frozen_tangent
     FrozenTangent tangent;
 
     /**
-     * Write to @p folder / checkpoint.bin, so that there is a whole checkpoint at
-     * any time.
+     * Write to @p folder / checkpoint.bin, so that there is a complete
+     * checkpoint at any time.
      *
      * @throws ComputationError on all ranks, when the disk is full.
      */
@@ -46,7 +47,7 @@ namespace Ricochet
 
     /**
      * Read what write() has written, on any number of ranks and with the same
-     * parameters (but for final time, output and solvers).
+     * parameters (except for final time, output and solvers).
      *
      * @param empty_vector a system vector, for the layout.
      * @throws InputError no checkpoint, truncated or damaged, other parameters, another

@@ -47,8 +47,8 @@ namespace Ricochet
   double
   EnergyCheck::scale_with(const Terms &terms) const
   {
-    // What the equations of a step leave over, schemes with accelerations take into the
-    // next one.
+    // The residual of a step is carried into the next one by schemes with
+    // accelerations.
     return std::max(scale, size_of(terms)) +
       (terms.round_off + last_round_off) / bound;
   }
@@ -61,7 +61,7 @@ namespace Ricochet
                          double                   &least)
   {
     least = std::min(least, amount);
-    // Of what keeps, the least value is not above the first one, which is 0.
+    // The least value is at most the first one, which is 0.
     return kind == EnergyPromise::Kind::keeps
       ? std::max(amount - least, -amount)
       : amount - least;
@@ -88,8 +88,8 @@ namespace Ricochet
 
     if (!has_begun)
       first_potential = terms.potential;
-    // The work of moving obstacles is what is left of minus the contact work, after what
-    // the treatment has stored and made.
+    // The work of moving obstacles is minus the contact work, less what the
+    // treatment has stored and gained.
     double made = 0.;
     for (const double gain : terms.contact_gains)
       made += gain;
@@ -115,7 +115,7 @@ namespace Ricochet
         is_promised = true;
         largest     = std::max(largest, deviations[k]);
       }
-    // Friction and viscosity only take.
+    // Friction and viscosity only dissipate.
     most_friction  = std::max(most_friction, terms.friction_work);
     most_viscosity = std::max(most_viscosity, terms.viscous_dissipation);
     if (std::isnan(values.total))
@@ -128,8 +128,9 @@ namespace Ricochet
         is_promised = true;
         largest     = std::max(largest, of_total);
       }
-    // Against what is at rest, contacts have made what their potential has more than the
-    // work of their forces: the same from the points and from the equations.
+    // Contact with bodies at rest: the gain is the increase of the potential
+    // less the work of the contact forces, from the points and from the
+    // equations alike.
     if (is_promised && !obstacles_move && !terms.contact_gains.empty())
       largest = std::max(largest,
                          std::abs(made -

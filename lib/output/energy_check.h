@@ -11,21 +11,22 @@
 namespace Ricochet
 {
   /**
-   * The check, in each row of the ledger, of what a run says of its energy: that the
-   * balance of each step closes, and that contact treatments do to the total energy what
-   * they promise (see EnergyPromise). Both are measured by the largest sum so far of the
-   * absolute values of energies and works, with a floor: what the arithmetic alone may
-   * leave, over #bound. So #bound is that of both, and round-off never opens a run.
+   * The check of each row of the energy table: that the balance of each step
+   * closes, and that the total energy is as contact treatments promise (see
+   * EnergyPromise). Both are relative to the largest sum so far of the absolute
+   * values of energies and works, with a floor: the round-off of the arithmetic
+   * over #bound. So #bound is the bound of both, and round-off never violates
+   * it.
    *
-   * The rows are all that it looks at, so that a resumed run begins with those that
-   * there are.
+   * The check depends on the rows alone, so that a resumed run begins with the
+   * stored ones.
    */
   class EnergyCheck
   {
   public:
     static constexpr double bound = 1e-9;
 
-    /// A contact as the ledger tells of it.
+    /// A contact as the ledger records it.
     struct Contact
     {
       std::string   name;
@@ -37,25 +38,26 @@ namespace Ricochet
     {
       double time    = 0.;
       double kinetic = 0., stored = 0.;
-      /// Of the contact treatments; not a number where there is none.
+      /// Potential of the contact treatments; not a number where there is none.
       double potential     = 0.;
       double external_work = 0., imposed_work = 0., obstacle_work = 0.;
       double contact_work = 0., friction_work = 0.;
       double viscous_dissipation = 0., numerical_dissipation = 0.;
-      /// What each contact has made, see ContactStep::made; empty where the time scheme
-      /// does not tell.
+      /// Energy gained by each contact, see ContactStep::made; empty where the
+      /// time scheme does not compute it.
       std::vector<double> contact_gains = {};
-      /// What the balance of this step leaves over, and the round-off in it (J).
+      /// The residual of the balance of this step, and the round-off in it (J).
       double balance = 0., round_off = 0.;
     };
 
-    /// What a row says besides.
+    /// Results of the check of a row.
     struct Values
     {
       /// J; not a number without a potential.
       double total = std::numeric_limits<double>::quiet_NaN();
-      /// Over what they are measured by: what is left of the balance; how far the total
-      /// is from what is promised or, if nothing is, its rise above its least value.
+      /// Relative values: the residual of the balance; the distance of the
+      /// total from what is promised or, without a promise, its rise above its
+      /// least value.
       double balance_residual = 0.,
              promise_residual = std::numeric_limits<double>::quiet_NaN();
       /// Whether this row is the first one that breaks the promise.
@@ -63,18 +65,18 @@ namespace Ricochet
     };
 
     /// @param promise that of all contacts together.
-    /// @param obstacles_move and contact acts over steps: then the work of obstacles is
-    /// what contact work, potential and gains leave over.
+    /// @param obstacles_move and contact acts over steps: then the work of
+    /// obstacles follows from contact work, potential and gains.
     EnergyCheck(const EnergyPromise        &promise,
                 const std::vector<Contact> &contacts,
                 const bool                  obstacles_move);
 
-    /// Look at the next row.
+    /// Check the next row.
     Values
     add(const Terms &terms);
 
-    /// What the balance of the next row is measured by, with these terms: the largest sum
-    /// of all rows, and the floor of the arithmetic (J).
+    /// The scale of the balance of the next row with these terms: the largest
+    /// sum of all rows, and the floor of the arithmetic (J).
     double
     scale_with(const Terms &terms) const;
 
@@ -82,11 +84,11 @@ namespace Ricochet
     const Contact *
     worst_contact() const;
 
-    /// The last lines of a run: what became of balance and promise.
+    /// The last lines of a run: the result for balance and promise.
     std::vector<std::string>
     verdict() const;
 
-    /// Whether balance or promise are open.
+    /// Whether balance or promise are violated.
     bool
     is_open() const
     {
@@ -106,11 +108,11 @@ namespace Ricochet
     const bool                 obstacles_move;
     bool                       has_begun = false;
     double scale = 0., first_total = 0., first_potential = 0.;
-    // Of the total, and of each contact's gains (J).
+    // Least values of the total and of each contact's gains (J).
     double              least_total = 0.;
     std::vector<double> least_gains, deviations;
     double              most_friction = 0., most_viscosity = 0.;
-    // Of all steps together, and of the last one (J).
+    // Round-off of all steps together, and of the last one (J).
     double round_off = 0., last_round_off = 0.;
     // The largest residuals so far.
     double worst_balance = 0., worst_promise = 0.;

@@ -250,7 +250,7 @@ namespace Ricochet
   EnergyLedger::write_hdf5() const
   {
     on_first_rank(folder.communicator, [&]() {
-      // Memory for what HDF5 begins with: it crashes where it does not get that.
+      // Memory for the start of HDF5, which crashes where it does not get any.
       std::vector<char>(8 << 20);
       // The file is made in memory: HDF5 itself does not always notice that a
       // disk is full.

@@ -11,10 +11,10 @@
 namespace Ricochet
 {
   /**
-   * The table of a run: one row per time step, each column with its unit. Rows
-   * go to `energy.csv` at once, so that what was computed is in the file whatever
-   * happens next; `energy.h5` holds the same table, one data set per column
-   * with its unit as an attribute.
+   * The energy table of a run: one row per time step, each column with its
+   * unit. Rows go to `energy.csv` at once, so that computed steps are in the
+   * file whatever happens next; `energy.h5` holds the same table, one data set
+   * per column with its unit as an attribute.
    *
    * A value that does not exist (say, a modified energy of a method that has
    * none) is not a number in the rows and empty in the file.
@@ -32,7 +32,7 @@ namespace Ricochet
       bool may_be_empty = false;
     };
 
-    /// What a checkpoint remembers of the table, to know it again.
+    /// Record of the table in a checkpoint, by which it is identified.
     struct Seal
     {
       unsigned int  n_rows   = 0;
@@ -43,7 +43,7 @@ namespace Ricochet
       : folder(folder)
     {}
 
-    /// Before the first row: @return the column's number.
+    /// Add a column before the first row. @return its number.
     unsigned int
     add_column(const std::string &name,
                const std::string &unit,
@@ -54,8 +54,8 @@ namespace Ricochet
     start();
 
     /**
-     * Go on with the table that the folder holds: keep the rows that @p seal is
-     * of, and drop what a later part of an earlier run has added.
+     * Continue the table in the folder: keep the rows that @p seal covers, and
+     * drop later rows of an earlier run.
      * @throws InputError when it has other columns, fewer rows, something that is
      * not a number, times that do not rise, or not the rows that were written.
      */
@@ -67,8 +67,8 @@ namespace Ricochet
     void
     add_row(const std::vector<double> &row);
 
-    /// Wait until all rows are on the disk. @throws ComputationError
-    /// @return what they can be known by.
+    /// Wait until all rows are on the disk. @throws ComputationError @return
+    /// their identification.
     Seal
     seal();
 
@@ -104,7 +104,7 @@ namespace Ricochet
     std::vector<Column>              column_list;
     std::vector<std::vector<double>> row_list;
     GrowingFile                      csv;
-    // Of all of energy.csv.
+    // Checksum of all of energy.csv.
     std::uint32_t csv_checksum = 0;
   };
 } // namespace Ricochet

@@ -32,8 +32,8 @@ namespace Ricochet
     std::string
     file_of(const unsigned int step) const;
 
-    /// List the file of @p step, and no longer those of later steps, which a resumed run
-    /// makes again. @param time s. @throws ComputationError
+    /// List the file of @p step, and drop those of later steps, which a resumed
+    /// run repeats. @param time s. @throws ComputationError
     void
     append(const unsigned int step, const double time);
 
@@ -43,7 +43,7 @@ namespace Ricochet
     const std::string files;
     // Times by step.
     std::map<unsigned int, double> times;
-    // Whether the list on the disk is of these.
+    // Whether the list on the disk has these times.
     bool is_written = false;
   };
 } // namespace Ricochet

@@ -23,8 +23,9 @@ namespace Ricochet
     : communicator(body.communicator)
     , nodes(nodes_of_parts(body, n_parts, begin, end))
   {
-    // The mass of each node, and that times the place: the mass matrix couples equal
-    // components only, and the place is in the space of the displacements.
+    // The mass of each node, and its product with the position: the mass matrix
+    // couples equal components only, and the position is in the space of the
+    // displacements.
     Vector field, masses = body.make_vector(), moment = body.make_vector();
     body.interpolate(Functions::ConstantFunction<dim>(1., dim), field);
     mass.vmult(masses, field);

@@ -29,15 +29,16 @@ namespace Ricochet
 
     /// Axis times angle (rad), the angle from 0 to pi; in 2D the third component is the
     /// angle, from -pi to pi, and the others are zero. Zero for a body that has
-    /// collapsed or is turned inside out, to which no rotation is nearest. Collective.
+    /// collapsed or is inverted, for which no nearest rotation exists.
+    /// Collective.
     dealii::Tensor<1, 3>
     vector(const Vector &solution) const;
 
   private:
     const MPI_Comm                   communicator;
     const std::vector<PartNode<dim>> nodes;
-    // Of each of them, the integral of rho times its shape function times X - X_m
-    // (kg m).
+    // For each unknown, the integral of rho times its shape function times X -
+    // X_m (kg m).
     std::vector<dealii::Tensor<1, dim>> moments;
   };
 } // namespace Ricochet

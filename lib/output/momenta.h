@@ -55,7 +55,7 @@ namespace Ricochet
     // velocity about it, made when first asked for: their products with a velocity
     // are its momenta.
     mutable std::vector<Vector> of_translations, of_rotations;
-    // Where this rank's entries of them begin and end that are not zero.
+    // Begin and end of this rank's nonzero entries of them.
     mutable unsigned int begin_of_motions = 0, end_of_motions = 0;
     mutable Vector       momentum;
   };

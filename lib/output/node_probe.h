@@ -15,7 +15,8 @@ namespace Ricochet
             const dealii::Point<dim> &b,
             const dealii::Point<dim> &point);
 
-  /// Reads system vectors in the vertex that is nearest to a given point, by is_nearer().
+  /// Values of system vectors in the vertex that is nearest to a given point,
+  /// by is_nearer().
   template <int dim>
   class NodeProbe
   {

@@ -66,13 +66,13 @@ namespace Ricochet
           points.push_back(nearest);
         }
       BoundingBox<dim> box(points);
-      // In the plane a line costs nothing, wherever the body goes.
+      // In 2D a line is cheap, wherever the body moves.
       box.extend(dim == 2 && obstacle.shape().is_plane() ? 5. * size : size);
       return box;
     }
 
-    /// Whether no point of the surface is in @p box for sure. Of level sets nothing is
-    /// sure; the gaps of all other shapes are distances.
+    /// Whether certainly no point of the surface is in @p box. Level sets give
+    /// no certainty; the gaps of all other shapes are distances.
     template <int dim>
     bool
     is_out_of_sight(const BoundingBox<dim> &box,
@@ -98,7 +98,7 @@ namespace Ricochet
       double longest            = 0.;
       for (unsigned int c = 0; c < dim; ++c)
         longest = std::max(longest, box.side_length(c));
-      // A plane is found exactly; in space its pieces are small enough to be cut.
+      // A plane is found exactly; in 3D its pieces are small enough to be cut.
       const bool   is_plane = obstacle.shape().is_plane();
       const double most =
         dim == 2 ? (is_plane ? 4 : 160) : (is_plane ? 24 : 40);
@@ -186,7 +186,8 @@ namespace Ricochet
     names.emplace_back("obstacle");
     std::ostringstream text;
     DataOutBase::write_vtu_header(text, flags);
-    // Nothing in sight is an empty file, which has to be written in its own way.
+    // Without any surface in view the file is empty, and has to be written
+    // separately.
     if (patches.empty())
       text << "<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\">\n"
               "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" "

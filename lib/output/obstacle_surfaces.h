@@ -13,10 +13,10 @@
 namespace Ricochet
 {
   /**
-   * Rigid obstacles as surfaces (in the plane, curves) for pictures: where the gap is
-   * zero, found by marching cubes on a grid around the bodies, which is coarse and says
-   * nothing of contact. The data are the normal towards the bodies and the number of
-   * the obstacle.
+   * Rigid obstacles as surfaces (in 2D, curves) for pictures: the zero level of
+   * the gap, found by marching cubes on a grid around the bodies, which is
+   * coarse and independent of contact. The data are the normal towards the
+   * bodies and the number of the obstacle.
    */
   template <int dim>
   class ObstacleSurfaces
@@ -32,8 +32,8 @@ namespace Ricochet
       return obstacles.empty() || dim == 1;
     }
 
-    /// @param bodies what the bodies are within (m). @param flags with the time (s).
-    /// @return what has to be in a VTU file.
+    /// @param bodies bounding boxes of the bodies (m). @param flags with the
+    /// time (s). @return the contents of a VTU file.
     std::string
     vtu(const dealii::BoundingBox<dim>      &bodies,
         const dealii::DataOutBase::VtkFlags &flags) const;

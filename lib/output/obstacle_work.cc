@@ -53,7 +53,7 @@ namespace Ricochet
     double work = 0.;
     for (const Touched &touched : obstacles)
       {
-        // What the body does to the obstacle, which stands on the side of the
+        // The force of the body on the obstacle, which has the sign of the
         // internal forces.
         const Vector &contact_force = contact_forces[touched.contact];
         Tensor<1, 3>  force, moment;

@@ -12,8 +12,8 @@ namespace Ricochet
 {
   /**
    * The work that moving obstacles do on a body, from the resultant of the contact
-   * force, its moment and the motion of the obstacle: a second way to a number that
-   * the energy balance knows as well, up to terms of second order in the step.
+   * force, its moment and the motion of the obstacle: an independent value of a
+   * term in the energy balance, equal up to terms of second order in the step.
    */
   template <int dim>
   class ObstacleWork

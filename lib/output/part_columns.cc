@@ -21,7 +21,7 @@ namespace Ricochet
       return list;
     }
 
-    /// Of each owned unknown, its body.
+    /// The body of each owned unknown.
     template <int dim>
     std::vector<unsigned int>
     bodies_of_unknowns(const Body<dim>                 &body,

@@ -11,12 +11,13 @@
 namespace Ricochet
 {
   /**
-   * What each of several bodies, each of one or several parts, has of the energies and
-   * momenta in the ledger: columns kinetic_energy_NAME, elastic_energy_NAME,
-   * contact_work_NAME (what the body has given to others through contact, friction
-   * included), momentum_x_NAME, ..., angular_momentum_NAME, and momentum_x, ...,
-   * angular_momentum for all together. The sum of the first three changes by the work from
-   * outside and by viscosity only. One body has the last ones only.
+   * Contributions of each of several bodies, each of one or several parts, to
+   * the energies and momenta in the ledger: columns kinetic_energy_NAME,
+   * elastic_energy_NAME, contact_work_NAME (what the body has given to others
+   * through contact, friction included), momentum_x_NAME, ...,
+   * angular_momentum_NAME, and momentum_x, ..., angular_momentum for all
+   * together. The sum of the first three changes by the work from outside and
+   * by viscosity only. One body has the last ones only.
    */
   template <int dim>
   class PartColumns
@@ -41,21 +42,22 @@ namespace Ricochet
     double
     kinetic_energy(const unsigned int p, const Vector &velocity) const;
 
-    /// The work of @p force (N) on the way from @p begin to @p end of body @p p (J).
+    /// The work of @p force (N) along the displacement from @p begin to @p end
+    /// of body @p p (J).
     double
     work(const unsigned int p,
          const Vector      &force,
          const Vector      &begin,
          const Vector      &end) const;
 
-    /// Of body @p p.
+    /// Columns of body @p p.
     const Momenta<dim> &
     momenta(const unsigned int p) const
     {
       return momenta_of_parts[p];
     }
 
-    /// Of all together.
+    /// Columns of all bodies together.
     const Momenta<dim> &
     momenta() const
     {

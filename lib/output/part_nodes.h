@@ -15,7 +15,7 @@ namespace Ricochet
   {
     /// System indices of its displacements.
     std::array<dealii::types::global_dof_index, dim> indices;
-    /// In the undeformed body (m).
+    /// Position in the undeformed body (m).
     dealii::Point<dim> position;
   };
 

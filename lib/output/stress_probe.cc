@@ -44,7 +44,7 @@ namespace Ricochet
       }
     if (point)
       {
-        // A point between ranks is the lowest one's.
+        // A point between ranks belongs to the lowest one.
         const unsigned int rank =
           Utilities::MPI::this_mpi_process(body.communicator);
         const unsigned int nobody = std::numeric_limits<unsigned int>::max();

@@ -12,16 +12,16 @@
 
 namespace Ricochet
 {
-  /// Reads the elastic Cauchy stress of a body in a point, or its mean by volume of the
-  /// undeformed body.
+  /// The elastic Cauchy stress of a body in a point, or its mean over the
+  /// undeformed volume.
   template <int dim>
   class StressProbe
   {
   public:
     /**
      * @param materials of all parts of @p body.
-     * @param begin, end the parts to look at.
-     * @param point where (m); null for the mean. Collective.
+     * @param begin, end the range of parts.
+     * @param point position (m); null for the mean. Collective.
      */
     StressProbe(const Body<dim>                  &body,
                 const std::vector<Material<dim>> &materials,
@@ -43,7 +43,7 @@ namespace Ricochet
   private:
     const Body<dim>                 &body;
     const std::vector<Material<dim>> materials;
-    // Of this rank.
+    // Points of this rank.
     std::vector<typename dealii::DoFHandler<dim>::active_cell_iterator> cells;
     std::unique_ptr<dealii::FEValues<dim>>                              values;
     bool                                                                found;

@@ -156,7 +156,8 @@ namespace Ricochet
       const double    time;
     };
 
-    /// Hands out a scalar that stands in the first component of a vector field.
+    /// Output of a scalar that is stored in the first component of a vector
+    /// field.
     template <int dim>
     class FirstComponent : public DataPostprocessorScalar<dim>
     {
@@ -184,7 +185,7 @@ namespace Ricochet
       }
     };
 
-    /// Writes the patches of this rank without header and footer.
+    /// Patches of this rank without header and footer.
     template <int dim>
     class PieceOfFile : public DataOut<dim>
     {
@@ -323,7 +324,8 @@ namespace Ricochet
                                   const unsigned int           step,
                                   const DataOutBase::VtkFlags &flags)
   {
-    // The bodies at the start and now, so that what they come from stays in sight.
+    // The bodies at the start and now, so that the obstacles that they leave
+    // stay visible.
     Point<dim> lower, upper;
     for (unsigned int c = 0; c < dim; ++c)
       {

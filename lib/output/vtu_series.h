@@ -18,8 +18,8 @@ namespace Ricochet
    * node (N, on the body), the contact pressure (Pa), the gap (m; of all points
    * of the body, to the nearest obstacle, if there is one) and the number of the part
    * (if there are several), as `solution/step-NNNNNN.vtu` with their
-   * time, and `solution.pvd` that ties them to their times. Rigid obstacles are in
-   * `solution/obstacles-NNNNNN.vtu` and `obstacles.pvd`.
+   * time, and `solution.pvd` that lists them with their times. Rigid obstacles
+   * are in `solution/obstacles-NNNNNN.vtu` and `obstacles.pvd`.
    */
   template <int dim>
   class VtuSeries
@@ -45,7 +45,7 @@ namespace Ricochet
               RunFolder                        &folder);
 
     /// Write @p state as step number @p step. A step that is written again,
-    /// after a resumed run, takes the place of the old one.
+    /// after a resumed run, replaces the old one.
     /// @throws ComputationError when the disk is full.
     void
     write(const State &state, const unsigned int step);

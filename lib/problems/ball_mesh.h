@@ -30,8 +30,8 @@ namespace Ricochet
   read_ball(const std::string        &file_name,
             dealii::Triangulation<3> &triangulation);
 
-  /// Where elements are smaller than elsewhere: around a place, over some elements;
-  /// from there on they grow with the distance.
+  /// Local refinement: elements are smaller around a point, over some elements,
+  /// and grow with the distance beyond.
   struct FinePlace
   {
     dealii::Point<3> place;

@@ -36,7 +36,7 @@ namespace Ricochet
   BarParameters::validate() const
   {
     impact.validate();
-    // The exact solution is kept for each unit of time, with four numbers.
+    // The exact solution is stored for each unit of time, with four numbers.
     impact.check_size(degree / mesh_size,
                       1,
                       impact.time.final_time * 4. * sizeof(double));

@@ -10,8 +10,8 @@
 namespace Ricochet
 {
   /**
-   * What the two benchmarks of a unit bar with unit modulus and density have in
-   * common: parameters, mesh, columns of the ledger, error norm. Defaults are
+   * Common parts of the two benchmarks of a unit bar with unit modulus and
+   * density: parameters, mesh, columns of the ledger, error norm. Defaults are
    * those of paper C, sections 4.1 and 4.2.
    */
   struct BarParameters

@@ -129,7 +129,8 @@ namespace Ricochet
                 const double       gap = obstacle.gap(x, 0.);
                 if (problem.empty())
                   problem = obstacle.shape().problem_at(placement.pull_back(x));
-                // A little is that of a mesh, whose vertices lie where they lie.
+                // The tolerance is that of a mesh, whose vertices are off the
+                // surface by round-off.
                 if (-gap > 1e-3 * cell->diameter())
                   overlap = std::max(overlap, -gap);
               }
@@ -174,7 +175,7 @@ namespace Ricochet
                  const ContactSurface<2>                             &surface,
                  const std::vector<const ContactSurface<2>::Facet *> &facets)
     {
-      // The angle under which the boundary is seen is that of a whole turn inside.
+      // From inside, the boundary is seen under a full angle.
       double angle = 0., distance = std::numeric_limits<double>::max();
       for (const auto *facet : facets)
         {
@@ -220,15 +221,16 @@ namespace Ricochet
 
 
 
-    /// Where a body with this @p facet is looked for in others: in its nodes, in its
-    /// middle, as edges may cross with all nodes outside, and a little behind that, as
-    /// bodies at the same place have all their boundary in common.
+    /// Points in which a body with this @p facet is tested against others: its
+    /// nodes; its middle, as edges may cross with all nodes outside; and a
+    /// point a little behind that, as the whole boundary of coincident bodies
+    /// is common.
     template <int dim>
     std::array<Point<dim>, dim + 2>
     places_of(const ContactSurface<dim>                 &surface,
               const typename ContactSurface<dim>::Facet &facet)
     {
-      // A tenth of its height is inside of a cell that is skewed, too.
+      // A tenth of its height is inside even of a skewed cell.
       constexpr double                depth = .1;
       std::array<Point<dim>, dim + 2> places;
       Point<dim>                      middle;

@@ -9,15 +9,16 @@
 
 namespace Ricochet
 {
-  /// Obstacles that move go with the time @p scheme. @throws InputError
+  /// Check that moving obstacles are supported by the time @p scheme. @throws
+  /// InputError
   void
   check_motions(const SchemeTraits &scheme, const Obstacles &obstacles);
 
   /**
-   * The undeformed @p body and the @p obstacles at time 0 do not overlap. Vertices
-   * of the mesh are looked at, and the centre of each obstacle: an overlap at the
-   * start would be kept for ever by persistent contact, or push the body away
-   * with an energy from nowhere.
+   * The undeformed @p body and the @p obstacles at time 0 do not overlap. The
+   * check takes the vertices of the mesh, and the centre of each obstacle: an
+   * initial overlap would persist with persistent contact, or push the body
+   * away with an energy from nowhere.
    *
    * @param contact its name, for messages; empty where there is only one.
    * @param only_what_may_touch leave out parts of the body, see Body::part(), that

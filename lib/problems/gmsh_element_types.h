@@ -6,9 +6,9 @@
 
 namespace Ricochet
 {
-  /// A kind of element of Gmsh, of first or second order. Its vertices are its first
-  /// nodes; those of second order have a node more on each of their edges, and may
-  /// have more on their faces and within.
+  /// A type of element of Gmsh, of first or second order. Its vertices are its
+  /// first nodes; those of second order have a node more on each of their
+  /// edges, and may have more on their faces and within.
   struct GmshElementType
   {
     /// Gmsh's number for it.

@@ -23,14 +23,15 @@ namespace Ricochet
 {
   namespace
   {
-    /// What deal.II's reader stores numbers of nodes, elements and groups in.
+    /// Type in which deal.II's reader stores numbers of nodes, elements and
+    /// groups.
     constexpr int largest = std::numeric_limits<int>::max();
 
     /// A cell whose volume is less than this times the cube of its size (in 2D,
     /// the square) is flat.
     constexpr double smallest_volume = 1e-12;
 
-    /// No node: fills the places that an element with fewer nodes leaves.
+    /// No node: fills the entries of an element with fewer nodes.
     constexpr unsigned int no_node = std::numeric_limits<unsigned int>::max();
 
 
@@ -53,7 +54,7 @@ namespace Ricochet
       std::string_view
       word();
 
-      /// What remains of this line without white space around it.
+      /// The rest of this line without white space around it.
       std::string_view
       rest_of_line() const;
 
@@ -63,8 +64,9 @@ namespace Ricochet
       double
       number(const char *what);
 
-      /// How many entries follow, each in @p n_bytes at least. A count that the
-      /// rest of the file cannot hold is refused before memory is set aside.
+      /// Number of entries that follow, each in @p n_bytes at least. A count
+      /// that the rest of the file cannot hold is refused before memory is set
+      /// aside.
       int
       count(const char *what, const std::size_t n_bytes);
 
@@ -401,7 +403,7 @@ namespace Ricochet
           if (text.size() < 2 || text.front() != '"' || text.back() != '"')
             file.fail("a physical name must be in quotation marks, but is " +
                       in_quotes(text) + ".");
-          // deal.II's reader goes on after these words wherever they stand.
+          // deal.II's reader continues after these words wherever they stand.
           if (text.find("$EndPhysicalNames") != std::string_view::npos)
             file.fail("a physical name must not have $EndPhysicalNames in it.");
         }
@@ -415,7 +417,7 @@ namespace Ricochet
     read_entity(MeshFile &file, const unsigned int dim)
     {
       const int tag = file.integer("the tag of an entity", -largest);
-      // A point, or the corners of a box around what is not a point.
+      // A point, or for other entities the corners of a bounding box.
       for (unsigned int d = 0; d < (dim == 0 ? 3 : 6); ++d)
         file.number("a coordinate of an entity");
       int       group    = 0;
@@ -823,8 +825,8 @@ namespace Ricochet
 
 
 
-    /// What follows means nothing here, but it must not be cut off, and no
-    /// second mesh.
+    /// Sections that follow are not read, but must be complete and no second
+    /// mesh.
     void
     pass_over_rest(MeshFile &file)
     {
@@ -1097,8 +1099,8 @@ namespace Ricochet
 
 
 
-    /// Of two faces with the same nodes: whether these follow each other in the
-    /// same way. In a quadrilateral they do when the same ones are opposite.
+    /// Whether two faces with the same nodes have them in the same cyclic
+    /// order. In a quadrilateral that is so when the same ones are opposite.
     bool
     match(const std::vector<Element> &cells, const Face &a, const Face &b)
     {
@@ -1131,8 +1133,8 @@ namespace Ricochet
 
 
 
-    /// Faces that two cells share leave @p faces; those of the boundary remain.
-    /// @return the ones that left, each once.
+    /// Remove interior faces, those of two cells, from @p faces; boundary faces
+    /// remain. @return the removed ones, each once.
     std::vector<Face>
     separate_inner_faces(const MeshFile    &file,
                          const Mesh        &mesh,
@@ -1184,8 +1186,8 @@ namespace Ricochet
 
 
 
-    /// deal.II refuses a boundary's number for what is not on the boundary, and
-    /// loses that of what is no face at all.
+    /// deal.II refuses a boundary number of interior faces, and drops that of
+    /// elements which are no face at all.
     void
     check_boundary_elements(const MeshFile          &file,
                             const Mesh              &mesh,
@@ -1317,8 +1319,8 @@ namespace Ricochet
 
 
 
-    /// deal.II refuses a boundary's number for an edge within the body. It does
-    /// not mind what is no edge.
+    /// deal.II refuses a boundary's number for an edge within the body. Lines
+    /// that are no edge are ignored.
     void
     check_lines(const MeshFile          &file,
                 const Mesh              &mesh,
@@ -1330,7 +1332,7 @@ namespace Ricochet
       for (const Element &element : mesh.lines)
         lines.push_back({make_key<2>(element, lines.size())});
       std::sort(lines.begin(), lines.end());
-      // Of lines with the same nodes, the first stands for all.
+      // The first of several lines with the same nodes represents all.
       for (const Element &cell : mesh.cells)
         for (const auto &face : cell.type->faces)
           mark_edges(cell, face, &Line::is_edge, lines);

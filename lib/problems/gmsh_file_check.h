@@ -7,9 +7,9 @@
 namespace Ricochet
 {
   /**
-   * See that @p file_name can be read without waiting for anybody, as pipes and devices
-   * would, and is not far too large, as a slip or a file with holes may be: a mesh takes
-   * at least sixteen times the memory of its file.
+   * Check that @p file_name can be read without blocking, as pipes and devices
+   * would, and is not far too large, as a misprint or a sparse file may be: a
+   * mesh takes at least sixteen times the memory of its file.
    *
    * @throws InputError
    */
@@ -25,7 +25,8 @@ namespace Ricochet
    * A file passes with
    * - the sections $MeshFormat, $PhysicalNames (optional), $Entities (optional,
    *   only in format 4.1), $Nodes and $Elements, each once, in this order,
-   *   whole and with what their counts promise; others may only follow these;
+   *   complete and with as many entries as their counts state; others may only
+   *   follow these;
    * - one entry per line, as Gmsh writes it;
    * - nodes with unique numbers and finite coordinates;
    * - elements of first or second order that have nodes of the file, no node twice,

@@ -112,7 +112,7 @@ namespace Ricochet
 
 
 
-    /// What deal.II makes a mesh of.
+    /// Input for deal.II's create_triangulation().
     template <int dim>
     struct Description
     {
@@ -125,7 +125,7 @@ namespace Ricochet
 
 
 
-    /// The place of vertex @p v of an element of Gmsh in deal.II's order.
+    /// The position of vertex @p v of an element of Gmsh in deal.II's order.
     template <int dim>
     unsigned int
     place_of_vertex(const GmshElementType &type, const unsigned int v)
@@ -245,7 +245,8 @@ namespace Ricochet
 
 
 
-    /// What @p work does with Gmsh, whose errors are told as "Gmsh cannot @p do_what".
+    /// Run @p work, which calls Gmsh; errors are reported as "Gmsh cannot @p
+    /// do_what".
     template <typename Result>
     Result
     with_gmsh(const std::string &do_what, const std::function<Result()> &work)
@@ -261,7 +262,8 @@ namespace Ricochet
         }
       catch (const std::logic_error &)
         {
-          // "vector larger than max_size()" helps nobody.
+          // A sentence for the user in place of "vector larger than
+          // max_size()".
           throw InputError("Gmsh cannot " + do_what +
                            ": its numbers make no sense.");
         }
@@ -277,8 +279,8 @@ namespace Ricochet
 
 
 
-    /// See that elements of a given length are not far too many for any machine:
-    /// Gmsh would crash only after a long time.
+    /// Check that elements of a given length are not far too many for any
+    /// machine: Gmsh would crash only after a long time.
     void
     check_number_of_elements(const unsigned int dim, const double mesh_size)
     {
@@ -302,7 +304,7 @@ namespace Ricochet
 
 
 
-    /// A folder for a file on its way, which goes with this.
+    /// A folder for a temporary file, removed with this object.
     class TemporaryFolder
     {
     public:
@@ -389,8 +391,8 @@ namespace Ricochet
 
 
     /// Write Gmsh's mesh into @p msh_file, which may have any name, while Gmsh wants one
-    /// that ends with .msh. It takes a moment only, in which nothing interrupts this
-    /// process: a run that is killed leaves no files behind.
+    /// that ends with .msh. Signals are blocked for this short time: a run that
+    /// is killed leaves no files behind.
     void
     write_msh(const std::string &msh_file)
     {
@@ -402,7 +404,7 @@ namespace Ricochet
       const TemporaryFolder folder;
       const std::string     file = folder.file("mesh.msh");
       gmsh::write(file);
-      // Gmsh says nothing of a full disk.
+      // Gmsh does not report a full disk.
       std::ifstream     in(file, std::ios::binary);
       const std::string text((std::istreambuf_iterator<char>(in)), {});
       std::ofstream     out(msh_file, std::ios::binary);
@@ -481,7 +483,7 @@ namespace Ricochet
       }
     catch (const std::exception &)
       {
-        // What is known to go wrong was looked for before.
+        // Known errors were excluded by the checks above.
         throw InputError("The mesh file '" + file_name +
                          "' cannot be made a mesh of: its cells do not fit "
                          "together.");
@@ -532,7 +534,7 @@ namespace Ricochet
                        const double       mesh_size,
                        const unsigned int seconds)
   {
-    // A geometry is a script, and may be a stranger's.
+    // A geometry is a script, which may come from an untrusted source.
     const auto make_mesh = [&]() {
       if (mesh_size > 0.)
         for (const std::string bound : {"Min", "Max"})

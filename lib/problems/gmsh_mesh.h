@@ -49,7 +49,7 @@ namespace Ricochet
    * @p msh_file (format 2.2). Without physical groups boundaries get the numbers that
    * Gmsh has given to their curves or surfaces.
    *
-   * @param mesh_size length of an element (m); 0 for what the file says.
+   * @param mesh_size length of an element (m); 0 for the sizes in the file.
    * @param seconds that Gmsh may take; 0 for any time.
    * @throws InputError naming the file.
    */
@@ -61,8 +61,8 @@ namespace Ricochet
                        const unsigned int seconds = 0);
 
   /**
-   * Read a mesh, or mesh a geometry, as convert_to_gmsh_mesh() does for what is not a
-   * .msh file.
+   * Read a mesh, or mesh a geometry, as convert_to_gmsh_mesh() does for files
+   * other than .msh.
    *
    * @param boundary_names gets the boundary ids by the names of physical groups.
    * @param material_names gets the material ids in the same way.

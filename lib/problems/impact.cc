@@ -118,7 +118,7 @@ namespace Ricochet
       return all;
     }
 
-    /// All boundaries that something is said about.
+    /// All boundaries with an obstacle, a contact or a condition.
     template <int dim>
     typename Body<dim>::BoundaryIds
     named_ids(const ImpactSetup<dim> &setup)
@@ -160,7 +160,8 @@ namespace Ricochet
       return false;
     }
 
-    /// Where conditions meet, zero comes first, then the smaller boundary id.
+    /// Where conditions meet, zero displacements take precedence, then the
+    /// smaller boundary id.
     template <int dim>
     std::vector<typename Impact<dim>::Prescription>
     make_prescriptions(const Body<dim> &body, const ImpactSetup<dim> &setup)
@@ -279,7 +280,7 @@ namespace Ricochet
               const Vector                    &field,
               Vector                          &result)
     {
-      // Nodes of parts that touch are in one place and move differently.
+      // Nodes of parts that touch coincide and move differently.
       for (unsigned int i = 0; i < part_of_unknown.size(); ++i)
         if (part_of_unknown[i] == p)
           result.trilinos_vector()[0][i] = field.trilinos_vector()[0][i];
@@ -315,8 +316,9 @@ namespace Ricochet
       return std::make_unique<LinearBulk<dim>>(body, materials, storage);
     }
 
-    /// Blocks wherever products cost more than what is made of entries: but the
-    /// multigrid of elements of degree one, and that of bodies against bodies, take entries.
+    /// Blocks are stored where matrix-vector products dominate; the multigrid
+    /// of elements of degree one, and that of bodies against bodies, need
+    /// entries.
     template <int dim>
     MatrixStorage
     storage_of(const ImpactParameters &parameters,
@@ -499,7 +501,7 @@ namespace Ricochet
           }
         catch (const InputError &error)
           {
-            // Which of them is meant.
+            // Number of the named one.
             if (contact.name.empty())
               throw;
             throw InputError("Contact " + contact.name + ": " + error.what());

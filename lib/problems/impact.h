@@ -13,7 +13,8 @@
 
 namespace Ricochet
 {
-  /// A vector that depends on the time (s) and on the place in the undeformed body (m).
+  /// A vector that depends on the time (s) and on the position in the
+  /// undeformed body (m).
   template <int dim>
   using VectorField =
     std::function<dealii::Tensor<1, dim>(const double              time,
@@ -27,9 +28,9 @@ namespace Ricochet
     Material<dim> material;
     /// kg/m^dim
     double density = 1.;
-    /// At the start, of the point #centre (m/s).
+    /// Initial velocity of the point #centre (m/s).
     dealii::Tensor<1, dim> velocity = {};
-    /// Angular velocity at the start (rad/s); in 2D the third component is the only
+    /// Initial angular velocity (rad/s); in 2D the third component is the only
     /// one.
     dealii::Tensor<1, 3> spin = {};
     /// The point about which it spins (m).
@@ -42,7 +43,7 @@ namespace Ricochet
   template <int dim>
   struct ImposedDisplacement
   {
-    /// Which components.
+    /// Prescribed components.
     std::array<bool, dim> components{};
     /// Displacement (m), whose other components do not matter; zero if empty.
     VectorField<dim> value;
@@ -57,7 +58,7 @@ namespace Ricochet
     Obstacles obstacles = {};
     /// surfaces that may touch each other or themselves.
     std::vector<ContactPair> pairs = {};
-    /// Of contact with obstacles, the part whose stress Nitsche's method takes.
+    /// For contact with obstacles, the part whose stress Nitsche's method uses.
     unsigned int part = 0;
 
     bool
@@ -67,11 +68,11 @@ namespace Ricochet
     }
   };
 
-  /// What is to hit what.
+  /// Set-up of an impact: bodies, contacts, conditions and loads.
   template <int dim>
   struct ImpactSetup
   {
-    /// Of all bodies that are not named in #parts.
+    /// Material of all bodies that are not in #parts.
     Material<dim> material;
     /// kg/m^dim
     double density = 1.;
@@ -98,7 +99,7 @@ namespace Ricochet
     std::map<dealii::types::boundary_id, VectorField<dim>> tractions = {};
     /// Pressures that follow the surface.
     std::vector<BoundaryPressure<dim>> pressures = {};
-    /// What parts of the boundary are held by.
+    /// Springs and dashpots on parts of the boundary.
     std::vector<BoundarySprings<dim>> springs = {};
     /// The geometry of curved cells (see curved_geometry.h), with degree 2; null for
     /// cells with straight edges.
@@ -106,8 +107,8 @@ namespace Ricochet
   };
 
   /**
-   * A body, its contact with obstacles and its equation of motion, put together
-   * once the mesh is there: what every benchmark does in its setup.
+   * A body, its contact with obstacles and its equation of motion, set up on a
+   * given mesh as in every benchmark.
    */
   template <int dim>
   struct Impact
@@ -134,8 +135,8 @@ namespace Ricochet
     const std::unique_ptr<ContactOperator> contact;
     /// The weight of the body (N).
     const Vector weight;
-    /// What the prescribed unknowns are prescribed by: component, place and value,
-    /// none for zero.
+    /// Data of the prescribed unknowns: component, position and value, none for
+    /// zero.
     struct Prescription
     {
       dealii::types::global_dof_index unknown;
@@ -165,7 +166,8 @@ namespace Ricochet
     /// The undeformed body in flight at time 0.
     ///
     /// @throws InputError when it overlaps with an obstacle, or parts of it with
-    /// others, or an obstacle is not what it says it is where the body begins.
+    /// others, or an obstacle is inconsistent at the initial position of the
+    /// body.
     State
     state_in_flight(const dealii::Tensor<1, dim> &velocity);
 

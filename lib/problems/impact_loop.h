@@ -45,7 +45,7 @@ namespace Ricochet
       };
     }
 
-    // The function above holds the address of the loop.
+    // The function above has the address of the loop.
     ImpactLoop(const ImpactLoop &) = delete;
 
   private:

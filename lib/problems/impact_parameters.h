@@ -11,7 +11,7 @@
 
 namespace Ricochet
 {
-  /// The parameters that all benchmarks share.
+  /// The parameters of all benchmarks.
   struct ImpactParameters
   {
     ContactParameters        contact;
@@ -44,8 +44,8 @@ namespace Ricochet
     void
     validate_times() const;
 
-    /// Refuse what does not fit into memory: SizeLimit::check() for the number
-    /// of steps of the run.
+    /// Refuse runs that do not fit into memory: SizeLimit::check() for the
+    /// number of steps of the run.
     void
     check_size(const double       n_unknowns,
                const unsigned int dim,

@@ -228,7 +228,7 @@ namespace Ricochet
       if (geometry.n_struts == 0)
         throw InputError("A stent needs at least one strut.");
 
-      // What may be lost in the sum of two decimal fractions.
+      // Round-off in the sum of two decimal fractions.
       const double round_off = 1e-12 * geometry.artery_length;
       const double stent_end = geometry.stent_begin + geometry.stent_length;
       if (!(geometry.stent_begin >= 0. &&
@@ -363,8 +363,8 @@ namespace Ricochet
           rectangle.n_cells[0] + 1,
           rectangle.n_cells[1] + 1,
           [&](const double s, const double t) {
-            // Like this both ends are met to the last digit, so that sides that
-            // should touch do.
+            // With this formula both ends are exact to the last digit, so that
+            // sides that should touch do.
             const double x =
               (1. - s) * rectangle.lower_left[0] + s * rectangle.upper_right[0];
             const double y =

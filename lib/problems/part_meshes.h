@@ -12,9 +12,9 @@
 /**
  * @file
  * Meshes of several bodies, the parts, in one triangulation. The material id
- * of a cell is the number of its part: 0, 1, ... No two parts share a vertex:
- * where they touch, two vertices lie in the same place. Vertices are numbered
- * part after part, in an order that is documented, so that a node can be named.
+ * of a cell is the number of its part: 0, 1, ... No two parts have a common
+ * vertex: where they touch, two vertices coincide. Vertices are numbered part
+ * after part, in an order that is documented, so that a node can be named.
  */
 namespace Ricochet
 {
@@ -67,13 +67,13 @@ namespace Ricochet
   {
     /// @name Boundary ids
     /// @{
-    /// y = 0, which looks at the stent.
+    /// y = 0, which faces the stent.
     static constexpr dealii::types::boundary_id artery_inner_wall = 0;
     /// y = artery_thickness.
     static constexpr dealii::types::boundary_id artery_outer_side = 1;
     /// x = 0 and x = artery_length.
     static constexpr dealii::types::boundary_id artery_ends = 2;
-    /// The side that looks at the artery.
+    /// The side that faces the artery.
     static constexpr dealii::types::boundary_id stent_upper_side = 3;
     /// The side in the lumen, where a balloon presses.
     static constexpr dealii::types::boundary_id stent_lower_side = 4;
@@ -81,7 +81,7 @@ namespace Ricochet
     static constexpr dealii::types::boundary_id stent_ends = 5;
     /// @}
 
-    /// The artery is the rectangle between 0 and these.
+    /// Size of the rectangle, from 0, that is the artery.
     double artery_length    = 20.;
     double artery_thickness = 1.;
 

@@ -18,10 +18,10 @@ namespace Ricochet
   {
     constexpr double bytes_per_gb = 1e9;
 
-    // Memory for each unknown: mesh, matrices and what solves with them, as
-    // measured with the smallest choices. In 3D that is multigrid.
+    // Memory for each unknown: mesh, matrices and their solvers, as measured
+    // with the most economical choices. In 3D that is multigrid.
     constexpr std::array<double, 4> bytes_per_unknown = {{0., 1e3, 2e3, 3.5e3}};
-    // A row of the table of energies has some thirty numbers.
+    // A row of the energy table has some thirty numbers.
     constexpr double bytes_per_step = 30 * sizeof(double);
 
     /// Memory of all machines that the ranks run on (bytes).

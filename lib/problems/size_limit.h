@@ -6,11 +6,11 @@
 
 namespace Ricochet
 {
-  /// How much memory a run may take. A slip in a mesh size should end in a
-  /// sentence, and not in a machine that does nothing but swap.
+  /// Limit on the memory of a run. A misprint in a mesh size should end in a
+  /// message, and not in a machine that only swaps.
   struct SizeLimit
   {
-    /// GB on all ranks together; 0 for four fifths of what the machines have.
+    /// GB on all ranks together; 0 for four fifths of the machines' memory.
     double memory = 0.;
 
     void
@@ -20,7 +20,7 @@ namespace Ricochet
      * @param n_unknowns number of displacements.
      * @param dim dimension of the body.
      * @param n_steps number of time steps, each a row of the energy table.
-     * @param more what else is known to be needed (bytes).
+     * @param more further memory that is known to be needed (bytes).
      * @throws InputError that names the number of unknowns and the memory, when
      * even a lower bound of it is beyond the limit. Collective.
      */

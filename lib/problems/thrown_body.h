@@ -10,9 +10,8 @@
 namespace Ricochet
 {
   /**
-   * What the benchmarks of papers A and B have in common: a free body in two
-   * dimensions that is thrown at a rigid foundation, the half plane below the
-   * axis x_2 = 0.
+   * Common parts of the benchmarks of papers A and B: a free body in 2D that is
+   * thrown at a rigid foundation, the half plane below the axis x_2 = 0.
    */
   struct ThrownBodyParameters
   {

@@ -462,7 +462,7 @@ namespace Ricochet
   {
     for (unsigned int k = 0; k < steps.size(); ++k)
       {
-        // What the shortest step does not help is counted.
+        // Passages that remain with the shortest step are counted.
         if (steps[k].n_passed == 0 ||
             (n_halvings_so_far == parameters.max_halvings &&
              parameters.max_halvings > 0))
@@ -519,7 +519,8 @@ namespace Ricochet
     terms.time    = state.time;
     terms.kinetic = energies.kinetic;
     terms.stored  = energies.stored;
-    // To the last digit what a resumed run reads off the row.
+    // Equal to the last digit to the value that a resumed run reads from the
+    // row.
     terms.potential             = modified - energies.total();
     terms.external_work         = sums.external_work;
     terms.imposed_work          = sums.imposed_work;
@@ -728,8 +729,8 @@ namespace Ricochet
                     const unsigned int first_step,
                     const double       seconds) const
   {
-    // Only of a run that lasts: nobody waits for a short one, and logs of those
-    // can be compared.
+    // Only for long runs: short ones need no estimate, and their logs can be
+    // compared.
     char remaining[40] = "";
     if (parameters.timing && seconds > 10. && step < n_steps)
       std::snprintf(remaining,
@@ -850,7 +851,7 @@ namespace Ricochet
           check.add(terms_of(row));
         folder.log("resumed after step " + std::to_string(step) +
                    ", t = " + units.text(state.time, "s"));
-        // Those of this step may be missing, if the run was killed.
+        // Fields of this step may be missing, if the run was killed.
         write_fields_if_due(state, step);
         return step;
       }
@@ -997,7 +998,7 @@ namespace Ricochet
 
   namespace
   {
-    /// The time of the clock since the last checkpoint, as the first rank has it.
+    /// Wall time since the last checkpoint, as measured on the first rank.
     class CheckpointClock
     {
     public:
@@ -1006,7 +1007,8 @@ namespace Ricochet
         , communicator(communicator)
       {}
 
-      /// Whether one is due; at the end of a run if there was one before. Collective.
+      /// Whether a checkpoint is due; at the end of a run if there was one
+      /// before. Collective.
       bool
       is_due(const bool is_end)
       {
@@ -1092,7 +1094,7 @@ namespace Ricochet
       }
     catch (const ComputationError &failure)
       {
-        // What failed on this rank only cannot be saved together.
+        // A failure on this rank only cannot be followed by a collective save.
         if (!LastMeeting::is_complete())
           throw;
         // A step that was not completed leaves no trace.
@@ -1102,8 +1104,8 @@ namespace Ricochet
       }
     catch (const std::exception &failure)
       {
-        // Out of memory, or an error in a library: perhaps on this rank only, so
-        // that others cannot help to save. Their last checkpoint remains.
+        // Out of memory, or an error in a library: perhaps on this rank only,
+        // so that a collective save is impossible. The last checkpoint remains.
         if (Utilities::MPI::n_mpi_processes(folder.communicator) == 1)
           save_what_there_is(state, step, complete_sums, failure.what());
         throw;

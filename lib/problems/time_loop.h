@@ -45,7 +45,7 @@ namespace Ricochet
 
     /**
      * @param contact_names names of the contact boundaries for the columns of
-     * the ledger; those with the same name are told of together.
+     * the ledger; those with the same name have common columns.
      * @param units of the ledger.
      */
     TimeLoop(
@@ -62,47 +62,49 @@ namespace Ricochet
                const std::string                          &unit,
                const std::function<double(const State &)> &value);
 
-    /// The same for several columns, all of which @p values finds at once.
+    /// As above for several columns, all of which @p values computes at once.
     void
     add_columns(
       const std::vector<std::string>                          &names,
       const std::string                                       &unit,
       const std::function<std::vector<double>(const State &)> &values);
 
-    /// Add a column that sums up over the run what each step, or each part of a halved
-    /// one, adds to it, from its beginning to its end.
+    /// Add a column with the sum over the run of the contributions of each
+    /// step, or each part of a halved one, from its beginning to its end.
     void
     add_sum(const std::string &name,
             const std::string &unit,
             const std::function<double(const State &begin, const State &end)>
               &increment);
 
-    /// The same of what the scheme reports of each step, or part of a halved one; a value
-    /// that is not a number leaves the column empty from then on.
+    /// As above for a value that the scheme reports for each step, or part of a
+    /// halved one; a value that is not a number leaves the column empty from
+    /// then on.
     void
     add_reported_sum(
       const std::string                               &name,
       const std::string                               &unit,
       const std::function<double(const StepReport &)> &increment);
 
-    /// Add a column with the mean over the last step of what @p increment is the
-    /// integral of over each step, or each part of a halved one; zero at the start.
+    /// Add a column with the mean over the last step of the quantity whose
+    /// integral over each step, or each part of a halved one, is @p increment;
+    /// zero at the start.
     void
     add_mean(const std::string &name,
              const std::string &unit,
              const std::function<double(const State &begin, const State &end)>
                &increment);
 
-    /// Names of the bodies, to say on which one a point is; by ContactStep::part.
+    /// Names of the bodies for messages on points; by ContactStep::part.
     std::vector<std::string> part_names;
 
     /// Called with the state and the number of the step when fields are due.
     std::function<void(const State &, const unsigned int)> write_fields;
 
-    /// Where obstacles move, what they do to the body from one state to the next,
-    /// see ObstacleWork; the column obstacle_work is zero without. The contact
-    /// forces are the means over the step of each of several contacts, or that of
-    /// the only one (N).
+    /// The work of moving obstacles on the body from one state to the next, see
+    /// ObstacleWork; the column obstacle_work is zero without. The contact
+    /// forces are the means over the step of each of several contacts, or that
+    /// of the only one (N).
     std::function<double(const Vector              &old_solution,
                          const Vector              &new_solution,
                          const std::vector<Vector> &contact_forces,
@@ -152,14 +154,15 @@ namespace Ricochet
     Energies
     energies_of(const State &state) const;
 
-    /// @param balance what is left of the balance of the step (J).
+    /// @param balance the residual of the balance of the step (J).
     void
     add_row(const State      &state,
             const Energies   &energies,
             const StepReport &report,
             const double      balance);
 
-    /// What the check looks at of a @p row of the ledger, for a run that is resumed.
+    /// The values of a @p row of the ledger that are checked, for a run that is
+    /// resumed.
     EnergyCheck::Terms
     terms_of(const std::vector<double> &row) const;
 
@@ -168,7 +171,8 @@ namespace Ricochet
     void
     log_broken_promise(const StepReport &report, const double time);
 
-    /// What the contacts of the ledger have made over the step that was solved last.
+    /// Energy gained by the contacts of the ledger over the step that was
+    /// solved last.
     std::vector<ContactStep>
     contact_steps(const State &old_state, const State &new_state) const;
 
@@ -176,8 +180,8 @@ namespace Ricochet
     std::string
     place_text(const dealii::Point<3> &place) const;
 
-    /// Refuse a step in which points go through what they should touch, as long as it may
-    /// be halved. @throws StepTooLong
+    /// Refuse a step in which points pass through bodies or obstacles without
+    /// contact, as long as it may be halved. @throws StepTooLong
     void
     check_passing(const State                    &old_state,
                   const double                    time_step,
@@ -222,7 +226,7 @@ namespace Ricochet
     void
     log_solver();
 
-    /// What to say at the end: the balance, and where the time went.
+    /// Summary at the end: the balance, and the timings.
     void
     conclude(dealii::TimerOutput &timer, std::ostringstream &timing_table);
 
@@ -230,7 +234,7 @@ namespace Ricochet
     RunFolder          &folder;
     SemiDiscreteSystem &system;
     TimeScheme         &scheme;
-    // By name, in the order of the ledger, the boundaries of each contact.
+    // The boundaries of each contact, by name, in the order of the ledger.
     const std::vector<
       std::pair<std::string, std::vector<dealii::types::boundary_id>>>
                 contact_names;
@@ -238,11 +242,11 @@ namespace Ricochet
     // Values of the benchmark's own columns, in the order of the ledger.
     std::vector<std::function<std::vector<double>(const State &)>> own_columns;
     std::vector<Increment>                                         own_sums;
-    // Of each of them, its mean over the last step.
+    // The mean of each of them over the last step.
     std::vector<double> own_means;
     EnergyLedger        ledger;
     EnergyCheck         check;
-    // Whether the log knows of a corner that is turned inside out.
+    // Whether an inverted corner is already noted in the log.
     bool has_inverted_corner = false;
 
     /// Sums over the run (J), part of a checkpoint.
@@ -254,13 +258,13 @@ namespace Ricochet
       double       viscous_dissipation   = 0.;
       double       numerical_dissipation = 0.;
       unsigned int n_halvings            = 0;
-      /// Those because points went through something.
+      /// Halvings because points passed through something.
       unsigned int n_passing_halvings = 0;
       double       obstacle_work      = 0.;
       double       imposed_work       = 0.;
-      /// Of each contact, where the scheme tells.
+      /// Energy gained by each contact, where the scheme computes it.
       std::vector<ContactStep> contacts = {};
-      /// Those of add_sum().
+      /// Sums of add_sum().
       std::vector<double> own = {};
 
       std::vector<double>
@@ -277,9 +281,9 @@ namespace Ricochet
          const unsigned int step,
          const Sums        &sums_of_state);
 
-    /// After a failure: checkpoint, table and fields. @return what could not be
-    /// written and is not part of @p known_problem, in sentences that begin a line
-    /// each.
+    /// After a failure, write checkpoint, table and fields. @return a sentence,
+    /// on a line of its own, for each file that could not be written and is not
+    /// part of @p known_problem.
     std::string
     save_what_there_is(const State       &state,
                        const unsigned int step,

@@ -14,7 +14,7 @@ namespace Ricochet
     dealii::Tensor<1, 3> axis = dealii::Tensor<1, 3>({0., 0., 1.});
     /// From the centre to the middle of the tube.
     double ring_radius = 1.;
-    /// Of the tube's outside.
+    /// Outer radius of the tube.
     double tube_radius = .4;
     double wall        = .1;
 

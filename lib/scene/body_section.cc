@@ -31,12 +31,12 @@ namespace Ricochet
 
   namespace
   {
-    /// A body that is made by its name.
+    /// A body shape with its name.
     template <int dim>
     struct Shape
     {
       std::string name;
-      /// The parameters that it takes.
+      /// The parameters of the shape.
       std::set<std::string> uses;
       /// Names of its boundary ids.
       std::map<std::string, types::boundary_id> boundary_names;
@@ -79,7 +79,7 @@ namespace Ricochet
         cell->set_material_id(0);
     }
 
-    /// Conditions that deal.II's generators take for granted, and crash without.
+    /// Conditions that deal.II's generators assume without a check.
     template <int dim>
     bool
     can_be_generated(const std::string &name, const std::string &arguments)
@@ -103,8 +103,8 @@ namespace Ricochet
       return true;
     }
 
-    /// A process of its own tries first: generators may crash all the same, or make meshes
-    /// that no memory holds.
+    /// A trial in a process of its own: generators may still crash, or make
+    /// meshes that no memory holds.
     template <int dim>
     void
     make_by_generator(const BodySection<dim> &p, Triangulation<dim> &cells)
@@ -622,8 +622,8 @@ namespace Ricochet
       for (Point<dim> &node : cell)
         node = placed(node);
 
-    // Measures with straight cells are good enough to be printed, and to find the
-    // middle of the mass.
+    // Volumes of straight cells are accurate enough for output, and for the
+    // centre of mass.
     const bool simplices = mesh.cells.all_reference_cells_are_simplex();
     std::unique_ptr<Mapping<dim>>        mapping;
     std::unique_ptr<Quadrature<dim>>     rule;

@@ -39,12 +39,12 @@ namespace Ricochet
     std::map<dealii::types::boundary_id, double> boundary_areas;
   };
 
-  /// The material of a body of which nothing is said.
+  /// The default material of a body.
   MaterialParameters
   default_material();
 
-  /// What a user says of a body, in a section `Body NAME`: where its mesh comes from,
-  /// where it is put, what it is made of, how it moves at the start.
+  /// A body as described in a section `Body NAME`: its mesh, position, material
+  /// and initial motion.
   template <int dim>
   struct BodySection
   {
@@ -74,7 +74,7 @@ namespace Ricochet
     dealii::Tensor<1, dim> translation;
 
     MaterialParameters material;
-    /// A section Material that takes its place; empty for none.
+    /// A section Material that replaces it; empty for none.
     std::string material_name;
     /// Materials of their own for some material ids: "3: rubber; core: steel".
     std::string            materials;
@@ -83,7 +83,7 @@ namespace Ricochet
     /// Expressions of x, y, z and t (m/s^2); empty for none.
     std::string acceleration;
 
-    /// How long a library may make the mesh (s); 0 for any time.
+    /// Time that a library may take for the mesh (s); 0 for any time.
     unsigned int meshing_time = 0;
 
     void
@@ -94,19 +94,19 @@ namespace Ricochet
 
     /**
      * Make, or read, and place the mesh.
-     * @param advance how long the body has flown from its place already (s).
+     * @param advance time of flight from the given position (s).
      * @throws InputError when it cannot be made.
      */
     void
     make_mesh(BodyMesh<dim> &mesh, const double advance) const;
 
-    /// A lower bound of the number of vertices, before any mesh is made; of files it
-    /// knows next to nothing.
+    /// A lower bound of the number of vertices, before any mesh is made; for
+    /// files it is hardly more than zero.
     double
     vertices_at_least() const;
 
-    /// The names of the materials by material id of the @p mesh; those that are not
-    /// there are of the body's own. @throws InputError
+    /// The names of the materials by material id of the @p mesh; those without
+    /// an entry have the body's own. @throws InputError
     std::map<dealii::types::material_id, std::string>
     named_materials(const BodyMesh<dim> &mesh) const;
 

@@ -8,8 +8,8 @@
 
 namespace Ricochet
 {
-  /// What a user says of a part of the boundary, in a section `Condition NAME`: what
-  /// holds, moves or loads it.
+  /// A boundary condition as described in a section `Condition NAME`: a part of
+  /// the boundary that is held, moved or loaded.
   template <int dim>
   struct ConditionSection
   {
@@ -19,7 +19,7 @@ namespace Ricochet
 
     const NamedSection section;
 
-    /// As SurfaceNames knows it.
+    /// A name for SurfaceNames.
     std::string boundary;
     std::string kind = "fixed";
     /// "x, y"; empty for all.

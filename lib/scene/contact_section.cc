@@ -33,7 +33,7 @@ namespace Ricochet
       "surfaces of bodies, named as above; or 'itself'.",
       Patterns::Anything());
     handler.leave_subsection();
-    // 0 stands for what follows from moduli, density, mesh size.
+    // 0 stands for the value that follows from moduli, density and mesh size.
     parameters.add_parameters(handler);
     parameters.add_pair_parameters(handler);
   }

@@ -7,20 +7,20 @@
 
 namespace Ricochet
 {
-  /// What a user says of a contact, in a section `Contact NAME`: what touches what, and
-  /// how it is treated.
+  /// A contact as described in a section `Contact NAME`: its surfaces, and its
+  /// treatment.
   struct ContactSection
   {
     explicit ContactSection(const NamedSection &section);
 
     const NamedSection section;
 
-    /// As SurfaceNames knows it.
+    /// A name for SurfaceNames.
     std::string surface;
     /// An obstacle or several, surfaces as above, or "itself".
     std::string against;
 
-    /// Zero where the value is to be found.
+    /// Zero where the value is to be computed.
     ContactParameters parameters;
 
     void

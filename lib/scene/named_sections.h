@@ -9,8 +9,8 @@
 
 namespace Ricochet
 {
-  /// A section of a parameter file whose name the user has chosen: `subsection Body
-  /// ball` is of the kind "Body" and has the name "ball".
+  /// A section of a parameter file with a name given by the user: `subsection
+  /// Body ball` is of the kind "Body" and has the name "ball".
   struct NamedSection
   {
     std::string kind;
@@ -18,7 +18,7 @@ namespace Ricochet
     /// "file.prm, line 3"
     std::string where;
 
-    /// As it stands in the file: "Body ball".
+    /// Heading in the file: "Body ball".
     std::string
     full_name() const
     {

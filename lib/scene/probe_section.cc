@@ -234,7 +234,7 @@ namespace Ricochet
     if (quantity == "rotation")
       return add_rotation_to(loop, impact, begin, end);
 
-    // The vector of a state that is looked at, and its unit.
+    // The vector of a state that is observed, and its unit.
     static const std::map<std::string, std::pair<Vector State::*, std::string>>
       quantities                  = {{"displacement", {&State::solution, "m"}},
                                      {"velocity", {&State::velocity, "m/s"}},

@@ -14,8 +14,8 @@
 
 namespace Ricochet
 {
-  /// What a user wants to know at each time, in a section `Probe NAME`: columns of the
-  /// ledger.
+  /// Quantities to be written at each time, as described in a section `Probe
+  /// NAME`: columns of the ledger.
   template <int dim>
   struct ProbeSection
   {
@@ -44,7 +44,7 @@ namespace Ricochet
            const SurfaceNames              &surfaces,
            const std::vector<unsigned int> &first_part) const;
 
-    /// What add_to() would refuse. @throws InputError
+    /// Check for the errors of add_to(). @throws InputError
     void
     check(const Impact<dim>               &impact,
           const SurfaceNames              &surfaces,
@@ -77,7 +77,7 @@ namespace Ricochet
                     const Impact<dim>  &impact,
                     const SurfaceNames &surfaces) const;
 
-    /// Of the parts from @p begin to before @p end.
+    /// Unknowns of the parts from @p begin to before @p end.
     void
     add_rotation_to(TimeLoop          &loop,
                     const Impact<dim> &impact,

@@ -165,7 +165,7 @@ namespace Ricochet
 
 
 
-  // ### What the sections mean together
+  // ### The sections together
   template <int dim>
   void
   Scene<dim>::validate()
@@ -213,7 +213,7 @@ namespace Ricochet
           }
         catch (const InputError &error)
           {
-            // Which of them is meant.
+            // Number of the named one.
             throw InputError(contact.section.where + ", " +
                              contact.section.full_name() + ": " + error.what());
           }
@@ -255,7 +255,7 @@ namespace Ricochet
       {
         meshes.push_back(std::make_unique<BodyMesh<dim>>());
         BodyMesh<dim> &mesh = *meshes.back();
-        // What is much too large would not come back from there.
+        // A mesh that is much too large is refused here, before it is made.
         impact.check_size(dim * bodies[b].vertices_at_least(), dim);
         bodies[b].meshing_time = meshing_time;
         bodies[b].make_mesh(mesh, advance);
@@ -519,7 +519,7 @@ namespace Ricochet
           for (const auto &surface :
                surfaces.find(contact.against, contact.name_of("Against")))
             add_partners(surface);
-        // Where no modulus is finite, nothing that follows from it is.
+        // Without a finite modulus no default by scale is finite.
         constexpr double largest = std::numeric_limits<double>::max();
         Scales           scales{largest, largest, 0., sum / n, degree};
         for (const unsigned int p : partners)

@@ -15,17 +15,17 @@
 
 namespace Ricochet
 {
-  /// The dimension that @p text asks for by `set Dimension`. @throws InputError when it
-  /// is neither 2 nor 3, or missing.
+  /// The dimension set in @p text by `set Dimension`. @throws InputError when
+  /// it is neither 2 nor 3, or missing.
   unsigned int
   dimension_of(const ParameterText &text);
 
   /**
-   * Bodies, obstacles, contacts, conditions and probes as a parameter file names them,
-   * in as many sections as it wants: see the program ricochet.
+   * Bodies, obstacles, contacts, conditions and probes as named in a parameter
+   * file, in any number of sections: see the program ricochet.
    *
-   * The steps are those of run_program(): names first, then parameters, then what they
-   * mean together.
+   * The steps are those of run_program(): names first, then parameters, then
+   * their combination.
    */
   template <int dim>
   class Scene
@@ -37,7 +37,7 @@ namespace Ricochet
     void
     add_parameters(dealii::ParameterHandler &parameters);
 
-    /// Meshes are made here, since only they tell whether their boundaries exist.
+    /// Meshes are made here, since the boundaries are known from them only.
     /// @throws InputError
     void
     validate();
@@ -45,8 +45,9 @@ namespace Ricochet
     std::vector<UnusedParameter>
     unused_parameters() const;
 
-    /// What there is: bodies with measure, mass and boundaries, contacts with gaps and
-    /// the values that were found for them. After validate().
+    /// Description of the scene: bodies with volume, mass and boundaries,
+    /// contacts with gaps and the default values that were computed for them.
+    /// After validate().
     /// @param folder gets setup.vtk, the meshes with the numbers of parts and boundaries,
     /// and this text as setup.txt, unless it is empty.
     /// @throws InputError when bodies overlap.
@@ -57,7 +58,7 @@ namespace Ricochet
     run(RunFolder &folder);
 
   private:
-    /// Between what a contact acts.
+    /// The sides of a contact.
     struct Touching
     {
       /// Names of obstacles, with surfaces; or
@@ -68,7 +69,7 @@ namespace Ricochet
       std::vector<SurfaceNames::Surface>   slave;
     };
 
-    /// Of sections that nothing refers to.
+    /// Names of unused sections.
     std::vector<std::string>
     notes() const;
 
@@ -101,7 +102,7 @@ namespace Ricochet
     ImpactSetup<dim>
     make_setup() const;
 
-    /// Of all bodies, for cells of second order; otherwise nothing.
+    /// Nodes of all bodies, for cells of second order; otherwise nothing.
     CellNodes<dim>
     nodes_of_cells() const;
 
@@ -123,7 +124,7 @@ namespace Ricochet
     unsigned int           meshing_time = 600;
     std::string            units_text   = "m, kg, s";
 
-    // The handler that the parameters were added to, for values that are found.
+    // The handler that the parameters were added to, for computed defaults.
     dealii::ParameterHandler *handler = nullptr;
 
     /// Cells of one body that are of one material: a part, see Body::part().
@@ -140,9 +141,9 @@ namespace Ricochet
     std::vector<std::unique_ptr<BodyMesh<dim>>> meshes;
     SurfaceNames                                surfaces;
     std::vector<PartOfScene>                    parts;
-    // Of each body, and the number of all.
+    // First part of each body, and the number of all parts.
     std::vector<unsigned int> first_part;
-    // Middle of the mass of each body (m).
+    // Centre of mass of each body (m).
     std::vector<dealii::Point<dim>> centres;
   };
 } // namespace Ricochet

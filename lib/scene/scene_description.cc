@@ -23,7 +23,7 @@
 #include <limits>
 #include <sstream>
 
-// What a user is told of a scene before it runs.
+// Description of a scene before its run.
 namespace Ricochet
 {
   using namespace dealii;
@@ -57,7 +57,7 @@ namespace Ricochet
         const LinearElastic       small    = material.at_small_strains();
         const double              poisson_ratio =
           .5 * small.lambda / (small.lambda + small.mu);
-        // In plane stress the thickness gives way.
+        // In plane stress the thickness is free.
         if (degree == 1 && poisson_ratio >= .49 &&
             (dim == 3 || material.plane_state == "plane strain"))
           lines.push_back(
@@ -197,8 +197,8 @@ namespace Ricochet
           }
         return smallest;
       }
-    // Of the vertices of each surface from the facets of the other one; two edges in 3D
-    // may be nearer.
+    // Smallest distance of the vertices of each surface from the facets of the
+    // other one; two edges in 3D may be nearer.
     const std::array<std::vector<SurfaceNames::Surface>, 2> sides = {
       {touching.slave,
        surfaces.find(contact.against, contact.name_of("Against"))}};
@@ -219,7 +219,7 @@ namespace Ricochet
 
   namespace
   {
-    /// For what is told, not computed with.
+    /// For output only.
     double
     three_digits(const double number)
     {
@@ -233,11 +233,11 @@ namespace Ricochet
 
   namespace
   {
-    // Files that a description leaves in a folder.
+    // Files of a description in a folder.
     const std::string mesh_picture     = "setup.vtk",
                       obstacle_picture = "setup_obstacles.vtu",
                       description_file = "setup.txt";
-    // The line by which they are known again.
+    // The line that identifies them.
     const std::string title = "Meshes of a scene, by Ricochet";
 
     template <int dim>
@@ -305,7 +305,7 @@ namespace Ricochet
              << mesh.cells.n_used_vertices() << " vertices, "
              << extents[dim - 2] << ' ' << to_text(measure) << ", mass "
              << units.text(mass, "kg") << ", middle (";
-        // What is round-off is zero.
+        // Values of the size of round-off are set to zero.
         const double extent = std::pow(measure, 1. / dim);
         for (unsigned int c = 0; c < dim; ++c)
           text << (c > 0 ? ", " : "")
@@ -313,7 +313,7 @@ namespace Ricochet
                             ? 0.
                             : centres[b][c]);
         text << ")\n";
-        // How fine steps and cells are beside each other.
+        // Ratio of time steps to cells.
         double smallest = std::numeric_limits<double>::max(), fastest = 0.;
         for (const auto &cell : mesh.cells.active_cell_iterators())
           smallest = std::min(smallest, cell->minimum_vertex_distance());
@@ -378,7 +378,7 @@ namespace Ricochet
           text << "), " << units.text(nearest.distance(place), "m")
                << " from the point\n";
         }
-    // What overlaps is refused here as it is by a run.
+    // Overlaps are refused here as in a run.
     Triangulation<dim> whole;
     join(whole);
     FolderLock lock;
@@ -413,7 +413,7 @@ namespace Ricochet
       text << line << '\n';
     if (!folder.empty())
       on_first_rank(MPI_COMM_WORLD, [&]() {
-        // Beside the picture, for who draws it.
+        // The same text beside the picture.
         write_atomically(folder + "/" + description_file, text.str());
       });
     return text.str();

@@ -12,14 +12,14 @@
 #include <cstdio>
 #include <sstream>
 
-// From what a scene means to the run.
+// Set-up of the run from a scene.
 namespace Ricochet
 {
   using namespace dealii;
 
   namespace
   {
-    /// A name as it stands in the ledger.
+    /// A name as written in the ledger.
     std::string
     column_name(std::string name)
     {
@@ -70,8 +70,8 @@ namespace Ricochet
                  touching.is_self ? slave : touching.master,
                  touching.is_self}}});
           }
-        // Of rigid obstacles, one for each body and obstacle: a body has its own
-        // stress, and a boundary may touch several.
+        // Contacts with rigid obstacles, one for each body and obstacle: a body
+        // has its own stress, and a boundary may touch several.
         for (const unsigned int i : touching.obstacles)
           for (const auto &surface : touching.slave)
             {
@@ -187,7 +187,8 @@ namespace Ricochet
     void
     add_resultants(TimeLoop &loop, const Impact<dim> &assembly)
     {
-      // Of each name, the numbers of contacts and the nodes of their first surfaces.
+      // For each name, the numbers of contacts and the nodes of their first
+      // surfaces.
       struct Resultant
       {
         std::string                                    name;
@@ -248,7 +249,7 @@ namespace Ricochet
     for (const std::string &line : notes())
       folder.log(line);
 
-    // What was found takes the place of the zeros in parameters.prm.
+    // Computed values replace the zeros in parameters.prm.
     for (const ContactSection &contact : contacts)
       {
         handler->enter_subsection(contact.section.full_name());
@@ -283,7 +284,7 @@ namespace Ricochet
 
     const State initial_state = assembly.state_of_parts();
 
-    // Boundaries of one contact are told of together.
+    // Boundaries of one contact have common columns.
     std::map<types::boundary_id, std::string> names;
     std::vector<Obstacles>                    obstacles_of_contacts;
     for (unsigned int k = 0; k < assembly.contacts.size(); ++k)

@@ -11,8 +11,8 @@
 
 namespace Ricochet
 {
-  /// What a user can call a surface in a scene of several bodies, each of which has
-  /// boundary ids, and perhaps names for them, of its own.
+  /// Names of surfaces in a scene of several bodies, each of which has boundary
+  /// ids, and possibly names for them, of its own.
   class SurfaceNames
   {
   public:
@@ -56,8 +56,8 @@ namespace Ricochet
     std::vector<Surface>
     find(const std::string &text, const std::string &where) const;
 
-    /// What the boundary with the number @p id of the scene is called in its body:
-    /// its number there, and its name if it has one.
+    /// Description of the boundary with the number @p id of the scene in its
+    /// body: its number there, and its name if it has one.
     std::string
     name_of(const dealii::types::boundary_id id) const;
 

@@ -6,8 +6,9 @@
 
 namespace Ricochet
 {
-  /// The parameter of multipliers and active sets, and of what is solved as they are:
-  /// friction, and laws that are not linear in pieces.
+  /// The augmentation parameter of multipliers and active sets, also used for
+  /// exact friction and for laws that are not piecewise linear, which are
+  /// solved in the same form.
   inline OwnParameters
   augmentation_parameters()
   {

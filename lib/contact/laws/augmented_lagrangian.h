@@ -12,7 +12,7 @@ namespace Ricochet
    * Proximal augmented Lagrangian (paper C, (18)-(21)), with the multiplier
    * lambda >= 0 in compression and gamma = gamma_a / h_T: the potential is
    * ([lambda - gamma g]_+^2 - lambda^2) / (2 gamma). This is Nitsche's method
-   * with the multiplier in the place of the body's own stress.
+   * with the multiplier in place of the body's own stress.
    */
   struct ProximalAugmentedLagrangian
   {

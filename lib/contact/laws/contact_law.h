@@ -12,7 +12,7 @@
 namespace Ricochet
 {
   /**
-   * All that a law of normal contact may look at in one point of the contact
+   * The state variables of a law of normal contact in one point of the contact
    * boundary. Signs: gap > 0 is separated, pressures are positive in
    * compression.
    */
@@ -27,9 +27,9 @@ namespace Ricochet
     Number multiplier{};
   };
 
-  /// The generalised forces that a law answers with, per unit of area:
-  /// the virtual work is gap * delta(gap) + stress_pressure *
-  /// delta(stress_pressure) + multiplier * delta(multiplier).
+  /// The generalised forces of a law, per unit of area: the virtual work is gap
+  /// * delta(gap) + stress_pressure * delta(stress_pressure) + multiplier *
+  /// delta(multiplier).
   template <typename Number = double>
   struct ContactPointForce
   {
@@ -57,7 +57,8 @@ namespace Ricochet
     return x > 0. ? 1. : (x < 0. ? 0. : .5);
   }
 
-  /// Where a law is evaluated and which unknowns it needs.
+  /// Requirements of a law: the points in which it is evaluated, and the
+  /// unknowns that it needs.
   struct ContactLawTraits
   {
     /// Nodes with a lumped boundary mass instead of quadrature points.
@@ -69,11 +70,11 @@ namespace Ricochet
     /// The law reads the old state too, as a discrete derivative does; only
     /// the midpoint scheme can use it.
     bool is_two_point = false;
-    /// Coulomb's friction with a tangential compliance can be put beside it:
-    /// minus the force on the gap is a contact pressure.
+    /// Coulomb's friction with a tangential compliance can be added: minus the
+    /// force on the gap is a contact pressure.
     bool takes_friction = false;
-    /// The tangent depends on nothing but branch(): factorisations can be kept
-    /// while the branches stay the same. Otherwise the force is a pressure, never
+    /// The tangent depends on branch() only: factorisations can be reused while
+    /// the branches stay the same. Otherwise the force is a pressure, never
     /// negative, that depends on the gap alone and falls with it.
     bool piecewise_linear = true;
     /// potential() is the potential of force(), so that a modified energy
@@ -82,8 +83,8 @@ namespace Ricochet
   };
 
   /**
-   * A pointwise contact law: a pure function of the state of one point, which
-   * knows nothing of meshes, materials and time schemes.
+   * A pointwise contact law: a pure function of the state of one point,
+   * independent of meshes, materials and time schemes.
    *
    * A concrete law is a struct from which ContactLawImplementation makes one of this
    * class, see contact_law_table.h; the table is in contact_treatment_table.cc.
@@ -112,7 +113,7 @@ namespace Ricochet
             const ContactPointState<> &old_state,
             const double               cell_diameter) const = 0;
 
-    /// Which smooth branch of the law the state is on; 0 means no contact.
+    /// The smooth branch of the law on which the state is; 0 means no contact.
     virtual int
     branch(const ContactPointState<> &new_state,
            const ContactPointState<> &old_state,
@@ -123,7 +124,7 @@ namespace Ricochet
     potential(const ContactPointState<> &state,
               const double               cell_diameter) const = 0;
 
-    /// The contact pressure that the law itself stands for at a state (Pa).
+    /// The contact pressure of the law itself at a state (Pa).
     virtual double
     pressure(const ContactPointState<> &state,
              const double               cell_diameter) const = 0;
@@ -138,9 +139,10 @@ namespace Ricochet
   };
 
   /**
-   * Turns a struct with a templated force into a ContactLaw. The template lets
-   * the tests differentiate the very force that the programs use by automatic
-   * differentiation, which also gives the tangent of a law that does not write it.
+   * Turns a struct with a templated force into a ContactLaw. By the template
+   * the tests differentiate the same force that the programs use by automatic
+   * differentiation, which also gives the tangent of laws without a tangent of
+   * their own.
    */
   template <typename Law>
   class ContactLawImplementation : public ContactLaw
@@ -192,7 +194,8 @@ namespace Ricochet
         }
     }
 
-    /// Of a law that does not write it: whether it presses.
+    /// Default for laws without a branch() of their own: whether there is a
+    /// pressure.
     int
     branch(const ContactPointState<> &new_state,
            const ContactPointState<> &old_state,

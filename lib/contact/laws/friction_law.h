@@ -17,8 +17,9 @@ namespace Ricochet
   };
 
   /**
-   * A law of friction: the tangential traction that a point stands before it slips, and
-   * has while it slips. What is below, see RegularisedFriction.
+   * A law of friction: the largest tangential traction of a sticking point,
+   * which is that of a slipping one. See RegularisedFriction for smaller
+   * tractions.
    *
    * A concrete law is a struct with
    *
@@ -28,9 +29,9 @@ namespace Ricochet
    *     template <typename Number>
    *     Number limit(const Number &pressure, const Number &slip_speed) const;
    *
-   * and, if there is none with some values, `static std::string absent(const
-   * ParameterValues &)`, which then says so ("Friction coefficient is 0") and is empty
-   * otherwise. The table is in contact_treatment_table.cc.
+   * and, if some values mean no friction, `static std::string absent(const
+   * ParameterValues &)`, which then gives the reason ("Friction coefficient is
+   * 0") and is empty otherwise. The table is in contact_treatment_table.cc.
    */
   class FrictionLaw
   {

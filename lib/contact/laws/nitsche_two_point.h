@@ -11,8 +11,8 @@ namespace Ricochet
    * Nitsche's method within a midpoint step, as a two-point law. The linear
    * part, theta (p, p(v)) / gamma, is taken at the midpoint, like the bulk
    * force, so that its work is exact. For the positive part of q = p - gamma g
-   * there are two choices, and both never let the modified energy of C, (13)
-   * grow when theta = 1.
+   * there are two choices; with either the modified energy of C, (13) never
+   * grows when theta = 1.
    *
    * The hybrid (paper C, (38)-(39), corrected), with q_mid = (q_old + q_new)/2:
    *
@@ -130,8 +130,8 @@ namespace Ricochet
             const double               cell_diameter) const
     {
       const double gamma = stiffness(cell_diameter);
-      // Derivative of the positive part with respect to q_new. Whichever part
-      // of the hybrid is weighed, it is 1/2 when that part is active.
+      // Derivative of the positive part with respect to q_new. It is 1/2 for
+      // either part of the hybrid when that part is active.
       const double slope = (evaluation == Evaluation::end_of_step ? 1. : .5) *
         branch(new_state, old_state, cell_diameter);
       return ContactPointTangent(

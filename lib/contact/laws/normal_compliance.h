@@ -250,7 +250,7 @@ namespace Ricochet
 
   /**
    * Standard normal compliance evaluated at the mean of the gaps of a midpoint
-   * step, as paper A prints it in (3.4). Not safe: its energy can grow without
+   * step, as printed in paper A, (3.4). Not stable: its energy can grow without
    * bound.
    */
   struct MidpointNormalCompliance : public StandardNormalCompliance

@@ -22,8 +22,8 @@ namespace Ricochet
    *     traction = c_tau v          if c_tau |v| < limit (stick),
    *     traction = limit v/|v|      otherwise (slip).
    *
-   * The traction stands on the side of the internal forces: its power,
-   * traction . v, is what friction takes away and is never negative.
+   * The traction has the sign of the internal forces: its power, traction . v,
+   * is the dissipation of friction and never negative.
    */
   class RegularisedFriction
   {
@@ -72,12 +72,12 @@ namespace Ricochet
     }
 
     /**
-     * The law again, with stick and slip told apart by @p trial instead of the
-     * slip rate: a trial = traction + r (v - traction/c_tau) of the last
-     * iterate, with a small r. At a solution both are the same, for any r > 0;
-     * on the way there a point that should stick is not thrown from one
-     * direction of slip into the other (the primal-dual active set of Hüeber,
-     * Stadler and Wohlmuth 2008, for the regularised law).
+     * The law with stick and slip distinguished by @p trial instead of the slip
+     * rate: a trial = traction + r (v - traction/c_tau) of the last iterate,
+     * with a small r. At a solution both are the same, for any r > 0; during
+     * the iterations a sticking point does not alternate between opposite
+     * directions of slip (the primal-dual active set of Hüeber, Stadler and
+     * Wohlmuth 2008, for the regularised law).
      */
     struct Branch
     {

@@ -12,8 +12,8 @@ namespace Ricochet
    * Signorini's condition in the nodes by multipliers: the quasi-Lagrangian of
    * Alart and Curnier (CMAME 92, 1991), as papers A and B use it. The force is
    * the multiplier itself, and the complementarity g >= 0, lambda >= 0,
-   * lambda g = 0 is the equation lambda = [lambda - r g]_+. The augmentation
-   * r = r_0 / h_T steers Newton's method only; the solution does not depend on
+   * lambda g = 0 is the equation lambda = [lambda - r g]_+. The augmentation r
+   * = r_0 / h_T affects Newton's method only; the solution does not depend on
    * it.
    */
   struct SignoriniMultiplier

@@ -6,7 +6,7 @@
 
 namespace Ricochet
 {
-  /// An infinite round bar, or all around one: a tube or a drum.
+  /// An infinite round bar, or its complement: a tube or a drum.
   class CylinderShape : public ObstacleShape
   {
   public:

@@ -6,7 +6,7 @@
 
 namespace Ricochet
 {
-  /// All that lies behind a plane.
+  /// The half space behind a plane.
   class HalfSpace : public ObstacleShape
   {
   public:

@@ -19,8 +19,8 @@ namespace Ricochet
    * The discrete gradient is that of Gonzalez (J. Nonlinear Sci. 6, 1996): the
    * gradient in the middle, corrected along the step. It keeps energy exactly;
    * a surface of revolution given in this way keeps angular momentum only up to
-   * terms of the third order in the step. What needs second derivatives of phi is
-   * taken from differences of the gradient.
+   * terms of the third order in the step. Second derivatives of phi are
+   * differences of the gradient.
    */
   class LevelSet : public ObstacleShape
   {
@@ -62,10 +62,10 @@ namespace Ricochet
     dealii::Tensor<1, 3>
     gap_gradient(const dealii::Tensor<1, 3> &x) const;
 
-    /// Whether the gradient in the middle of a @p step has to be corrected. What it
-    /// is wrong by falls with the cube of the step and is soon less than round-off,
-    /// which the correction divides by the step: a point that sticks would be
-    /// pushed about.
+    /// Whether the gradient in the middle of a @p step has to be corrected. Its
+    /// error falls with the cube of the step and is soon less than round-off,
+    /// which the correction divides by the step: a sticking point would be
+    /// moved at random.
     bool
     needs_correction(const dealii::Tensor<1, 3> &step) const;
 

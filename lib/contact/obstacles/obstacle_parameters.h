@@ -12,13 +12,14 @@
 
 namespace Ricochet
 {
-  /// What a user says of a rigid obstacle, in the subsection Obstacle.
+  /// A rigid obstacle as described in the subsection Obstacle.
   template <int dim>
   struct ObstacleParameters
   {
     ObstacleParameters();
 
-    /// Of the parameter file; several obstacles have sections of their own.
+    /// Section of the parameter file; several obstacles have sections of their
+    /// own.
     std::string section = "Obstacle";
     std::string shape   = "half space";
     /// m
@@ -37,13 +38,13 @@ namespace Ricochet
     std::string            translation = dim == 2 ? "0; 0" : "0; 0; 0";
     std::string            rotation    = "0";
     dealii::Tensor<1, dim> rotation_centre;
-    /// In space only; in the plane obstacles turn about its normal.
+    /// In 3D only; in 2D obstacles turn about the normal of the plane.
     dealii::Tensor<1, 3> rotation_axis;
 
     void
     add_parameters(dealii::ParameterHandler &parameters);
 
-    /// The parameters that the shape makes no use of.
+    /// The parameters that the shape does not use.
     std::vector<UnusedParameter>
     unused_parameters() const;
 

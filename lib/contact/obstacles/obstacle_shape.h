@@ -80,7 +80,7 @@ namespace Ricochet
       return 2. * discrete_normal_derivative(x, x);
     }
 
-    /// Which rotations leave the surface as it is.
+    /// Rotations that leave the surface unchanged.
     enum class Symmetry
     {
       none,
@@ -96,7 +96,7 @@ namespace Ricochet
       return Symmetry::none;
     }
 
-    /// A point that tells where the obstacle is (m).
+    /// A reference point of the obstacle (m).
     virtual dealii::Tensor<1, 3>
     centre() const
     {
@@ -110,7 +110,7 @@ namespace Ricochet
       return {};
     }
 
-    /// What is wrong with the shape at @p x, as a sentence; empty if nothing is.
+    /// The problem of the shape at @p x, as a sentence; empty if there is none.
     virtual std::string
     problem_at(const dealii::Tensor<1, 3> & /*x*/) const
     {

@@ -20,7 +20,7 @@ namespace Ricochet
     struct Entry
     {
       std::string name;
-      /// The parameters that it takes.
+      /// The parameters of the shape.
       std::set<std::string> uses;
       std::function<std::shared_ptr<const ObstacleShape>(
         const ObstacleParameters<dim> &)>
@@ -54,7 +54,8 @@ namespace Ricochet
                                                split_expressions(p.gradient),
                                                p.length);
            }}};
-        // In the plane, sections of these are circles or nothing new.
+        // Shapes in 3D only: in 2D their sections are circles or shapes of the
+        // table.
         if constexpr (dim == 3)
           {
             list.push_back(
@@ -233,7 +234,7 @@ namespace Ricochet
                              rotation,
                              in_space(rotation_centre),
                              rotation_axis);
-    // A motion that breaks down later is an error of the input all the same.
+    // A motion that is not finite later is an error of the input, too.
     try
       {
         for (unsigned int k = 0; k <= 1000; ++k)

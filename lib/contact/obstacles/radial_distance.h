@@ -14,8 +14,8 @@ namespace Ricochet
    *
    * is a discrete gradient of it without any division by the step. It points
    * along the mean of both vectors, so that a force along it has no moment about
-   * the origin. Where both vectors cancel, it is one across them, or at the origin any
-   * one: of length one, as elsewhere, and with a product with the step that is zero.
+   * the origin. Where both vectors cancel, it is a unit vector perpendicular to
+   * them, or any one at the origin: its product with the step is zero.
    */
   namespace RadialDistance
   {

@@ -13,7 +13,8 @@
 
 namespace Ricochet
 {
-  /// Where a rigid obstacle is: a point X of it is at rotation X + translation.
+  /// Position of a rigid obstacle: a point X of it is at rotation X +
+  /// translation.
   struct Placement
   {
     dealii::Tensor<2, 3> rotation =
@@ -27,7 +28,7 @@ namespace Ricochet
       return (x - translation) * rotation;
     }
 
-    /// Where the point @p X of the obstacle is.
+    /// Position of the point @p X of the obstacle.
     dealii::Tensor<1, 3>
     push_forward(const dealii::Tensor<1, 3> &X) const
     {
@@ -49,8 +50,8 @@ namespace Ricochet
     /**
      * @param translation three expressions (m).
      * @param angle (rad)
-     * @param centre the point about which the obstacle turns, at the place where
-     * the shape was given (m).
+     * @param centre the point about which the obstacle turns, in the given
+     * position of the shape (m).
      * @param axis of any length but zero.
      * @throws InputError when an expression cannot be read.
      */
@@ -73,8 +74,8 @@ namespace Ricochet
     /**
      * The work (J) of a force (N) and its moment about the origin (N m) on the
      * obstacle from @p begin to @p end (s), if both are constant: force times
-     * the way of the centre, plus moment about the centre, in the middle of its
-     * way, times angle.
+     * the displacement of the centre, plus moment about the centre, in the
+     * middle of its displacement, times angle.
      */
     double
     work(const dealii::Tensor<1, 3> &force,

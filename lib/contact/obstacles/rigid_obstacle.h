@@ -23,7 +23,7 @@ namespace Ricochet
    *
    * m for the mean and d for the difference of both ends, the force acts along
    * Q_m D: its work on the body is that of the gap, and the rest is the work of
-   * the obstacle's motion. Of the rotation only what changes the surface counts:
+   * the obstacle's motion. Only those rotations count that change the surface:
    * a wheel that turns about its axis has the same gap at all angles.
    */
   class RigidObstacle
@@ -48,7 +48,7 @@ namespace Ricochet
       return rigid_motion;
     }
 
-    /// Gaps are affine functions of the unknowns, the same for ever.
+    /// Gaps are affine functions of the unknowns, constant in time.
     bool
     is_plane_at_rest() const
     {
@@ -70,7 +70,7 @@ namespace Ricochet
       return placement.rotation * surface->normal(placement.pull_back(x));
     }
 
-    /// Where the obstacle is during a step; what all points share.
+    /// Positions of the obstacle during a step, common to all points.
     struct Step
     {
       /// Up to rotations that leave the surface as it is.
@@ -78,7 +78,7 @@ namespace Ricochet
       /// Of these.
       dealii::Tensor<2, 3> mean_rotation, rotation_change;
       dealii::Tensor<1, 3> mean_translation, translation_change;
-      /// As the material of the obstacle moves, which drags what sticks to it.
+      /// Displacement of the obstacle's material, which drags sticking points.
       Placement            material_begin, material_end;
       dealii::Tensor<2, 3> material_rotation_change;
     };
@@ -87,27 +87,29 @@ namespace Ricochet
     Step
     step(const double begin, const double end) const;
 
-    /// What contact needs to know of a point over a step.
+    /// Data of a point over a step for contact.
     struct Rows
     {
-      /// Direction of the contact force, towards the body; of length one but for
-      /// terms of second order in the step.
+      /// Direction of the contact force, towards the body; of length one except
+      /// for terms of second order in the step.
       dealii::Tensor<1, 3> direction;
       /// Its derivative with respect to the point at the end (1/m).
       dealii::Tensor<2, 3> direction_derivative;
       /// Gradient of the gap at the end.
       dealii::Tensor<1, 3> gap_gradient;
-      /// Change of the gap (m), from the way and not from both gaps, so that
-      /// nothing cancels.
+      /// Change of the gap (m), from the displacement increment and not from
+      /// both gaps, to avoid cancellation.
       double gap_increment = 0.;
-      /// Way of the point less that of the obstacle's material there (m).
+      /// Displacement increment of the point less that of the obstacle's
+      /// material there (m).
       dealii::Tensor<1, 3> relative_way;
       /// Its derivative with respect to the point at the end.
       dealii::Tensor<2, 3> relative_way_derivative;
     };
 
-    /// @param old_x where the point begins. @param x where it ends. @param way
-    /// x - old_x, without the round-off of the difference.
+    /// @param old_x the point at the beginning. @param x the point at the end.
+    /// @param way displacement increment x - old_x, without the round-off of
+    /// the difference.
     Rows
     rows(const Step                 &step,
          const dealii::Tensor<1, 3> &old_x,

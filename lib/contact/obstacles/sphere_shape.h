@@ -6,7 +6,7 @@
 
 namespace Ricochet
 {
-  /// A ball, or all around one: in the plane, a disk or a bowl.
+  /// A ball, or its complement: in 2D, a disk or a bowl.
   class SphereShape : public ObstacleShape
   {
   public:

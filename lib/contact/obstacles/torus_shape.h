@@ -94,7 +94,7 @@ namespace Ricochet
     }
 
   private:
-    /// Where a point is with respect to the circle.
+    /// Position of a point with respect to the circle.
     struct Place
     {
       Place(const TorusShape &torus, const dealii::Tensor<1, 3> &x)

@@ -14,7 +14,7 @@ namespace Ricochet
    * after the other (I. Sutherland, G. Hodgman, Reentrant polygon clipping, Comm. ACM
    * 17 (1974)).
    *
-   * What two triangles with a common edge leave on both sides of it fits, but for
+   * The parts on both sides of a common edge of two triangles fit together to
    * round-off.
    */
   class ClippedTriangle
@@ -22,7 +22,7 @@ namespace Ricochet
   public:
     using Point = std::array<double, 2>;
 
-    /// @param corners of the other triangle, either way round.
+    /// @param corners of the other triangle, in either orientation.
     explicit ClippedTriangle(const std::array<Point, 3> &corners)
     {
       for (const Point &corner : corners)
@@ -40,7 +40,7 @@ namespace Ricochet
       return total;
     }
 
-    /// Only of an #area() that is not zero.
+    /// Only for an #area() that is not zero.
     const Point &
     middle() const
     {

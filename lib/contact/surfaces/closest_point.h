@@ -15,15 +15,16 @@ namespace Ricochet
     return dealii::Tensor<1, 3>({x[0], x[1], x[2]});
   }
 
-  /// The shares of a, b and c in the point of the triangle between them that is closest
-  /// to @p y. A triangle without area is the longest of its edges.
+  /// Barycentric coordinates of the point of the triangle (a, b, c) that is
+  /// closest to @p y. A triangle without area is the longest of its edges.
   inline std::array<double, 3>
   closest_in_triangle(const dealii::Tensor<1, 3> &y,
                       const dealii::Tensor<1, 3> &a,
                       const dealii::Tensor<1, 3> &b,
                       const dealii::Tensor<1, 3> &c)
   {
-    // In the plane of the triangle, as a + first (b - a) + second (c - a).
+    // Projection on the plane of the triangle, as a + first (b - a) + second (c
+    // - a).
     const dealii::Tensor<1, 3> e1 = b - a, e2 = c - a, r = y - a;
     const double q11 = e1 * e1, q12 = e1 * e2, q22 = e2 * e2, q1 = e1 * r,
                  q2   = e2 * r;

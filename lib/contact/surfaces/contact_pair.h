@@ -14,13 +14,14 @@ namespace Ricochet
   {
     /// For the columns of the ledger.
     std::string name;
-    /// Boundary ids of the surface in whose points contact is formulated (slave),
-    /// and of the one before whose facets they are (master). The slave should be
-    /// the softer body.
+    /// Boundary ids of the surface in whose points contact is formulated
+    /// (slave), and of the one whose facets they are projected on (master). The
+    /// slave should be the softer body.
     std::set<dealii::types::boundary_id> slave, master;
 
     /// One surface, that of one or several bodies, against itself: each of its nodes
-    /// is held off all of its facets. Slave and master are the same then.
+    /// is kept from penetrating any of its facets. Slave and master are the
+    /// same then.
     bool is_self = false;
   };
 

@@ -17,7 +17,7 @@ namespace Ricochet
 
   namespace
   {
-    /// A facet as it goes from rank to rank.
+    /// A facet as sent from rank to rank.
     template <int dim>
     struct Message
     {
@@ -53,7 +53,7 @@ namespace Ricochet
         // clang-format on
       }
 
-      /// Where parts touch, two facets may be in one place.
+      /// Where parts touch, two facets may coincide.
       bool
       operator<(const Message &other) const
       {
@@ -71,8 +71,9 @@ namespace Ricochet
       return array;
     }
 
-    /// The corners of a face in an order that is anticlockwise from outside, in the plane
-    /// with the outside on the left. Those of a quadrilateral come in two rows.
+    /// The corners of a face in an order that is anticlockwise from outside, in
+    /// 2D with the outside on the left. Those of a quadrilateral come in two
+    /// rows.
     template <int dim>
     void
     turn_around(std::vector<unsigned int>     &corners,
@@ -117,7 +118,7 @@ namespace Ricochet
         for (const Point<dim> &point : points)
           positions.push_back(
             body.mapping().transform_unit_to_real_cell(cell, point));
-        // Vertices are where they are to the last digit.
+        // Vertices are equal to the last digit.
         for (const unsigned int v : cell->vertex_indices())
           positions[v] = cell->vertex(v);
         if (body.has_multipliers())
@@ -174,8 +175,8 @@ namespace Ricochet
       std::vector<Point<dim>> positions;
     };
 
-    /// The facets of a face with @p corners: itself, or, with degree 2, the parts that
-    /// the nodes between them make of it.
+    /// The facets of a face with @p corners: itself, or, with degree 2, the
+    /// parts into which the nodes between them divide it.
     template <int dim>
     std::vector<std::vector<unsigned int>>
     parts_of_face(const std::vector<unsigned int> &corners,

@@ -11,22 +11,22 @@
 namespace Ricochet
 {
   /**
-   * A part of the boundary that can touch another one: facets, how they hang
-   * together, and the unknowns of their nodes. Every rank knows all of this, in the
-   * same order for any number of ranks: surfaces are small against bodies, and the
-   * partner of a point may be on any rank. Where nodes are, ranks ask for only of what
-   * comes near (see SurfacePair).
+   * A part of the boundary that can touch another one: facets, their
+   * neighbours, and the unknowns of their nodes. Every rank stores all of this,
+   * in the same order for any number of ranks: surfaces are small compared with
+   * bodies, and the partner of a point may be on any rank. Positions of nodes
+   * are exchanged only near contact (see SurfacePair).
    *
-   * In the plane facets are segments from node 0 to node 1 with the outside on
-   * their left, in 1D single nodes. In space they are triangles, whose nodes are seen
-   * anticlockwise from outside; a quadrilateral is four of them around the mean of its
-   * nodes, which moves with them.
+   * In 2D facets are segments from node 0 to node 1 with the outside on
+   * their left, in 1D single nodes. In 3D they are triangles, whose nodes are
+   * seen anticlockwise from outside; a quadrilateral is four of them around the
+   * mean of its nodes, which moves with them.
    *
    * With displacements of degree 2 the nodes between vertices are nodes of the surface,
    * and each face is the straight facets between all of its nodes: two segments, four
-   * triangles, or, of a quadrilateral, eight around its middle node. Nodes of curved cells
-   * are where the body is, so that the surface is as near to it as one of cells of half
-   * the size.
+   * triangles, or, of a quadrilateral, eight around its middle node. Nodes of
+   * curved cells lie on the boundary of the body, so that the surface is as
+   * accurate as that of cells of half the size.
    */
   template <int dim>
   class ContactSurface
@@ -54,20 +54,21 @@ namespace Ricochet
       /// Outward unit normal before any displacement.
       dealii::Tensor<1, dim>     normal;
       dealii::types::boundary_id boundary_id = 0;
-      /// Part of which body: the material id of its cell.
+      /// Number of the body's part: the material id of its cell.
       dealii::types::material_id part = 0;
       /// The rank whose cell is behind it.
       unsigned int owner = 0;
       /// Length (m) or area (m^2); 1 in 1D.
       double measure = 1.;
-      /// Of the cell behind it (m).
+      /// Diameter of the cell behind it (m).
       double cell_diameter = 0.;
       /// Volume over face of that cell, no more than the thickness of the body there (m).
       double cell_height = 0.;
-      /// In the plane, the facets before and behind it, at node 0 and node 1; none at
-      /// an open end.
+      /// Neighbours in 2D: the previous and the next facet, at node 0 and node
+      /// 1; none at an open end.
       std::optional<unsigned int> previous, next;
-      /// In space, those beyond its edges from node 0 to 1, 1 to 2 and 2 to 0.
+      /// Neighbours in 3D: the facets beyond its edges from node 0 to 1, 1 to 2
+      /// and 2 to 0.
       std::array<std::optional<unsigned int>, 3> neighbours;
     };
 
@@ -80,8 +81,8 @@ namespace Ricochet
     std::vector<Node>  nodes;
     std::vector<Facet> facets;
 
-    /// Call @p action (number of a node, its share) for the nodes that node @p n moves
-    /// with: itself, or those that it is the mean of.
+    /// Call @p action (number of a node, its weight) for the nodes that node @p
+    /// n moves with: itself, or those that it is the mean of.
     template <typename Action>
     void
     for_each_node_of(const unsigned int n, const Action &action) const

@@ -17,7 +17,8 @@ namespace Ricochet
    * by the rules below, and if the moments of the rows of their operands about the
    * middle positions are zero, so are theirs.
    *
-   * @tparam Number of what is new: double, or a type that knows derivatives.
+   * @tparam Number type of the new values: double, or one for automatic
+   * differentiation.
    * @tparam n number of coordinates.
    */
   template <typename Number, unsigned int n>

@@ -12,33 +12,35 @@
 namespace Ricochet
 {
   /**
-   * Contact of a point with a chain of straight facets in the plane, all of which
-   * move: the gap, and the directions along which forces on the point and on the
-   * nodes of the chain have to act over a step.
+   * Contact of a point with a chain of straight facets in 2D, all of which
+   * move: the gap, and the directions along which forces on the point and on
+   * the nodes of the chain have to act over a step.
    *
-   * The point y is before the facet (a, b), whose outside is on its left, at the
-   * distance g = A / |e| from its line, with e = b - a, r = y - a, A = e x r. With
-   * P = e . r and B = e . e, all three are quadratic functions of the positions,
-   * so that their gradients in the middle of a step are their quotients of
-   * differences. By the rules for products and quotients so are
+   * The point y faces the facet (a, b), whose outside is on its left, at the
+   * distance g = A / |e| from its line, with e = b - a, r = y - a, A = e x r.
+   * With P = e . r and B = e . e, all three are quadratic functions of the
+   * positions, so that their gradients in the middle of a step are their
+   * quotients of differences. By the rules for products and quotients so are
    *
    *     D = mean(1/L) grad A - (A_0 + A_1) / (2 L_0 L_1 (L_0 + L_1)) grad B,
    *     T = L_m [ mean(1/B) grad P - (P_0 + P_1) / (2 B_0 B_1) grad B ]
    *
    * for the gap and for L_m times the coordinate P/B along the facet (L = |e|;
    * gradients and L_m in the middle of the step): D . change = g_1 - g_0, exactly.
-   * Since A, P, B do not notice a motion of all of the points together, nor do D
-   * and T: the sum of the forces is zero, and so is that of their moments.
+   * Since A, P, B are invariant under a rigid motion of all of the points
+   * together, so are D and T: the sum of the forces is zero, and so is that of
+   * their moments.
    *
    * Neighbouring facets meet where the bisector of their angle is. There the
    * distances from both lines are the same: with the unit vectors e_1, e_2 along
    * them, and the bisector's coordinate t = (e_1 + e_2) . (y - b) / (1 + e_1 . e_2),
    * the difference is -(e_1 x e_2) t. For a point that passes the vertex b during
-   * the step, D becomes the mean of both facets' by the part of the way on each,
-   * and a small couple for the change of the angle, so that D . change is still
-   * exactly g_1 - g_0.
+   * the step, D becomes the mean of both facets', weighted by the part of the
+   * displacement on each, and a small couple for the change of the angle, so
+   * that D . change is still exactly g_1 - g_0.
    *
-   * @tparam Number of what is new: double, or a type that knows derivatives.
+   * @tparam Number type of the new values: double, or one for automatic
+   * differentiation.
    */
   template <typename Number>
   class FacetChain
@@ -55,7 +57,7 @@ namespace Ricochet
       Number new_gap{};
       /// D . change, which is new gap - old gap (m).
       Number gap_increment{};
-      /// T . change: how far the point slides along the facet where it began (m).
+      /// T . change: sliding distance of the point along the initial facet (m).
       Number slip{};
       /// D and T, 1.
       std::vector<Number> normal, tangential;
@@ -63,7 +65,7 @@ namespace Ricochet
 
     /**
      * Positions at the beginning of a step and at its end: first that of the
-     * point, then those of the nodes of the chain (m). References are kept.
+     * point, then those of the nodes of the chain (m). References are stored.
      */
     FacetChain(const std::vector<Vector2<double>> &old_positions,
                const std::vector<Vector2<Number>> &new_positions,
@@ -74,8 +76,8 @@ namespace Ricochet
     {}
 
     /**
-     * Rows for a point that begins before the facet @p old_facet of the chain and
-     * ends before @p new_facet. @p rows keeps its memory.
+     * Rows for a point that faces the facet @p old_facet of the chain at the
+     * beginning and @p new_facet at the end. @p rows keeps its memory.
      */
     void
     evaluate(const unsigned int old_facet,
@@ -108,7 +110,7 @@ namespace Ricochet
     }
 
     /// The coordinate (m) from the bisector between @p facet and the next one,
-    /// negative before the first.
+    /// negative on the side of @p facet.
     template <typename T>
     static T
     past_vertex(const std::vector<Vector2<T>> &x, const unsigned int facet)
@@ -140,10 +142,10 @@ namespace Ricochet
         (facet == 0 || past_vertex(x, facet - 1) >= 0.);
     }
 
-    /// The facet before which the point is at positions @p x, found by walking over
-    /// vertices from @p facet. A vertex is only passed by more than @p margin times
-    /// the length of the facet before it: a point that sits at a vertex would go to
-    /// and fro with round-off.
+    /// The facet that the point faces at positions @p x, found by walking over
+    /// vertices from @p facet. A vertex is only passed by more than @p margin
+    /// times the length of the facet before it: a point at a vertex would
+    /// otherwise alternate between facets with round-off.
     static unsigned int
     facet_before(const std::vector<Vector2<double>> &x,
                  unsigned int                        facet,
@@ -198,7 +200,7 @@ namespace Ricochet
                Number(.5 * (old_x[i][1] + new_x[i][1]))}};
     }
 
-    /// Add @p factor * @p gradient to the place of point @p i in @p row.
+    /// Add @p factor * @p gradient to the entries of point @p i in @p row.
     static void
     add(const unsigned int     i,
         const Number          &factor,
@@ -280,8 +282,8 @@ namespace Ricochet
       add_square(a, b, Number(-l * products / (2. * old_b * new_b)), row);
     }
 
-    /// What passing the vertex between @p facet and the next one adds, @p direction
-    /// being 1 towards the next one and -1 from there.
+    /// Add the terms of passing the vertex between @p facet and the next one,
+    /// @p direction being 1 towards the next one and -1 from there.
     void
     add_passing(const unsigned int   facet,
                 const double         direction,
@@ -289,7 +291,7 @@ namespace Ricochet
     {
       const double old_t = past_vertex(old_x, facet);
       const Number new_t = past_vertex(new_x, facet);
-      // The part of the way behind the vertex.
+      // The part of the displacement behind the vertex.
       Number part = new_t / (new_t - old_t);
       if constexpr (!std::is_same<Number, double>::value)
         {

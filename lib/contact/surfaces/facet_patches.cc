@@ -183,7 +183,8 @@ namespace Ricochet
     namespace bgi = boost::geometry::index;
     if (Utilities::MPI::n_mpi_processes(communicator) > 1)
       {
-        // One box of each rank that has places, so that others know what to send it.
+        // One box of each rank with points, from which others see what to send
+        // to it.
         std::vector<Box> region;
         if (!places.empty())
           {

@@ -9,10 +9,10 @@
 namespace Ricochet
 {
   /**
-   * The facets of a surface in patches of neighbours, each of which is on one rank: so
-   * ranks find out what is near their own part of the other surface while each of them
-   * knows where its own patches are, and no other ones. What travels are boxes, and only
-   * those of patches that come near.
+   * The facets of a surface in patches of neighbours, each of which is on one
+   * rank: so ranks find the facets near their own part of the other surface,
+   * although each rank has the positions of its own patches only. Only boxes
+   * are sent, and only those of patches that come near.
    */
   template <int dim>
   class FacetPatches
@@ -21,7 +21,7 @@ namespace Ricochet
     using Positions = std::vector<std::array<double, dim>>;
     using Box       = dealii::BoundingBox<dim>;
 
-    /// Every rank makes the same patches. @p surface is kept by reference.
+    /// Every rank makes the same patches. @p surface is held by reference.
     FacetPatches(const ContactSurface<dim> &surface,
                  const MPI_Comm             communicator);
 
@@ -51,7 +51,7 @@ namespace Ricochet
     }
 
     /// The patches with facets that are reached from the facets of @p patch in @p n_steps
-    /// steps to one that shares a node; itself included.
+    /// steps to one with a common node; itself included.
     std::vector<unsigned int>
     around(const unsigned int patch, const unsigned int n_steps) const;
 
@@ -80,8 +80,8 @@ namespace Ricochet
   groups_of_neighbours(const ContactSurface<dim> &surface,
                        std::vector<unsigned int>  facets);
 
-  /// What @p facets of @p surface pass over while nodes go from positions @p from straight
-  /// to @p to.
+  /// Box swept by @p facets of @p surface while nodes move from positions @p
+  /// from straight to @p to.
   template <int dim>
   dealii::BoundingBox<dim>
   box_of_facets(const ContactSurface<dim>                  &surface,

@@ -130,7 +130,7 @@ namespace Ricochet
     };
 
 
-    /// Where a facet is.
+    /// Position of a facet.
     template <int dim>
     struct Place
     {
@@ -203,12 +203,12 @@ namespace Ricochet
       Box<dim>                                 box;
     };
 
-    /// The closest facet of those that it is told of.
+    /// The closest one of the facets given to it.
     template <int dim>
     struct Closest
     {
-      /// Whether what is in @p box can be it. What is as far as the closest one, but for
-      /// round-off, counts as well.
+      /// Whether the closest facet can be in @p box. Facets as far as the
+      /// closest one to round-off count as well.
       bool
       may_be_in(const Box<dim> &box, const std::array<double, dim> &y) const
       {
@@ -222,7 +222,7 @@ namespace Ricochet
         return distance <= smallest * (1. + 1e-6) + 1e-12 * diagonal;
       }
 
-      /// @param accept is only asked of what would be the closest.
+      /// @param accept is only called for a facet that would be the closest.
       template <typename Accept>
       void
       consider(const Place<dim>              &place,
@@ -230,10 +230,10 @@ namespace Ricochet
                const Accept                  &accept)
       {
         const double distance = place.squared_distance(y);
-        // In space the facets around an edge or a vertex that is closest are equally
-        // far, but for round-off, which must not choose. The point is before the one
-        // from whose plane it is farthest: behind the planes of others it may be, in
-        // front of the body.
+        // In 3D the facets around a closest edge or vertex are equally far to
+        // round-off, which must not decide. The point faces the one from whose
+        // plane it is farthest: it may be behind the planes of others although
+        // in front of the body.
         const double equal =
           dim < 3 ? 0. : 1e-9 * smallest + 1e-18 * place.measure;
         if (distance > smallest + equal || !accept(place.facet))
@@ -286,8 +286,8 @@ namespace Ricochet
           }
       }
 
-      /// Squares of the distances of the members' boxes from @p y, those of members that
-      /// there are not besides.
+      /// Squares of the distances of the members' boxes from @p y, including
+      /// those of absent members.
       EachMember
       squared_distances(const std::array<double, dim> &y) const
       {
@@ -445,8 +445,8 @@ namespace Ricochet
               consider(all->places[k]);
           return;
         }
-      // The member with the nearest box first: few others are nearer than what is in
-      // it.
+      // The member with the nearest box first: few others are nearer than its
+      // facets.
       const std::vector<Group> &members  = all->levels[level - 1];
       unsigned int              first    = group.end;
       double                    smallest = std::numeric_limits<double>::max();
@@ -480,8 +480,8 @@ namespace Ricochet
   {
     const ContactSurface<dim>                  &surface;
     const std::vector<std::array<double, dim>> &positions;
-    /// Number of each facet among the places, one more than that; 0: not yet. Empty until
-    /// the first one is asked for: most instants ask for none.
+    /// Index of each facet among the positions, plus one; 0: not yet computed.
+    /// Empty until the first query: most instants have none.
     std::vector<unsigned int> number;
     std::vector<Place<dim>>   places;
 

@@ -11,7 +11,7 @@
 
 namespace Ricochet
 {
-  /// Where the facets of a surface are at an instant: closest points.
+  /// The facets of a surface at an instant: closest points.
   template <int dim>
   class FacetSearch
   {
@@ -29,13 +29,14 @@ namespace Ricochet
     ~FacetSearch();
 
     /// The facet that is closest to @p y among those whose outward normal points
-    /// against @p normal (of any length), the outward one at y; none if there is no
-    /// such facet. Of several the first.
+    /// against @p normal (of any length), the outward one at y; none if there
+    /// is no such facet; the first of several.
     ///
     /// @param accept whether a facet may be it at all; empty for all of them.
-    /// @param largest_distance facets farther from y are not looked at (m).
-    /// @param likely is looked at first, if the search knows it: when it is the one, or
-    /// near to it, few others have to be looked at. It does not change which one is found.
+    /// @param largest_distance facets farther from y are not considered (m).
+    /// @param likely is tried first, if it is among the facets: if it is the
+    /// closest one, or near to it, few others have to be tried. The result does
+    /// not depend on it.
     std::optional<unsigned int>
     closest_facing(
       const std::array<double, dim>                   &y,
@@ -55,8 +56,8 @@ namespace Ricochet
     std::unique_ptr<Groups> all;
   };
 
-  /// Where facets of a surface are at an instant, each found out when it is first asked
-  /// for: closest ones of a few.
+  /// Positions of facets of a surface at an instant, each computed at its first
+  /// use: closest ones of a few.
   template <int dim>
   class FacetsAround
   {
@@ -68,7 +69,7 @@ namespace Ricochet
     ~FacetsAround();
 
     /// As FacetSearch::closest_facing(), but only of @p facets.
-    /// @param likely is looked at first, if it is one of them.
+    /// @param likely is tried first, if it is one of them.
     std::optional<unsigned int>
     closest_facing(const std::vector<unsigned int>  &facets,
                    const std::array<double, dim>    &y,
@@ -80,7 +81,7 @@ namespace Ricochet
     std::unique_ptr<Known> known;
   };
 
-  /// Outward normal of facet @p f, as long as the facet; in space, twice its area.
+  /// Outward normal of facet @p f, as long as the facet; in 3D, twice its area.
   template <int dim>
   std::array<double, dim>
   facet_normal(const ContactSurface<dim>                  &surface,

@@ -56,7 +56,7 @@ namespace Ricochet
         Tensor<1, 3>        middle;
         for (const unsigned int node : own.nodes)
           middle += to_tensor(reference_positions[node]) / 3.;
-        // The closest facet behind it that faces the other way ends the wall.
+        // The closest facet behind it with opposite orientation ends the wall.
         const Position y   = {{middle[0], middle[1], middle[2]}};
         const auto     end = reference_search.closest_facing(
           y,
@@ -116,7 +116,8 @@ namespace Ricochet
         result.insert(result.end(),
                       facets_at_node[n].begin(),
                       facets_at_node[n].end());
-    // How much farther than the next elements what is behind is left out.
+    // Factor on the size of the next elements beyond which facets behind are
+    // left out.
     constexpr double n_edges = 3.;
     const double     reach =
       n_edges * *std::max_element(longest_edge.begin(), longest_edge.end());
@@ -153,8 +154,8 @@ namespace Ricochet
     const Tensor<1, 3> n   = to_tensor(facet_normal<3>(surface, positions, f)),
                        own = to_tensor(normal);
     const double product   = n * own;
-    // Where a surface is about to be folded it does not face itself yet; but what is
-    // behind such a facet is only round a corner.
+    // A surface about to be folded does not face itself yet; a facet behind
+    // such a one is only round a corner.
     if (product > std::sqrt(.5) * n.norm() * own.norm())
       return false;
     const Tensor<1, 3> point = to_tensor(y);

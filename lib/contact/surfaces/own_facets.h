@@ -7,21 +7,22 @@
 namespace Ricochet
 {
   /**
-   * Which facets of its own surface a point can touch, in space.
+   * The facets of its own surface that a point can touch, in 3D.
    *
-   * Not those around it: those that it hangs together with, and of its own body those
-   * nearby that it was not in front of before any displacement, which are on the far
-   * side of its wall or round a corner. Of the others those that do not face the same
-   * way as its own surface, and are before that, not behind it. Behind a facet a point
-   * can only be as far as it can have been pressed in: no deeper than half of the wall
-   * there, so that it is not before what is beyond the wall opposite.
+   * Excluded are the facets around it: the connected ones, and of its own body
+   * those nearby that it was not in front of before any displacement, which are
+   * on the far side of its wall or round a corner. Of the others it can touch
+   * those that are not oriented as its own surface, and are in front of that,
+   * not behind it. Behind a facet a point can only be as far as it can have
+   * been pressed in: no deeper than half of the wall there, so that it does not
+   * face facets beyond the opposite wall.
    */
   class OwnFacets
   {
   public:
     using Position = std::array<double, 3>;
 
-    /// @p surface is kept by reference.
+    /// @p surface is held by reference.
     OwnFacets(const ContactSurface<3> &surface);
 
     /// The facets around a point that is at @p reference before any displacement (m)
@@ -47,7 +48,8 @@ namespace Ricochet
     std::vector<std::vector<unsigned int>> facets_at_node;
     std::vector<Position>                  reference_positions;
     FacetSearch<3>                         reference_search;
-    /// Of each facet, how deep a point may be behind it, and its longest edge (m).
+    /// For each facet, the largest depth of a point behind it, and its longest
+    /// edge (m).
     std::vector<double> largest_depth, longest_edge;
   };
 } // namespace Ricochet

@@ -9,8 +9,7 @@
 
 namespace Ricochet
 {
-  /// Gap and slip of a point over a step, with the rows that they are products of, on
-  /// @p n coordinates.
+  /// Gap and slip of a point over a step, with their rows on @p n coordinates.
   template <typename Number, unsigned int n>
   struct RowsOfPoint
   {
@@ -18,7 +17,8 @@ namespace Ricochet
     Number new_gap{};
     /// D . change, which is new gap - old gap (m).
     Number gap_increment{};
-    /// T . change: how far the point slides along the triangle where it began (m).
+    /// T . change: sliding distance of the point along the initial triangle
+    /// (m).
     std::array<Number, 2> slip{};
     /// D and T, 1.
     std::array<Number, n>                normal{};
@@ -31,10 +31,11 @@ namespace Ricochet
    *
    * With e_1 = b - a, e_2 = c - a, r = y - a the gap is the distance from the
    * triangle's plane, g = V / sqrt(B), where V = det(e_1, e_2, r) and
-   * B = q_11 q_22 - q_12^2, and the point is before the place a + xi_1 e_1 + xi_2 e_2 of
-   * the plane, where xi follows from the products q_ij = w_i . w_j of w = (e_1, e_2, r).
-   * These are quadratic, so that their gradients in the middle of a step are their
-   * quotients of differences; V is cubic, and det(change of w) / 4 is missing:
+   * B = q_11 q_22 - q_12^2, and the projection of the point on the plane is a +
+   * xi_1 e_1 + xi_2 e_2, where xi follows from the products q_ij = w_i . w_j of
+   * w = (e_1, e_2, r). These are quadratic, so that their gradients in the
+   * middle of a step are their quotients of differences; V is cubic, and
+   * det(change of w) / 4 is missing:
    *
    *     D_V = grad V + det(change of w)/4 (sum change(q_ij) grad q_ij + v grad V / l^2)
    *                                       / (sum change(q_ij)^2 + v^2 / l^2),
@@ -43,10 +44,12 @@ namespace Ricochet
    * The terms with v keep it bounded when a point passes to its mirror image while the
    * triangle turns. By the rules for products, quotients and roots there are then rows D
    * and T_1, T_2 with D . change = g_1 - g_0 and T . change = sqrt(metric) (xi_1 - xi_0),
-   * exactly. None of the functions notices a motion of all points together: the sum of
-   * the forces along a row is zero, and so is that of their moments.
+   * exactly. All functions are invariant under a rigid motion of all points
+   * together: the sum of the forces along a row is zero, and so is that of
+   * their moments.
    *
-   * @tparam Number of what is new: double, or a type that knows derivatives.
+   * @tparam Number type of the new values: double, or one for automatic
+   * differentiation.
    */
   template <typename Number>
   class PointBeforeTriangle
@@ -111,7 +114,7 @@ namespace Ricochet
     }
 
     /// The sine of the angle by which the surface turns from the triangle (a, b, c) to
-    /// (b, a, y), beyond the edge from a to b: positive in a valley.
+    /// (b, a, y), beyond the edge from a to b: positive at a concave edge.
     static DiscreteScalar<Number, n_coordinates>
     sine(const Points<double> &old_x, const Points<Number> &new_x)
     {
@@ -162,7 +165,7 @@ namespace Ricochet
     }
 
   private:
-    /// What the functions are made of.
+    /// Terms of the functions.
     struct Step
     {
       Step(const Points<double> &old_x, const Points<Number> &new_x)

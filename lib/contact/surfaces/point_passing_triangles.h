@@ -10,39 +10,41 @@
 
 namespace Ricochet
 {
-  /// The edge that two triangles share, by numbers of their corners (0 to 2).
+  /// The common edge of two triangles, by numbers of their corners (0 to 2).
   struct SharedEdge
   {
-    /// Of the first triangle, the one with which the edge begins.
+    /// Corner of the first triangle at which the edge begins.
     unsigned int begin = 0;
-    /// Of the second triangle, the one that is not on the edge.
+    /// Corner of the second triangle that is not on the edge.
     unsigned int opposite = 0;
   };
 
   /**
-   * Contact of a point that begins a step before one triangle and ends it before
-   * another one: the gap, and the directions along which forces have to act over the
-   * step, so that its increment is the new gap before the second triangle less the old
-   * gap before the first (in the plane: FacetChain).
+   * Contact of a point that faces one triangle at the beginning of a step and
+   * another one at its end: the gap, and the directions along which forces have
+   * to act over the step, so that its increment is the new gap to the second
+   * triangle less the old gap to the first (in 2D: FacetChain).
    *
-   * The planes of triangles that share an edge are equally far from a point on the
-   * bisector of their angle. With the unit normals n_1, n_2, the unit vector e along the
-   * edge and the bisector's coordinate t = (e x (n_1 + n_2)) . (y - a) / (1 + n_1 . n_2),
-   * negative before the first triangle, the distances differ by
-   * g_2 - g_1 = -sine t, where sine is that of the angle by which the surface turns
-   * (positive in a valley). With theta = t_1 / (t_1 - t_0), the part of the way behind
-   * the bisector, and the rows D_1, D_2 of both triangles (see PointBeforeTriangle),
+   * The planes of triangles with a common edge are equally far from a point on
+   * the bisector of their angle. With the unit normals n_1, n_2, the unit
+   * vector e along the edge and the bisector's coordinate t = (e x (n_1 + n_2))
+   * . (y - a) / (1 + n_1 . n_2), negative on the side of the first triangle,
+   * the distances differ by g_2 - g_1 = -sine t, where sine is that of the
+   * angle by which the surface turns (positive at a concave edge). With theta =
+   * t_1 / (t_1 - t_0), the part of the displacement behind the bisector, and
+   * the rows D_1, D_2 of both triangles (see PointBeforeTriangle),
    *
    *     D = D_1 + theta (D_2 - D_1) + t_0 theta D_sine
    *
    * has D . change = g_2(new) - g_1(old), exactly, where D_sine is the discrete gradient
    * of sine = |edge| V / (|N_1| |N_2|), V the volume between both triangles.
    *
-   * Triangles that share no more than a node have no such bisector; where the difference
-   * h = g_2 - g_1 changes its sign during the step, theta = h_1 / (h_1 - h_0) does without
-   * the last term.
+   * Triangles with no more than a node in common have no such bisector; where
+   * the difference h = g_2 - g_1 changes its sign during the step, theta = h_1
+   * / (h_1 - h_0) does without the last term.
    *
-   * @tparam Number of what is new: double, or a type that knows derivatives.
+   * @tparam Number type of the new values: double, or one for automatic
+   * differentiation.
    */
   template <typename Number>
   class PointPassingTriangles
@@ -60,7 +62,7 @@ namespace Ricochet
     /**
      * Positions at the beginning of a step and at its end (m).
      *
-     * @param edge none if the triangles share no edge.
+     * @param edge none if the triangles have no common edge.
      */
     static void
     evaluate(const Points<double>            &old_x,
@@ -113,7 +115,7 @@ namespace Ricochet
           rows.normal[i] * (new_x[i / 3][i % 3] - old_x[i / 3][i % 3]);
     }
 
-    /// t (m), see above: negative before the first triangle.
+    /// t (m), see above: negative on the side of the first triangle.
     template <typename T>
     static T
     past_edge(const Points<T> &x, const SharedEdge &edge)
@@ -177,7 +179,8 @@ namespace Ricochet
                1 + (edge.begin + 2) % 3}};
     }
 
-    /// Add @p factor times the @p row on four points at @p places.
+    /// Add @p factor times the @p row on four points at the positions @p
+    /// places.
     static void
     add(const typename Single::Row        &row,
         const Number                      &factor,

@@ -110,7 +110,7 @@ namespace Ricochet
       using std::log;
       using std::min;
       Number s = min(Number(1.), 1. / determinant);
-      // Lanes that have arrived stay where they are.
+      // Lanes that have converged keep their value.
       Number moves(1.);
       for (unsigned int k = 0; k < 100; ++k)
         {
