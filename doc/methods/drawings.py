@@ -410,7 +410,7 @@ for _name in SCHEMES:
 
 @drawing
 def midpoint():
-    """A stiff pendulum: a mass on a nonlinear spring in the plane."""
+    """A stiff pendulum: a mass on a nonlinear spring in 2D."""
     figure, axes = plt.subplots(figsize=(5.4, 2.7))
     stored = lambda x: 25. * (x @ x - 1)**2
     results = {}

@@ -153,8 +153,9 @@ struct BarByHand
   }
 
   // **Primal-dual active set** (B, section 5): for any $r > 0$ Signorini's condition is
-  // $p_c = [\,p_c - r g\,]_+$. The end is active when $p_c - r g > 0$: then $g = 0$ takes the
-  // place of its row, and $p_c$ is what this row leaves over, the residual without contact.
+  // $p_c = [\,p_c - r g\,]_+$. The end is active when $p_c - r g > 0$: then $g
+  // = 0$ replaces its row, and $p_c$ is the residual of this row without
+  // contact.
   void
   add_active_set()
   {

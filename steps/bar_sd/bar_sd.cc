@@ -68,8 +68,8 @@
 // with the mass matrix $M$, the stiffness matrix $K$ and the contact force
 // $F_c$, whose main part is $-p$ in the row of the left end. How $p$ follows
 // from $U$ is the **contact treatment**; how time is divided into steps is the
-// **time scheme**. The program runs most of the one with most of the other, and
-// refuses the rest with a sentence.
+// **time scheme**. The program combines most treatments with most schemes, and
+// refuses the rest with a message.
 //
 // ## Nitsche's method, the default treatment
 //
@@ -79,7 +79,7 @@
 //
 // (If $p > 0$ it says $g = 0$, and if $p = 0$ it says $g \ge 0$.) The bar has a
 // pressure of its own, that of the stress in its end element, $p(u) = -u_x(0)$.
-// Nitsche's method puts it in the place of $p$ on the right, with
+// Nitsche's method puts it in place of $p$ on the right, with
 // $\gamma = \gamma_0/h$, and takes the result $[q]_+$, $q = p(u) - \gamma g$,
 // for the force: $F_c(u)\,[v] = -[q]_+\, v(0)$. That is its variant
 // $\theta = 0$. To have a force that comes from a potential, a term is added
@@ -140,7 +140,7 @@
 // While contact lasts, or while there is none, $F_c$ is linear and
 // Crank-Nicolson keeps $E_N$ exactly. Only a step in which contact begins or
 // ends changes it. With a force $\gamma [x]_+$ ($x = q/\gamma$; for the penalty
-// method $x = -g$ and $1/\epsilon$ in the place of $\gamma$) the trapezoidal
+// method $x = -g$ and $1/\epsilon$ in place of $\gamma$) the trapezoidal
 // rule then counts a work that is not the change of the potential: where contact
 // begins, $\tfrac12 (0 + \gamma x_1)(x_1 - x_0)$ is
 // $\tfrac12 \gamma x_1^2 - \tfrac12 \gamma x_0 x_1$. So
@@ -172,12 +172,12 @@
 //     python/bin/ricochet-plot output/first output/second -o output/plots
 //
 // A run takes about a second, and has a folder of its own (without
-// `--output-dir` the second one would take the place of the first). In it is
+// `--output-dir` the second one would replace the first). In it is
 // `energy.csv`, one row for each step. The file has $h = \Delta t = 0.05$, 240
-// steps, $\gamma_0 = 5$, $\theta = 1$ and the consistent mass; `--set` changes one
-// parameter. The last line draws both runs into the same axes: energies, contact
-// force, gap. (With Nitsche's method there is contact where $q > 0$; the gap may
-// swing by some millimetres around zero meanwhile.)
+// steps, $\gamma_0 = 5$, $\theta = 1$ and the consistent mass; `--set` changes
+// one parameter. The last line draws both runs into the same axes: energies,
+// contact force, gap. (With Nitsche's method there is contact where $q > 0$;
+// the gap may swing by some millimetres around zero meanwhile.)
 //
 // Nitsche's method with Crank-Nicolson (the defaults) has a mean displacement of the left end over
 // $t$ = 1.00 ... 2.10 of 5.0e-4 m, the penalty method of -3.8e-3 m, as C 4.1.1 prints without these
@@ -214,7 +214,7 @@ BarSD::run(RunFolder &folder)
   //
   // The bar is a body of linear elasticity with strains in one direction,
   // $\sigma = (\lambda + 2\mu)\, u_x$: the modulus is one. The obstacle fills
-  // $x < 0$; what it is asked for is the signed distance of a point, here its
+  // $x < 0$; its gap function is the signed distance of a point, here its
   // coordinate, so that the gap of the left end is its displacement.
   const LinearElastic material{/* lambda */ 0., /* mu */ .5};
   ImpactSetup<1>      setup{material};
@@ -263,16 +263,17 @@ BarSD::run(RunFolder &folder)
   //
   // The time loop takes step after step. Each one is "one step of this program"
   // above, unless Newton's method fails and the step is halved, and is entered
-  // into the table energy.csv: kinetic and elastic energy, $E_N$, the work of
-  // contact, the dissipation of the scheme, gap and pressure. In each row
+  // into the energy table, energy.csv: kinetic and elastic energy, $E_N$, the
+  // work of contact, the dissipation of the scheme, gap and pressure. In each
+  // row
   //
   //     E_new - E_old = external work - work against contact
   //                     - numerical dissipation
   //
-  // must hold to round-off; what is left over is the column `balance_residual`.
+  // must hold to round-off; the residual is the column `balance_residual`.
   // The numerical dissipation comes from a formula of its own, that of the
-  // scheme (in HHT::step), not from this difference: so the residual would tell
-  // of a wrong tangent or a wrong force.
+  // scheme (in HHT::step), not from this difference: so the residual would
+  // reveal a wrong tangent or a wrong force.
   //
   // We add what the figures of the paper plot: the motion of the left end, and
   // the error.

@@ -159,9 +159,9 @@ BarSS::run(RunFolder &folder)
 
   // ### Time
   //
-  // The time loop writes energies and contact for every benchmark, with columns
-  // of its own for each end. We add what the figures of the paper plot: the
-  // motion of the two ends, and the error.
+  // The time loop writes energies and contact for every benchmark, with
+  // separate columns for each end. We add what the figures of the paper plot:
+  // the motion of the two ends, and the error.
   ImpactLoop<1> loop(impact.time,
                      bar,
                      {material},

@@ -4,9 +4,8 @@
 //
 // Two elastic disks fly at each other and part again, head-on or with an offset
 // $b$ of their paths: contact of two deformable bodies without any rigid one.
-// What the programs elastic_ball and hyperelastic_ring say of pressures,
-// friction and the midpoint scheme stays as it is. What is new is the gap: both
-// sides of it move.
+// Pressures, friction and the midpoint scheme are those of the programs
+// elastic_ball and hyperelastic_ring. New is the gap: both sides of it move.
 //
 // ## The problem
 //
@@ -24,11 +23,11 @@
 //
 // ## The gap between two bodies
 //
-// Contact is formulated in the nodes $y$ of one surface, the **slave**. Each is
-// before a facet from $a$ to $b$ of the other one, the **master**, whose
-// outside is on its left. All three move. With $e = b - a$ and $r = y - a$, the
-// gap is the distance from the line of the facet, and $\xi$ tells where along
-// it the point is (B (2.5)):
+// Contact is formulated in the nodes $y$ of one surface, the **slave**. Each
+// faces a facet from $a$ to $b$ of the other one, the **master**, whose outside
+// is on its left. All three move. With $e = b - a$ and $r = y - a$, the gap is
+// the distance from the line of the facet, and $\xi$ is the coordinate of the
+// point along it (B (2.5)):
 //
 // $$ g = \frac{A}{\sqrt B}, \qquad \xi = \frac{P}{B}, \qquad
 //    A = e \times r, \quad B = e \cdot e, \quad P = e \cdot r . $$
@@ -42,9 +41,9 @@
 // $$ \int \rho\, \ddot u \cdot v \, dx + \int F S : \nabla v \, dx
 //    - \sum_j w_j \big( p_j \delta g_j(v) + t_j \delta s_j(v) \big) = 0 , $$
 //
-// where $s$ is the way along the facet. Action and reaction are in it: a motion
-// of all three points together changes neither gap nor way, so that their
-// forces have no sum and no moment.
+// where $s$ is the slip along the facet. Action and reaction are balanced: a
+// rigid motion of all three points changes neither gap nor slip, so that the
+// sum of their forces and of the moments is zero.
 //
 // ## The scheme
 //
@@ -69,34 +68,34 @@
 //    - \frac{P_0 + P_1}{2 B_0 B_1} \nabla B_m \Big] . $$
 //
 // A point that passes a vertex during the step gets the mean of the rows of
-// both facets, by the part of its way on each, and a small couple for the
-// change of the angle between them, so that the first equation stays exact
-// (`lib/contact/surfaces/facet_chain.h`). B (3.6) has the same change of the gap,
-// but the force of B (3.4) is along the normal in the middle of the step, and its
-// work is not the same once the normal turns.
+// both facets, weighted by the part of its displacement on each, and a small
+// couple for the change of the angle between them, so that the first equation
+// stays exact (`lib/contact/surfaces/facet_chain.h`). B (3.6) has the same
+// change of the gap, but the force of B (3.4) is along the normal in the middle
+// of the step, and its work is not the same once the normal turns.
 //
 // ## One step of this program
 //
 //     predict  where all points will be in the middle of the step
-//     choose   the facet before each node of the slave, and keep it
+//     choose the facet that each node of the slave faces, and keep it
 //     solve    M (V_1 - V_0)/dt + F_int(U_0, U_1) = sum of w (p D + t T)
 //              U_1 - U_0 = dt (V_0 + V_1)/2
 //              for U_1, and for p and t where they are constraints:
 //              persistent contact: p >= 0, D . dx >= 0, p D . dx = 0
 //
-// The work of contact is then $p\,(g_1 - g_0)$ for each point, as before a
-// plane, and all that elastic_ball says of the treatments holds. The file is
+// The work of contact is then $p\,(g_1 - g_0)$ for each point, as against a
+// plane, and the properties of the treatments in elastic_ball hold. The file is
 // `lib/contact/treatments/pair_contact.h`.
 //
 // ## Which is the slave?
 //
 // The meshes are rings of triangles of different numbers; the finer one is the
-// slave, unless it is told otherwise: which one it is must not matter by more
-// than the error of the discretisation.
+// slave, unless the parameter file says otherwise: the choice must not matter
+// by more than the error of the discretisation.
 //
 // At the end the program prints the velocities of the centres of mass, the
-// restitution along the line of the centres at the first touch, the energy that
-// is left and the largest penetration, with eight digits.
+// restitution along the line of the centres at the first touch, the remaining
+// energy and the largest penetration, with eight digits.
 //
 // ## Run it
 //
@@ -137,7 +136,7 @@ public:
   run(RunFolder &folder);
 
 private:
-  /// Where the middles of the disks are at the start (m).
+  /// Initial positions of the centres of the disks (m).
   Point<2>
   centre(const unsigned int disk) const;
 
@@ -290,9 +289,9 @@ CollidingDisks::run(RunFolder &folder)
   make_grid(triangulation);
 
   // Two parts in one mesh, and the surfaces that may touch. One mesh means one
-  // vector of unknowns, one $M$ and one $F_{int}$; the disks share no node, so
-  // that $D$ and $T$ are all that connects them. They bring couplings that come
-  // and go.
+  // vector of unknowns, one $M$ and one $F_{int}$; the disks have no common
+  // node, so that only $D$ and $T$ couple them. These couplings change during
+  // the run.
   const Material<2> elastic = material.make<2>();
   ImpactSetup<2>    setup{elastic};
   setup.parts.push_back(
@@ -329,7 +328,7 @@ CollidingDisks::run(RunFolder &folder)
 
 
 
-// ## What came out
+// ## Results
 //
 // Numbers that other programs can be compared with. The restitution is the
 // velocity with which the centres part along their line, over that with which

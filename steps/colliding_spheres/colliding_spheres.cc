@@ -2,10 +2,9 @@
 
 // # Colliding spheres
 //
-// Two elastic balls fly at each other in space, and may spin. This is the
-// program colliding_disks with one dimension more: a point is before a triangle
-// and not before a line, there are two directions along a surface, and six
-// momenta to be kept.
+// Two elastic balls fly at each other in 3D, and may spin. This is the program
+// colliding_disks with one dimension more: a point faces a triangle and not a
+// line, there are two directions along a surface, and six momenta to be kept.
 //
 // ## The problem
 //
@@ -20,17 +19,17 @@
 // ## The gap
 //
 // Contact is formulated in the nodes $y$ of one surface, the slave. Each of
-// them is before a triangle $(a, b, c)$ of the other one, and its gap is the
+// them faces a triangle $(a, b, c)$ of the other one, and its gap is the
 // distance from the triangle's plane,
 //
 // $$ g = \frac{V}{\sqrt B}, \qquad V = \det(b - a,\, c - a,\, y - a), \qquad
 //    \sqrt B = |(b - a) \times (c - a)| . $$
 //
-// The point of the plane before which it is,
-// $a + \xi_1 (b - a) + \xi_2 (c - a)$, follows from products of the three
-// differences $w_i$ alone. With `Contact/Coupling = mortar` the mean of such gaps
-// around the node takes their place, over the pieces that triangles of both
-// surfaces cut out of each other (`lib/contact/kinematics/mortar_triangles.h`).
+// Its projection on the plane, $a + \xi_1 (b - a) + \xi_2 (c - a)$, follows
+// from products of the three differences $w_i$ alone. With `Contact/Coupling =
+// mortar` they are replaced by the mean of such gaps around the node, over the
+// pieces that triangles of both surfaces cut out of each other
+// (`lib/contact/kinematics/mortar_triangles.h`).
 //
 // ## Weak form
 //
@@ -50,9 +49,9 @@
 // so that its work on both bodies is $p\, (g_1 - g_0)$ to the last digit. The
 // products $q_{ij} = w_i \cdot w_j$ are quadratic, and their gradients in the
 // middle of the step are their quotients of differences. $V$ is cubic, and the
-// gradient in the middle lacks $\tfrac14 \det(\Delta w)$ of its change. That is
-// put back along a direction that does not push or turn the four points
-// together:
+// gradient in the middle lacks $\tfrac14 \det(\Delta w)$ of its change. This
+// term is added along a direction that neither pushes nor turns the four points
+// as a whole:
 //
 // $$ D_V = \nabla V_m + \tfrac14 \det(\Delta w) \,
 //    \frac{\sum \Delta q_{ij} \nabla q_{ij} + v \nabla V_m / \ell^2}
@@ -60,11 +59,10 @@
 //    v = \nabla V_m \cdot \Delta x, \quad
 //    \ell^2 = \tfrac12 \big( \sqrt{B_0} + \sqrt{B_1} \big) . $$
 //
-// The rules for products, quotients and roots make $D$ of it, and $T_1$ and
-// $T_2$ for the slip in the same way
-// (`lib/contact/surfaces/point_before_triangle.h`). All of these functions are
-// the same after a motion of all four points together, whence the sum of the
-// forces and of their moments is zero.
+// The rules for products, quotients and roots give $D$, and likewise $T_1$ and
+// $T_2$ for the slip (`lib/contact/surfaces/point_before_triangle.h`). All of
+// these functions are invariant under a rigid motion of all four points, whence
+// the sum of the forces and of their moments is zero.
 //
 // ## One step of this program
 //
@@ -76,11 +74,11 @@
 // (`lib/materials/gonzalez.h`), and $p$ and $t$ follow from gap, increment and
 // slip by the treatment that the parameter file asks for.
 //
-// With persistent contact energy is kept to round-off; but a node that has come
-// $d$ deep in the step in which it touches stays there. What a collision takes
-// from the motion of the centres is what goes on in vibrations: for elastic
-// spheres that is little when the contact lasts much longer than waves need to
-// cross them (Hertz).
+// With persistent contact energy is kept to round-off; but a node that has
+// penetrated by $d$ in the step in which it touches stays there. The loss in
+// the motion of the centres is the energy of vibrations: for elastic spheres it
+// is small when the contact lasts much longer than waves need to cross them
+// (Hertz).
 //
 // ## Run it
 //
@@ -126,11 +124,11 @@ public:
   run(RunFolder &folder);
 
 private:
-  /// Where the middles of the spheres are at the start (m).
+  /// Initial positions of the centres of the spheres (m).
   Point<3>
   centre(const unsigned int sphere) const;
 
-  /// Where it will touch the other one.
+  /// The point that will touch the other one.
   std::optional<FinePlace>
   fine_place(const unsigned int sphere) const;
 
@@ -330,9 +328,9 @@ CollidingSpheres::unused_parameters() const
 
 // ## Mesh
 //
-// The first rank makes both balls, puts them side by side into one mesh, which
-// knows them by their material id, and hands out the parts. No two bodies share
-// a node, so that the mesh is one in name only.
+// The first rank makes both balls, puts them side by side into one mesh, in
+// which the material id distinguishes them, and distributes the parts. No two
+// bodies have a common node, so that the mesh is one in name only.
 Point<3>
 CollidingSpheres::centre(const unsigned int sphere) const
 {
@@ -464,11 +462,11 @@ CollidingSpheres::run(RunFolder &folder)
 
 
 
-// ## What came out
+// ## Results
 //
-// The angular momentum of a sphere about its own middle is what is left of that
-// about the origin when the middle's momentum is taken away. Where the middle
-// is, products with translations tell: $m\, c \times e$ for each direction $e$.
+// The angular momentum of a sphere about its own centre is that about the
+// origin less that of the centre. The position of the centre follows from
+// products with translations: $m\, c \times e$ for each direction $e$.
 Tensor<1, 3>
 CollidingSpheres::own_angular_momentum(const unsigned int    sphere,
                                        const Impact<3>      &collision,

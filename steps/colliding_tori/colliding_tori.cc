@@ -19,23 +19,23 @@
 //
 // ## A surface against itself
 //
-// Gap, pressure and directions of a point that is before a triangle are those
-// between two bodies. What is new is which triangles a point can be before at all
-// (`lib/contact/surfaces/own_facets.h`). The closest one is always its own. Left
-// out are
+// Gap, pressure and directions of a point that faces a triangle are those
+// between two bodies. New is the choice of the triangles that a point can face
+// at all (`lib/contact/surfaces/own_facets.h`). The closest one is always its
+// own. Left out are
 //
-// - those that it hangs together with, and their neighbours;
-// - those that face the same way as its own surface;
+// - those that it is connected with, and their neighbours;
+// - those with the same orientation as its own surface;
 // - those that are behind its own surface, where its wall is;
-// - those that it is behind by more than half of the wall there. So nothing is
-//   before the far side of its own wall, nor, when the tube is flat, before what is
-//   beyond the wall opposite.
+// - those that it is behind by more than half of the wall there. So no point
+// faces the far side of its own wall, nor, when the tube is flat, triangles
+// beyond the opposite wall.
 //
-// What is left of them is closest when it touches. Folds that will close in the
-// coming step are seen where the velocity leads.
+// The remaining triangle that is touched is then the closest one. Folds that
+// will close in the coming step are seen where the velocity leads.
 //
-// Every node is held off, from both sides of a contact. In exchange none is left
-// out, whichever wall comes down on which; between two bodies one surface would do.
+// Every node is a slave, on both sides of a contact. In return none is left
+// out, whichever wall meets which; between two bodies one surface would do.
 //
 // ## The scheme
 //
@@ -46,8 +46,8 @@
 //    = \sum_j w_j \big( p_j D_j + t_{1,j} T_{1,j} + t_{2,j} T_{2,j} \big),
 //    \qquad \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2} . $$
 //
-// By default contact is improved normal compliance. What it stores is given back,
-// so that the energy of motion, of the rubber and of contact together is kept to
+// By default contact is improved normal compliance. Its stored energy is
+// returned, so that the sum of kinetic, elastic and contact energy is kept to
 // the tolerance of Newton's method.
 //
 // ## Run it
@@ -94,7 +94,7 @@ public:
   run(RunFolder &folder);
 
 private:
-  /// How each is thrown.
+  /// Initial motion of each torus.
   struct Throw
   {
     std::string  name;
@@ -119,7 +119,7 @@ private:
   Tensor<1, 3>
   initial_velocity(const Point<3> &x) const;
 
-  /// Mass, momentum and the rest of one torus.
+  /// Mass, momenta and energies of one torus.
   struct Flight
   {
     double       mass;
@@ -261,7 +261,7 @@ CollidingTori::validate() const
   impact.check_size(6. * shape.n_around_ring * shape.n_around_tube *
                       (shape.n_across_wall + 1.),
                     3);
-  // Making one is the check of its numbers.
+  // The construction of a mesh checks its parameters.
   for (const unsigned int number : {0, 1})
     {
       Triangulation<3> mesh;
@@ -333,8 +333,8 @@ CollidingTori::make_whole_mesh(Triangulation<3> &mesh) const
 
 // ## The run
 //
-// To which torus a point belongs is not told by the nearer centre when one ring
-// reaches into the other, but by the nearer tube.
+// The torus to which a point belongs is not the one with the nearer centre when
+// one ring reaches into the other, but the one with the nearer tube.
 unsigned int
 CollidingTori::nearest_torus(const Point<3> &x) const
 {
@@ -416,12 +416,12 @@ CollidingTori::run(RunFolder &folder)
 
 
 
-// ## What came out
+// ## Results
 //
-// Of the energy of each torus, what is in the motion of its centre, what a rigid
-// torus would have that turns with the same angular momentum $L$ about the centre,
-// $\tfrac12 L \cdot I^{-1} L$, and the rest, which is in vibrations. The tensor of
-// inertia $I$ is that of the undeformed torus, turned by the mean rotation.
+// Parts of the energy of each torus: of the motion of its centre; of a rigid
+// torus that turns with the same angular momentum $L$ about the centre,
+// $\tfrac12 L \cdot I^{-1} L$; and the rest, which is in vibrations. The tensor
+// of inertia $I$ is that of the undeformed torus, turned by the mean rotation.
 CollidingTori::Flight
 CollidingTori::flight(const Impact<3>  &collision,
                       const Momenta<3> &momenta,

@@ -3,11 +3,13 @@
 // # A disk, step by step
 //
 // The program elastic_ball (paper A, section 6.1) with one material, one treatment of contact
-// and one time scheme, all of them written out: a disk of linear elasticity flies at a rigid
-// foundation, and one reads in one file what a step does. Mesh, material and table of energies
-// are the library's, the rest is deal.II. The program gives the numbers of elastic_ball to
-// Newton's tolerance (`tests/integration/test_by_hand.py`). That one has all treatments, runs on
-// several processors, and is faster, because it factors the matrix of the body once.
+// and one time scheme, all of them written out: a disk of linear elasticity
+// flies at a rigid foundation, and a step can be read in one file. Mesh,
+// material and energy table are the library's, the rest is deal.II. The program
+// gives the numbers of elastic_ball to Newton's tolerance
+// (`tests/integration/test_by_hand.py`). That one has all treatments, runs on
+// several processors, and is faster, because it factors the matrix of the body
+// once.
 //
 // ## The equations
 //
@@ -116,7 +118,7 @@ struct DiskStepByStep
   {
     if (final_time > 1e8 * dt || dt > (1. + 1e-9) * final_time)
       throw InputError("The run must have between one and 1e8 time steps.");
-    // Building the mesh is the check of its numbers.
+    // The construction of the mesh checks its parameters.
     Triangulation<2> mesh;
     make_grid(mesh);
   }
@@ -319,7 +321,7 @@ struct DiskStepByStep
   //
   // In each row of the table, which has the names of elastic_ball, the balance
   // $E_1 - E_0 + F_c \cdot (U_1 - U_0) = 0$ is checked: a wrong force, or an equation that was not
-  // solved, leaves it open, and the program says so and ends with code 4.
+  // solved, violates it, and the program reports it and ends with code 4.
   void
   run(RunFolder &folder)
   {

@@ -2,9 +2,9 @@
 
 // # The elastic ball
 //
-// A disk of radius 10 m, free in the plane, flies down at 10 m/s and hits a
-// rigid foundation, the half plane below $x_2 = 0$. This is the first benchmark
-// of paper A (Barboteu, Bonaldi, Danan and El-Hadri, "An improved normal
+// A free disk of radius 10 m in 2D flies down at 10 m/s and hits a rigid
+// foundation, the half plane below $x_2 = 0$. This is the first benchmark of
+// paper A (Barboteu, Bonaldi, Danan and El-Hadri, "An improved normal
 // compliance method for dynamic hyperelastic problems with energy conservation
 // property", section 6.1) and of paper B (section 6.1, with viscosity). It asks
 // one question: how much of its energy does a ball lose because of the method
@@ -73,7 +73,7 @@
 //
 // is exact, with any step (A proposition 3.1). So for the energy a contact
 // treatment is a choice of $p_j$ as a function of the two gaps $g_0$ and $g_1$
-// of a node, and one can read off what it does:
+// of a node, and its effect can be read off:
 //
 // **Signorini at the end of the step.** $g_1 \ge 0$, $p \ge 0$, $p\, g_1 = 0$.
 // A node that lands loses $p\, g_0$. A single mass with the speed $v$ that
@@ -84,7 +84,7 @@
 //
 // **Standard normal compliance** (A (2.10)),
 // $p = c_\nu \tfrac{\alpha}{2} [-g_1]_+^{\alpha - 1}$: a spring, evaluated at
-// the end of the step. What it gives back is less than what it took.
+// the end of the step. It returns less energy than it took.
 //
 // **Improved normal compliance** (A (3.10), (3.11)), the default here: the same
 // spring has the potential $\tfrac{c_\nu}{2} [-g]_+^\alpha$, and the pressure
@@ -204,8 +204,8 @@ ElasticBall::ElasticBall()
   impact.contact.values["Compliance coefficient"] = 2.6e12;
   impact.contact.values["Compliance exponent"]    = 2.;
   impact.contact.values["Tangential compliance"]  = 1e9;
-  // These are for other treatments. The augmentation steers Newton's method of
-  // the treatments with active sets and leaves their solution alone.
+  // These are for other treatments. The augmentation affects Newton's method of
+  // the treatments with active sets and not their solution.
   impact.contact.values["Augmentation"]     = 1e10;
   impact.contact.values["Nitsche gamma0"]   = 1e11;
   impact.contact.values["Penalty epsilon0"] = 1e-11;
@@ -244,7 +244,7 @@ ElasticBall::validate() const
   parameters.impact.check_size(2. * n_vertices * parameters.degree *
                                  parameters.degree,
                                2);
-  // Building the mesh is the check of its numbers.
+  // The construction of the mesh checks its parameters.
   Triangulation<2> triangulation;
   make_grid(triangulation);
 }
@@ -276,12 +276,12 @@ ElasticBall::make_grid(Triangulation<2> &triangulation) const
 
 // ## The run
 //
-// What comes now is the same for every thrown body, and told in
+// The rest is the same for every thrown body, and explained in
 // `lib/problems/thrown_body.cc`: the equation of motion from mesh and data, a
-// ball that flies, undeformed, the time loop. Momenta in its table tell whether
-// a scheme does more than keep the energy: the forces $p\, \nu$ have no
-// component along the foundation, so that the horizontal momentum stays zero;
-// the vertical one changes by the impulse of the contact force.
+// ball that flies, undeformed, the time loop. Momenta in its table show whether
+// a scheme keeps more than the energy: the forces $p\, \nu$ have no component
+// along the foundation, so that the horizontal momentum stays zero; the
+// vertical one changes by the impulse of the contact force.
 void
 ElasticBall::run(RunFolder &folder)
 {

@@ -13,11 +13,10 @@
 // ## The problem
 //
 // Strains and rotations are large, so that linear elasticity will not do: a
-// ring that only turns would be strained. What replaces the small strain is a
-// measure that a rotation does not change. With the deformation gradient
-// $F = I + \nabla u$, all derivatives and integrals being on the undeformed
-// ring, that is $C = F^T F$, and the energy per volume is a function of it (A
-// 6.2),
+// ring that only turns would be strained. The small strain is replaced by a
+// measure that is invariant under rotations. With the deformation gradient $F =
+// I + \nabla u$, all derivatives and integrals being on the undeformed ring,
+// that is $C = F^T F$, and the energy per volume is a function of it (A 6.2),
 //
 // $$ W = c_1 (I_1 - 3) + c_2 (I_2 - 3) + d (I_3 - 1)
 //      - (c_1 + 2 c_2 + d) \ln I_3 , $$
@@ -36,7 +35,7 @@
 // $\eta\, [\mathrm{tr}\, C - 3]_+ \dot C$ by Pioletti (B (2.14), not clipped there). In plane
 // stress $C_{33}$ follows from the condition that there is no stress across the
 // sheet, $\partial W / \partial C_{33} = 0$, which has a closed solution here
-// (with trace and determinant of the part of $C$ in the plane):
+// (with trace and determinant of the in-plane part of $C$):
 //
 // $$ C_{33} = \frac{c_1 + 2 c_2 + d}{c_1 + c_2 \mathrm{tr}\, C + d \det C} . $$
 //
@@ -72,8 +71,8 @@
 // acts with $F_m$, and since the symmetric part of $F_m^T (F_1 - F_0)$ is
 // exactly $\tfrac12 \Delta C$, the work of $F_m S$ over the step is the change
 // of the stored energy (A (3.8)). The rate of the viscous stress is
-// $\dot C = \Delta C / \Delta t$, by the same identity the energy that it takes
-// is $\Delta t\, \eta |\dot C|^2$ per volume, and never negative.
+// $\dot C = \Delta C / \Delta t$, by the same identity its dissipation is
+// $\Delta t\, \eta |\dot C|^2$ per volume, and never negative.
 //
 // ## One step of this program
 //
@@ -94,14 +93,14 @@
 // with the sets of Hüeber, Stadler and Wohlmuth 2008), or by a tangential
 // compliance $c_\tau$ (the others; A (2.11)):
 // $t = -c_\tau\, \Delta s / \Delta t$ as long as that is below $\mu p$, as
-// above otherwise. In the code $-t$ stands on the side of the internal forces
+// above otherwise. In the code $-t$ has the sign of the internal forces
 // (`lib/contact/laws/coulomb_friction.h`). Multiply by $U_1 - U_0$:
 //
 //     E_1 - E_0 = - work against contact - work against friction - viscous part
 //
 // The last two are never negative. The first is zero with persistent contact,
-// and the change of a potential with improved normal compliance: so all that
-// the energy does at the impact is the contact method's doing.
+// and the change of a potential with improved normal compliance: so every
+// change of the energy at the impact is due to the contact method.
 //
 // ## Numbers
 //
@@ -185,8 +184,8 @@ HyperelasticRing::HyperelasticRing()
   impact.time.fields_every = 20;
   impact.scheme.name       = "midpoint";
 
-  // Stiff contact of a soft body: full steps of Newton's method find their way,
-  // though not always straight, and shortened ones get stuck.
+  // Stiff contact of a soft body: full steps of Newton's method converge,
+  // though not monotonically, and shortened ones stagnate.
   impact.newton.max_iterations    = 60;
   impact.newton.line_search_after = 40;
 
@@ -238,7 +237,7 @@ HyperelasticRing::validate() const
   parameters.impact.check_size(2. * n_nodes_around * n_nodes_across *
                                  parameters.degree * parameters.degree,
                                2);
-  // Building the mesh is the check of its numbers.
+  // The construction of the mesh checks its parameters.
   Triangulation<2> triangulation;
   make_grid(triangulation);
 }
@@ -272,15 +271,16 @@ HyperelasticRing::make_grid(Triangulation<2> &triangulation) const
 // not turn the ring as a whole.
 //
 // With `Contact/Self` the two circles are surfaces that touch themselves: each
-// node is held off all facets before it, by the same treatment. Both sides of
-// such a contact move, see the program colliding_disks.
+// node is kept from penetrating the facets that it faces, by the same
+// treatment. Both sides of such a contact move, see the program
+// colliding_disks.
 void
 HyperelasticRing::run(RunFolder &folder)
 {
   parallel::shared::Triangulation<2> triangulation(folder.communicator);
   make_grid(triangulation);
 
-  // The names of the circles, for the columns of the table.
+  // The names of the circles, for the columns of the energy table.
   std::map<types::boundary_id, std::string> touching_itself;
   if (touches_itself)
     touching_itself = {{outer_circle, "outer_circle"},

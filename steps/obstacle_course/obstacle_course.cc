@@ -35,11 +35,11 @@
 // ## The scheme: a discrete gradient
 //
 // The midpoint scheme keeps energy because the work of the pressure over a step
-// is pressure times the change of the gap. On a plane that is so by itself. On
-// a curved surface the normal at the beginning of the step, at its end or in
-// the middle gives a work that is a little wrong, in each step. So the force
-// acts along a **discrete gradient** $D$ of the distance: a direction that
-// depends on both places $x_0$ and $x_1$ of the point, with
+// is pressure times the change of the gap. On a plane this holds automatically.
+// On a curved surface the normal at the beginning of the step, at its end or in
+// the middle gives a work with a small error in each step. So the force acts
+// along a **discrete gradient** $D$ of the distance: a direction that depends
+// on both positions $x_0$ and $x_1$ of the point, with
 //
 // $$ D \cdot (x_1 - x_0) = \phi(x_1) - \phi(x_0) $$
 //
@@ -52,11 +52,11 @@
 // angular momentum about the middle of the bowl
 // (`lib/contact/obstacles/radial_distance.h`; the other shapes are beside it).
 //
-// A **moving obstacle** has a place and a rotation that are functions of time.
-// The point is looked at in the frame of the obstacle, where the gap is again
-// $\phi$ of one place: $D$ is made there and turned back. Of the work
-// $p\, D \cdot$ (way) that is done on the body a part is the change of the gap,
-// and the rest is the work of the motion of the obstacle
+// A **moving obstacle** has a position and a rotation that are functions of
+// time. The point is described in the frame of the obstacle, where the gap is
+// again $\phi$ of one position: $D$ is computed there and rotated back. Of the
+// work $p\, D \cdot$ (displacement increment) on the body a part is the change
+// of the gap, and the rest is the work of the motion of the obstacle
 // (`lib/contact/obstacles/rigid_obstacle.h`).
 //
 // ## One step of this program
@@ -66,11 +66,11 @@
 //    \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2} , $$
 //
 // where $p_j$ follows from the gaps $g_0$ and $g_1$ of the node by any
-// treatment of elastic_ball, $t_j$ from the way along the surface against that
-// of the obstacle, as in hyperelastic_ring, and $L$ is the weight. Newton's
-// method has to know that $D$ turns while the end of the step is sought, and so
-// its matrix has the derivative $p\, \partial D / \partial x_1$ beside the
-// stiffness of the law. Multiplied by $U_1 - U_0$:
+// treatment of elastic_ball, $t_j$ from the slip along the surface relative to
+// the obstacle, as in hyperelastic_ring, and $L$ is the weight. During Newton's
+// method $D$ turns with the end of the step, and so its matrix has the
+// derivative $p\, \partial D / \partial x_1$ beside the stiffness of the law.
+// Multiplied by $U_1 - U_0$:
 //
 //     E_new - E_old = work of gravity - work against contact and friction
 //
@@ -315,11 +315,11 @@ ObstacleCourse::run(RunFolder &folder)
   make_grid(triangulation);
 
   // Mesh and data make the equation of motion: mass, bulk, contact, scheme.
-  // What is said of the obstacle here is all that there is: its shape, which
-  // knows $\phi$ and $D$, and its motion. The kinematics of a plane at rest,
-  // whose $D$ is the same for ever, and of any other obstacle are two classes
-  // behind one interface (`lib/contact/kinematics/contact_kinematics.h`), and
-  // no treatment knows which it has.
+  // An obstacle consists of its shape, which gives $\phi$ and $D$, and its
+  // motion. The kinematics of a plane at rest, whose $D$ is constant, and of
+  // any other obstacle are two classes behind one interface
+  // (`lib/contact/kinematics/contact_kinematics.h`), and treatments do not
+  // distinguish them.
   const Material<2> elastic = material.make<2>();
   ImpactSetup<2>    setup{elastic};
   setup.density   = material.density;
@@ -337,7 +337,7 @@ ObstacleCourse::run(RunFolder &folder)
              " unknowns, " + material.law + ", " + impact.contact.treatment +
              ", " + impact.scheme.name + ", obstacle: " + obstacle.shape);
 
-  // The body moves as a rigid one: velocity of the middle, and spin about it,
+  // The body moves as a rigid one: velocity of the centre, and spin about it,
   // $v = v_c + \omega\, e_3 \times (x - c)$.
   const State initial_state =
     course.state_in_motion(FunctionFromFunctionObjects<2>(
@@ -348,10 +348,10 @@ ObstacleCourse::run(RunFolder &folder)
          return initial_velocity[1] + initial_spin * (x[0] - centre[0]);
        }}));
 
-  // The time loop writes energies and contact; momenta tell the rest: the
-  // motion of the middle, and the spin. The work of a moving obstacle is told a
-  // second time, from force, moment and motion: an independent number for what
-  // the balance says.
+  // The time loop writes energies and contact; momenta give the motion of the
+  // centre, and the spin. The work of a moving obstacle is computed a second
+  // time, from force, moment and motion: an independent value of that in the
+  // balance.
   ImpactLoop<2>    loop(impact.time, course, {elastic}, contacts, folder);
   const Momenta<2> momenta(course.body,
                            course.system.mass_matrix(),

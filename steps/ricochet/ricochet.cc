@@ -41,11 +41,11 @@
 // $$ g \ge 0, \quad p \ge 0, \quad p\, g = 0 \;\text{ or its like}, \qquad
 //    |t| \le \mu p \;\text{ against the slip}, $$
 //
-// with the treatment, the friction and the parameters of each contact. What has
-// a unit and is not given follows from moduli, densities and mesh sizes of the
-// bodies that take part, so that a problem in millimetres and tonnes has the
-// solution of the same one in metres and kilograms; the values are in log.txt
-// and parameters.prm.
+// with the treatment, the friction and the parameters of each contact.
+// Parameters with a unit that are not given follow from moduli, densities and
+// mesh sizes of the bodies that take part, so that a problem in millimetres and
+// tonnes has the solution of the same one in metres and kilograms; the values
+// are in log.txt and parameters.prm.
 //
 // ## Weak form
 //
@@ -69,8 +69,8 @@
 //    \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2} , $$
 //
 // where each $D_j$ is a row whose product with the displacement of the step is
-// the change of the gap, and the forces $R$ are those that hold or move what is
-// prescribed. So the ledger closes whatever is combined:
+// the change of the gap, and the forces $R$ are the reactions of prescribed
+// displacements. So the ledger closes with any combination:
 //
 //     change of energy = work of loads and prescribed displacements
 //                        - what contacts, friction and viscosity take
@@ -79,8 +79,8 @@
 // `lib/discretization/hyperelastic_bulk.cc`; $D_j$ `lib/contact/kinematics/`;
 // $p_j$ `lib/contact/laws/` and `lib/contact/treatments/`; the sum over
 // contacts `lib/contact/treatments/contact_sum.h`; the step
-// `lib/time_integration/midpoint.cc`. How the sections of the file become these
-// is told in `lib/scene/scene.h`.
+// `lib/time_integration/midpoint.cc`. The sections of the file are translated
+// into these in `lib/scene/scene.h`.
 //
 // ## Run it
 //
@@ -88,8 +88,8 @@
 //     ricochet examples/belt_with_spring.prm --validate
 //     ricochet --print-parameters
 //
-// The second tells what is there, without a run; the third has all sections,
-// with NAME for the names of your own.
+// The second describes the scene without a run; the third has all sections,
+// with NAME for your own names.
 
 #include <base/program.h>
 #include <scene/scene.h>
@@ -101,7 +101,7 @@ using namespace Ricochet;
 
 namespace
 {
-  /// A scene in as many dimensions as the file says, which is known once it is read.
+  /// A scene in the dimension that the file gives, known once it is read.
   template <int dim>
   Program
   program_of(const std::shared_ptr<Scene<dim>> &scene)
@@ -127,7 +127,7 @@ namespace
 int
 main(int argc, char **argv)
 {
-  // What the functions below call, once the dimension is known.
+  // Functions called below once the dimension is known.
   Program scene;
   return run_program(
     argc,

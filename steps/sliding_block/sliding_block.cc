@@ -4,7 +4,7 @@
 //
 // An elastic block slides, under its weight, along an elastic strip that is
 // held below and may be a slope: two deformable bodies with Coulomb's friction.
-// The answers are those of a rigid block, which everybody can compute. Gap and
+// The expected results are those of a rigid block, computed by hand. Gap and
 // forces between bodies are explained in the program colliding_disks.
 //
 // ## The problem
@@ -26,8 +26,8 @@
 // Seen as a rigid body, the block slides down a slope if $\mu < \tan \beta$,
 // with the acceleration $\bar g (\sin \beta - \mu \cos \beta)$, and rests
 // otherwise; on the level it is slowed down by $\mu \bar g$. A block of many
-// elements has to find that by itself: its underside is pressed unevenly, and
-// each node sticks or slips on its own.
+// elements must reproduce that: its underside is pressed unevenly, and each
+// node sticks or slips on its own.
 //
 // ## Weak form
 //
@@ -60,9 +60,9 @@
 //
 //     E_1 - E_0 = work of gravity - friction - viscosity
 //
-// The weight is there at once, and what it excites does not die away by itself:
-// the midpoint rule keeps all vibrations. So there is some viscosity by
-// default; without, a block stops late.
+// The weight acts at once, and the vibrations that it excites do not decay: the
+// midpoint rule keeps them all. So there is some viscosity by default; without,
+// a block stops late.
 //
 // ## Run it
 //
@@ -70,8 +70,8 @@
 //     sliding_block --set "Slope/Tangent=0.5" --set "Start/Initial velocity=0"
 //     sliding_block --print-parameters
 //
-// and look at the column slide_block of energy.csv, how far the middle has
-// come.
+// and look at the column slide_block of energy.csv, the displacement of the
+// centre.
 
 #include <base/exceptions.h>
 #include <base/program.h>
@@ -271,7 +271,7 @@ SlidingBlock::run(RunFolder &folder)
     {"block", elastic, material.density, Tensor<1, 2>({initial_velocity, 0.})});
   setup.parts.push_back({"strip", elastic, material.density});
   setup.clamped = {rectangle_side(1, Rectangle::lower)};
-  // The block is the slave, whose nodes carry $p$ and $t$: they stay before the
+  // The block is the slave, whose nodes carry $p$ and $t$: they stay above the
   // strip, whose ends the block does not reach.
   const types::boundary_id underside = rectangle_side(0, Rectangle::lower);
   setup.pairs = {{"block", {underside}, {rectangle_side(1, Rectangle::upper)}}};
@@ -297,8 +297,8 @@ SlidingBlock::run(RunFolder &folder)
                              elastic.linear.has_value(),
                              {"block", "strip"});
   parts.add_to(loop);
-  // How far the block has come: its momentum, with displacements for
-  // velocities, over its mass.
+  // Displacement of the block: its momentum, with displacements for velocities,
+  // over its mass.
   const double mass =
     parts.momenta(0).linear(assembly.uniform(Tensor<1, 2>({1., 0.})))[0];
   loop.add_column("slide_block", "m", [&](const State &state) {

@@ -3,10 +3,10 @@
 // # Spectral radii of the time schemes
 //
 // How much does a time scheme damp a vibration that it cannot resolve? At an
-// impact many of them begin at once: those of the last elements before the
-// obstacle, whose periods are shorter than the time step. A scheme that keeps
-// them for ever shows them in the pressure for ever; one that damps too much
-// takes energy that it should not. The question has an answer without any
+// impact many of them begin at once: those of the elements next to the
+// obstacle, whose periods are shorter than the time step. A scheme that never
+// damps them shows them in the pressure throughout; one that damps too much
+// dissipates energy that it should keep. The question has an answer without any
 // contact (paper C, sections 3.2.1 and 3.3, figures 3 and 4).
 //
 // ## The problem
@@ -17,8 +17,7 @@
 // $$ m \ddot u + k u = 0, \qquad \omega^2 = k/m , $$
 //
 // and a linear time scheme treats each as if it were alone. So it is enough to
-// know what the scheme does to one oscillator, as a function of
-// $\omega \Delta t$.
+// study the scheme for one oscillator, as a function of $\omega \Delta t$.
 //
 // ## One step of this program
 //
@@ -35,7 +34,7 @@
 // $\omega \Delta t$ it should be less.
 //
 // The matrices are not typed in from the paper (C (37)): each column is one
-// step of the very integrator that the benchmarks use, from a unit state. With
+// step of the same integrator that the benchmarks use, from a unit state. With
 // HHT (C (24), `lib/time_integration/hht.cc`) that is
 //
 // $$ u_1 = u_0 + \Delta t\, \dot u_0
@@ -229,7 +228,7 @@ SpectralRadius::make_oscillator(const Triangulation<1>       &triangulation,
 //
 // One step from each of the three unit states, $u = 1$, $\Delta t\, \dot u = 1$
 // and $\Delta t^2 \ddot u = 1$, gives the three columns of $A$. The states need
-// not be ones that a motion passes through; the scheme does not ask.
+// not belong to a motion; the scheme does not depend on that.
 double
 SpectralRadius::spectral_radius(Impact<1>   &oscillator,
                                 const double time_step) const
@@ -258,8 +257,8 @@ SpectralRadius::spectral_radius(Impact<1>   &oscillator,
 
 // ## The order
 //
-// Free vibration from $u = 1$ at rest is $u = \cos(\omega t)$. What a scheme
-// makes of it at the final time, against this, is the error.
+// Free vibration from $u = 1$ at rest is $u = \cos(\omega t)$. The error is the
+// difference from it at the final time.
 double
 SpectralRadius::error(Impact<1>         &oscillator,
                       const double       final_time,

@@ -7,7 +7,7 @@
 // height is our reading of its centre at (0, 0, 2), which would be 18 deep in the foundation.)
 // It has the contact treatments and the time schemes of the
 // bars (begin with the program bar_sd) on a body with some ten thousand
-// unknowns, where what a step costs begins to matter.
+// unknowns, where the cost of a step begins to matter.
 //
 // ## The problem
 //
@@ -41,9 +41,9 @@
 //    = \int_\Omega \rho\, b \cdot v \, dx . $$
 //
 // The integrals over $\Gamma$ are sums over quadrature points, in each of which
-// `lib/contact/laws/nitsche.h` is asked once. The **proximal augmented
+// `lib/contact/laws/nitsche.h` is evaluated once. The **proximal augmented
 // Lagrangian** (C (18) to (20), `lib/contact/laws/augmented_lagrangian.h`) is
-// the same with a multiplier $\lambda_h$ in the place of $p(u)$, which has the
+// the same with a multiplier $\lambda_h$ in place of $p(u)$, which has the
 // equation
 //
 // $$ \int_\Gamma \frac{1}{\gamma}
@@ -81,16 +81,16 @@
 // exchanged and $w$ for $P_N(w)$, and $E_N$ does grow:
 // `lib/contact/laws/nitsche_two_point.h`.)
 //
-// ## What a step costs
+// ## Cost of a step
 //
 // The matrix $\frac{1}{\beta \Delta t^2} M + (1 - \alpha) K$ is the same in all
 // steps: it is factored once. Contact adds to it in the quadrature points where
 // $q > 0$, so that the matrix of an iteration is the factored one and a
 // correction of low rank $U C V^T$, with one column for each such point, and
 // the formula of Sherman, Morrison and Woodbury solves with it at the price of
-// a small dense system (`lib/solvers/low_rank_correction.h`). Large bodies are
-// solved by multigrid, on several ranks sooner than on one; the end of the log
-// says which.
+// a small dense system (`lib/solvers/contact_schur_complement.h`). Large bodies
+// are solved by multigrid, on several ranks sooner than on one; the end of the
+// log names the solver.
 //
 // ## Run it
 //
@@ -137,14 +137,14 @@ public:
   run(RunFolder &folder);
 
 private:
-  /// Where the middle of the ball is at the start (m).
+  /// Initial position of the centre of the ball (m).
   Point<3>
   centre() const
   {
     return Point<3>(0., 0., radius + initial_gap);
   }
 
-  /// Where it will touch the foundation.
+  /// The point that will touch the foundation.
   std::optional<FinePlace>
   fine_place() const
   {
@@ -278,8 +278,9 @@ Sphere::validate() const
   impact.validate();
   if (is_curved && degree == 1)
     throw InputError("Mesh/Curved cells = true takes Mesh/Degree = 2.");
-  // Reading the mesh is the check of its file. A mesh that is to be made has some
-  // 3.6 unknowns in each cube of the mesh size with degree 1 and 27 with degree 2.
+  // The check of the file is part of reading the mesh. A mesh that is to be
+  // made has some 3.6 unknowns in each cube of the mesh size with degree 1 and
+  // 27 with degree 2.
   if (!mesh_file.empty())
     on_first_rank(MPI_COMM_WORLD, [&]() {
       Triangulation<3> mesh;
@@ -341,8 +342,8 @@ Sphere::unused_parameters() const
 // ## Mesh
 //
 // Each rank keeps its part of the mesh only. A file, or tetrahedra by Gmsh, are
-// taken as a whole by the first rank, cut and handed out; hexahedra are refined
-// where they are.
+// read or made as a whole by the first rank, partitioned and distributed;
+// hexahedra are refined in parallel.
 //
 // A ball with straight edges lacks what is between its faces and the sphere:
 // with $h = 4$ its volume is 1.4 % too small, and it touches the foundation
@@ -416,7 +417,7 @@ Sphere::run(RunFolder &folder)
              " unknowns, " + impact.contact.treatment + ", " +
              impact.scheme.name + ", " + impact.mass + " mass");
 
-  // It starts undeformed.
+  // The undeformed ball at rest.
   const State initial_state = sphere.state_in_flight(initial_velocity);
 
   // The time loop writes energies and contact: the force

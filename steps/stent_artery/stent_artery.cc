@@ -7,8 +7,8 @@
 // friction. This is the last example of paper B (section 7), whose text prints no lengths and no
 // path but "towards the walls of the artery": one wall, and a motion along it, too, are ours. The
 // programs hyperelastic_ring (material, Gonzalez' stress, friction) and
-// colliding_disks (gap between bodies) explain what is used here; what is new
-// is a motion that is prescribed, and its work.
+// colliding_disks (gap between bodies) explain these parts; new is a prescribed
+// motion, and its work.
 //
 // ## The problem
 //
@@ -40,9 +40,9 @@
 // $$ \int \rho\, \ddot u \cdot v \, dx + \int F S : \nabla v \, dx
 //    - \sum_j w_j \big( p_j \delta g_j(v) + t_j \delta s_j(v) \big) = 0 . $$
 //
-// The nodes $j$ of the wall are the slave points. Each is before a facet of the
-// stent, in front of or behind which it has the gap $g_j$; along the facet it
-// has come by $s_j$.
+// The nodes $j$ of the wall are the slave points. Each faces a facet of the
+// stent, with the gap $g_j$ in front of it or behind it; along the facet it has
+// slipped by $s_j$.
 //
 // ## One step of this program
 //
@@ -54,13 +54,13 @@
 //    - \sum_j w_j \big( p_j D_j + t_j T_j \big) = R, \qquad
 //    \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2} . $$
 //
-// $R$ is zero but in the unknowns that are prescribed: there $U_1$ is known,
-// and $R$ is what the equation leaves over, the force of whatever moves the
-// stent. Which nodes may touch is decided once in a step: those whose gap in the middle of
-// the step is not positive, if the rate of the step before goes on (B (3.7), 5.3), and, which
-// B does not have, those that were pressed in the step before. For them
-// $\Delta g \ge 0$, $p \ge 0$ and $p\, \Delta g = 0$, by active sets within
-// Newton's method (B 5.3). Multiplied by $U_1 - U_0$:
+// $R$ is zero except in the prescribed unknowns: there $U_1$ is known, and $R$
+// is the residual of the equation, the force that moves the stent. Which nodes
+// may touch is decided once in a step: those whose gap in the middle of the
+// step is not positive, if the rate of the step before goes on (B (3.7), 5.3),
+// and, which B does not have, those that were pressed in the step before. For
+// them $\Delta g \ge 0$, $p \ge 0$ and $p\, \Delta g = 0$, by active sets
+// within Newton's method (B 5.3). Multiplied by $U_1 - U_0$:
 //
 //     E_1 - E_0 = R . (U_1 - U_0)     work of the imposed displacement
 //                 - friction - viscosity
@@ -279,12 +279,12 @@ StentArtery::run(RunFolder &folder)
   parallel::shared::Triangulation<2> triangulation(folder.communicator);
   make_stent_artery(geometry, triangulation);
 
-  // Two parts in one mesh; what holds them and what moves them; the surfaces that
-  // may touch. The wall is the softer one and the slave, though its mesh is the
-  // coarser one: stiff nodes, two or three to a facet, would hold it in too many
-  // places. The ends of the stent belong to its surface: a node of the wall that
-  // slides off the upper side, which in the end is higher than the wall was, would
-  // else be found below it a little later.
+  // Two parts in one mesh; conditions that hold and move them; the surfaces
+  // that may touch. The wall is the softer one and the slave, though its mesh
+  // is the coarser one: stiff nodes, two or three to a facet, would hold it in
+  // too many places. The ends of the stent belong to its surface: a node of the
+  // wall that slides off the upper side, which in the end is higher than the
+  // wall was, would else be found below it a little later.
   const Material<2> wall_material  = artery.make<2>();
   const Material<2> stent_material = stent.make<2>();
   ImpactSetup<2>    setup{wall_material};
@@ -321,7 +321,7 @@ StentArtery::run(RunFolder &folder)
 
   loop.run(initial_state);
 
-  // What other programs can be compared with.
+  // Numbers for comparison with other programs.
   const EnergyLedger &ledger = loop.energy_ledger();
   for (const std::string name : {"imposed_work",
                                  "viscous_dissipation",

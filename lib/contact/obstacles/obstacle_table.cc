@@ -54,8 +54,8 @@ namespace Ricochet
                                                split_expressions(p.gradient),
                                                p.length);
            }}};
-        // Shapes in 3D only: in 2D their sections are circles or shapes of the
-        // table.
+        // Shapes in 3D only: in 2D their sections are circles or shapes listed
+        // above.
         if constexpr (dim == 3)
           {
             list.push_back(

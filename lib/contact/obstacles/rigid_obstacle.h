@@ -75,7 +75,7 @@ namespace Ricochet
     {
       /// Up to rotations that leave the surface as it is.
       Placement begin, end;
-      /// Of these.
+      /// Mean and change of these placements.
       dealii::Tensor<2, 3> mean_rotation, rotation_change;
       dealii::Tensor<1, 3> mean_translation, translation_change;
       /// Displacement of the obstacle's material, which drags sticking points.
