@@ -3,8 +3,7 @@
 """Start-up and time steps of the bars, in seconds.
 
 A run over one step costs the start-up; a run over the whole time costs the
-steps in addition. The difference of medians over several pairs is what the
-steps take.
+steps in addition. The difference of medians over several pairs is the time of the steps.
 """
 
 import argparse

@@ -40,7 +40,7 @@ class Case:
         self.file, self.scene = file, scene
 
     def run(self, build_dir):
-        """What measuring.measure() says of a run with the programs in @p build_dir."""
+        """Result of measuring.measure() for a run with the programs in @p build_dir."""
         with tempfile.TemporaryDirectory() as folder:
             file = self.file and str(ROOT / self.file)
             if self.scene:
@@ -85,7 +85,7 @@ class Comparison:
         self.ratio, self.range = statistics.median(ratios), (min(ratios), max(ratios))
 
     def median(self, which, key):
-        """Of a number of the runs before (0) or now (1)."""
+        """Median of a number of the runs before (0) or now (1)."""
         return statistics.median(pair[which][key] for pair in self.pairs)
 
     def is_slower(self, bound):
@@ -143,7 +143,7 @@ def build_of(commit, programs):
         subprocess.run(["git", "worktree", "prune"], cwd=ROOT, check=True)
         subprocess.run(["git", "worktree", "add", "--detach", folder / "source", sha],
                        cwd=ROOT, check=True)
-    # What a commit before there were presets understands, too.
+    # A form for commits without presets, too.
     subprocess.run(["cmake", "-S", folder / "source", "-B", folder / "build", "-G", "Ninja",
                     "-DCMAKE_BUILD_TYPE=Release", "-DRICOCHET_UNITY=ON",
                     "-DPython3_EXECUTABLE=/usr/bin/python3"],

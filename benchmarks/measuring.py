@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs a program and reads from the end of its log where the time went."""
+"""Runs a program and reads the timings at the end of its log."""
 
 import csv
 import math
@@ -15,8 +15,8 @@ SHARES = re.compile(r"residuals (\S+) s, tangents (\S+) s, (\d+) factorisations 
 
 
 def measure(program, parameters, parameter_file=None, n_ranks=1, n_threads=1):
-    """Unknowns, steps, iterations, seconds in all steps, the shares of a run, seconds
-    of the processors in all of it, and the memory of all ranks (MB)."""
+    """Unknowns, steps, iterations, seconds in all steps, the timings of a run, seconds of the
+    processors in all of it, and the memory of all ranks (MB)."""
     with tempfile.TemporaryDirectory() as folder:
         command = [] if n_ranks == 1 else ["mpirun", "-n", str(n_ranks)]
         command += [program] + ([parameter_file] if parameter_file else [])

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What contact makes of the energy where nodes, ends and edges of equal bodies meet.
+"""Total energy in contact where nodes, ends and edges of equal bodies meet.
 
-Runs blocks on blocks and blocks against blocks, in 2D and 3D, with each contact treatment
-that there is between bodies, and prints a table: the largest promise residual (change or
-rise of the total energy, over the largest sum of energies and works), whether the run says
-that a promise is broken, the deepest penetration over the size of a cell, halved steps, and
-points that were dropped or came in behind a facet. It ends with 0: a table judges nothing.
+Runs blocks on blocks and blocks against blocks, in 2D and 3D, with each contact treatment for
+bodies, and prints a table: the largest promise residual (change or rise of the total energy, over
+the largest sum of energies and works), whether the run says that a promise is broken, the deepest
+penetration over the size of a cell, halved steps, and points that were dropped or entered behind a
+facet. The exit code is 0: a table is no verdict.
 """
 
 import argparse

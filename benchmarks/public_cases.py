@@ -13,7 +13,7 @@ import pathlib
 from measuring import measure
 
 HERE = pathlib.Path(__file__).resolve().parent
-# What theirs takes a step on 4 ranks (s), measured elsewhere.
+# Time of their code for a step on 4 ranks (s), measured elsewhere.
 CASES = {"examples/twisted_cubes": ("twist", 1.2),
          "examples/ball_on_block": ("sphere", 3.2),
          "benchmarks/ironing": ("ironing", .8)}

@@ -4,7 +4,7 @@
 
 First the whole run on the paper's mesh; then a fall and the first steps in contact
 on meshes of several sizes, on one and two ranks, with the solver that the program
-chooses by itself (shares are those of the first rank); then the same with multigrid up
+chooses by itself (timings are those of the first rank); then the same with multigrid up
 to 300 000 unknowns, with exponent of the cost of a step, and memory (largest resident
 size of the process) per unknown.
 """

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Cost of two bodies in space: the spheres of colliding_spheres just before they touch
+"""Cost of two bodies in 3D: the spheres of colliding_spheres just before they touch
 and their first steps in contact (neo-Hookean, persistent contact) on meshes of several
 sizes, on one and two ranks, with the solver that the program chooses by itself; with
 exponent of the cost of a step, and memory of all ranks.

@@ -6,8 +6,8 @@ Runs the program `kernels` with a parameter file that names bodies, meshes, size
 kernels (see it and kernels/kernels.cc), and prints a table of its numbers: unknowns a
 second, and the part of the machine's own bandwidth, measured in the same run, that the
 kernel would use if it moved no more bytes than it has to. Two machines, or two commits on
-two machines, are compared by these parts. Besides, the loading of the libraries and the
-start of a program. The folder gets kernels.csv, throughput.json and throughput.svg.
+two machines, are compared by these parts. Besides, the loading of the libraries and the start of a
+program. The folder gets kernels.csv, throughput.json and throughput.svg.
 """
 
 import argparse

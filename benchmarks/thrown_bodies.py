@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cost of a step of the elastic ball and the hyperelastic ring (paper A, tables
-2 and 4), on one rank or several: seconds per step against unknowns, and where they go.
+2 and 4), on one rank or several: seconds per step against unknowns, and their parts.
 
-The shares come from the last lines of the programs' logs; start-up and set-up
+The timings come from the last lines of the programs' logs; start-up and set-up
 are not part of them. The exponent is that of cost ~ unknowns^exponent between
 the three largest meshes.
 """

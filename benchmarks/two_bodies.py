@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Two linear bodies that meet head on, against one of them that meets the plane between
-them: the same motion, but for the meshes. Disks with persistent contact in their nodes on
+them: the same motion, except for the meshes. Disks with persistent contact in their nodes on
 meshes of several sizes, and the soft sphere with a penalty in the points of its faces.
 Besides, one of them that meets a round obstacle instead of the plane.
 """

@@ -4,8 +4,8 @@
 
     doc/check_links.py output/doc [PART]
 
-Files, and anchors in them. Addresses of other sites are not asked, nor is what leads into the
-folder PART of the site, which may not have been made.
+Files, and anchors in them. Addresses of other sites are not requested; links into the folder PART
+of the site are not followed, as it may not have been made.
 """
 
 from __future__ import annotations

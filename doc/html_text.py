@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the checkers see of a page: its links, its anchors and its prose."""
+"""Parts of a page for the checkers: its links, its anchors and its prose."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 # Elements without an end.
 EMPTY = {"area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source",
          "track", "wbr"}  # fmt: skip
-# What holds no prose.
+# Elements without prose.
 SILENT = {"script", "style", "pre", "code", "kbd", "svg", "math", "nav", "footer", "form"}
 SILENT_CLASSES = {"math", "highlight", "headerlink", "toc-drawer", "sidebar-drawer", "sig", "skip"}
 # After these a sentence does not go on.
@@ -23,7 +23,7 @@ class Page:
 
     #: Addresses in href, src and poster.
     links: list[str] = field(default_factory=list)
-    #: What a link can lead to behind its "#".
+    #: Targets of links behind their "#".
     anchors: set[str] = field(default_factory=set)
     #: The prose of the element <article>, or of all if there is none.
     prose: str = ""

@@ -32,7 +32,7 @@ MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 
 
 def copy_mathjax(made: site.Site) -> None:
-    """What formulas need, so that the site needs no network: TeX in, SVG out."""
+    """Files for formulas, so that the site needs no network: TeX in, SVG out."""
     for part in ("MathJax.js", "config/TeX-AMS_SVG.js", "extensions", "jax/input/TeX",
                  "jax/element", "jax/output/SVG"):  # fmt: skip
         source, target = MATHJAX / part, made.extra(f"_static/mathjax/{part}")
@@ -85,7 +85,7 @@ def write_pages(arguments: argparse.Namespace) -> None:
 
 
 def write_api(output: pathlib.Path) -> int:
-    """The pages of Doxygen; returns the number of its warnings that nobody knows of."""
+    """The pages of Doxygen; returns the number of its unknown warnings."""
     warnings = api.make(output.resolve(), site.ROOT / "build" / "doc")
     new = api.not_known(warnings)
     for warning in new:

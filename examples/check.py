@@ -30,8 +30,7 @@ sys.path.insert(0, str(ROOT / "python"))
 import ricochet  # noqa: E402
 GRAVITY = 9.81
 
-# What is looked at, what it is, and between which values it must be; `expected` is the
-# number told by hand.
+# A checked quantity, its value and its bounds; `expected` is the number computed by hand.
 Check = namedtuple("Check", "what found low high expected")
 
 
@@ -301,7 +300,7 @@ def snap_fit(run):
 
 
 def cylinder_squeeze(force, radius, young, poisson):
-    """By how much two plates squeeze a long cylinder (Johnson, 5.57)."""
+    """Squeeze of a long cylinder between two plates (Johnson, 5.57)."""
     soft = (1. - poisson**2) / (math.pi * young)
     width = math.sqrt(4. * force * radius * soft)
     return 2. * force * soft * (2. * math.log(4. * radius / width) - 1.)
@@ -332,7 +331,7 @@ def seal_in_groove(run):
 
 def wall_squeezes(diameter=5.33, groove=6.2):
     """Squeezes at which a section that keeps its area fills the groove: with half
-    circles at its sides, and as a rectangle. It is something between."""
+    circles at its sides, and as a rectangle. The truth is in between."""
     area = math.pi * diameter**2 / 4.
     # h (groove - h) + pi h^2/4 = area
     c = 1. - math.pi / 4.
@@ -383,9 +382,9 @@ def hollow_ball(run):
 
 
 def thrusts(thickness, n=9, points=721):
-    """Which thrusts in the keystone keep the resultant within all joints of an arch of
-    mean radius 1, and the weight of a stone: (smallest, largest) over the weight of the
-    arch; None if there are none."""
+    """The thrusts in the keystone that keep the resultant within all joints of an arch of mean
+    radius 1, and the weight of a stone: (smallest, largest) over the weight of the arch; None if
+    there are none."""
     inner, outer = 1. - thickness / 2., 1. + thickness / 2.
     step = math.pi / n
     # Middle of mass of a sector.
@@ -541,8 +540,8 @@ def dominoes(run):
     angle = math.asin(space / height)
     between_hits = np.diff(t[hits])
     mass = 1400. * height * thickness
-    # Of a block that stays as it is: the middle is half way between opposite corners,
-    # where the left foot is by the thickness beside the right one.
+    # Centre of a block that keeps its shape: the mean of opposite corners, where the left foot is
+    # by the thickness beside the right one.
     sinks = sum(.5 * (run[f"head_{i}_displacement_y"][-1] +
                       run[f"foot_{i}_displacement_y"][-1] +
                       thickness * math.sin(tilt[-1])) for i, tilt in
@@ -651,8 +650,8 @@ EXAMPLES = {
 
 # Residuals of promises that are not kept, with the reason.
 KNOWN_PROMISES = {
-    # A node whose facets are half beyond an edge is let go with the energy of its penalty, and
-    # taken back with it.
+    # A node whose facets are half beyond an edge is released with the energy of its penalty, and
+    # captured again with it.
     "twisted_cubes": 8.95e-4,
 }
 
@@ -677,7 +676,7 @@ def run_example(name, programs, folder):
 def checks_of(name, folder):
     """All numbers of an example, the balance first."""
     run = Run(folder)
-    # The run itself knows what round-off leaves, at the beginning of what is at rest.
+    # The run itself accounts for round-off, at the start of bodies at rest.
     n_open = len(ricochet.Run(folder).open_lines)
     known = []
     if name in KNOWN_PROMISES:

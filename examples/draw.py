@@ -4,7 +4,7 @@
 
     examples/draw.py [NAME...] [--output output/examples]
 
-Plane bodies are coloured by von Mises stress, obstacles grey. Bodies in space are drawn by the
+Bodies in 2D are coloured by von Mises stress, obstacles grey. Bodies in 3D are drawn by the
 Python package of Ricochet, cut in halves, or from outside.
 """
 
@@ -59,7 +59,7 @@ def lid_and_groove(time):
             box(-5, top, 10, .8)]
 
 
-FLOOR = {  # what stays where it is
+FLOOR = {  # parts at rest
     "snap_fit": [circle(36.4, -1.5, 1.5)],
     "gear_pair": [circle(40, 0, 9.98)],
     "dominoes": [box(-.01, -.006, .24, .006)],
@@ -145,7 +145,7 @@ def draw_outside(run, times, path):
             cell = grid.GetCell(c)
             points = np.array([cell.GetPointId(i) for i in range(8)])
             for face in points[HEXAHEDRON]:
-                # Bodies that touch have faces in one place at the start.
+                # Bodies that touch have coincident faces at the start.
                 where = np.hstack([start[face], places[face]]).round(7) + 0.
                 faces.setdefault(tuple(sorted(map(tuple, where))), []).append(face)
         outer = np.array([own[0] for own in faces.values() if len(own) == 1])

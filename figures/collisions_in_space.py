@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The pictures and animations of collisions in space in doc/images: tori, and spheres that spin.
+"""The pictures and animations of collisions in 3D in doc/images: tori, and spheres that spin.
 
     figures/collisions_in_space.py [--build-dir build/release] [--output output/collisions]
 

@@ -40,8 +40,8 @@ FILES = CHECKOUT / "parameter_files"
 
 
 def run(program, file, parameters=(), look_at=None):
-    """The table of the ledger, and the log; and what @p look_at makes of the fields that are
-    written every 23 steps, where it is given."""
+    """The table of the ledger, and the log; and the results of @p look_at, if given, for the fields
+    that are written every 23 steps."""
     with tempfile.TemporaryDirectory() as folder:
         command = [
             str(program),
@@ -61,7 +61,8 @@ def run(program, file, parameters=(), look_at=None):
 
 
 def radius_and_pressure(folder, radius):
-    """Of the half ellipsoid that fits the pressure of step 23, in nodes within @p radius (m)."""
+    """Radius and peak of the half ellipsoid that fits the pressure of step 23, in nodes within @p
+    radius (m)."""
     grid = read_vtu(folder / "solution/step-000023.vtu")
     pressure = array(grid, "contact_pressure")[:, 0]
     points = array_of_points(grid)
@@ -178,19 +179,19 @@ def main():
             ((max(forces), force), (duration(ledger, forces), time)),
             0.03 if coupling == "points" else 0.04,
         )
-        # What Hertz says of the force of that step.
+        # Hertz' values for the force of that step.
         exact = radius_of_contact(forces[23])
         values = ((a, exact), (peak, 1.5 * forces[23] / (math.pi * exact**2)))
         print(
             "  radius and peak of the pressure: "
             + ", ".join(f"{x:.5g} ({100 * (x / y - 1):+.1f} %)" for x, y in values)
         )
-        # Points hold single nodes, whose pressures go to and fro.
+        # Points act on single nodes, whose pressures oscillate.
         if coupling != "points" and any(abs(x / y - 1) > 0.03 for x, y in values):
             failed.append(f"pressure of {name}, {size} m")
 
-    # What friction gives, by what the pressure gives: rigid spheres that slide get mu
-    # of it, and a spin of 5/2 of that by the radius.
+    # Impulse of friction over that of the pressure: for rigid spheres that slide it is mu, and the
+    # spin is 5/2 of that by the radius.
     ledger, log = run(programs / "colliding_spheres", FILES / "colliding_spheres/sliding_spin.prm")
     change = {c: ledger[f"momentum_{c}_right"][-1] - ledger[f"momentum_{c}_right"][0] for c in "xy"}
     velocity = float(re.search(r"velocity_x_right +(\S+)", log).group(1)) + 1

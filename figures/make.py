@@ -82,10 +82,10 @@ def chosen(figures, names):
 
 
 def make_locked(figures, arguments):
-    """Make the figures, unless somebody else does; returns the exit code."""
+    """Make the figures, unless another process does; returns the exit code."""
     runs.OUTPUT.mkdir(exist_ok=True)
     with open(runs.OUTPUT / ".figures.lock", "w", encoding="utf-8") as lock:
-        # Two of us would write into the same folders.
+        # Two processes would write into the same folders.
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Opens a run in ParaView: bodies where they are, coloured by von Mises stress, and rigid
+"""Opens a run in ParaView: deformed bodies, coloured by von Mises stress, and rigid
 obstacles.
 
     RICOCHET_RUN=output/elastic_ball/default paraview --script=python/paraview_open.py
@@ -47,7 +47,7 @@ shown.SetScalarBarVisibility(view, True)
 obstacles = os.path.join(os.path.dirname(str(bodies.FileName)), "obstacles.pvd")
 low, high = bodies.GetDataInformation().GetBounds()[4:6]
 if high > low:
-    # In space: from the side and above, with z up.
+    # In 3D: from the side and above, with z up.
     view.CameraPosition, view.CameraViewUp = [1.0, -2.5, 1.0], [0.0, 0.0, 1.0]
     view.CameraFocalPoint = [0.0, 0.0, 0.0]
 simple.ResetCamera(view)

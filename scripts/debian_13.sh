@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Does it build with Debian 13 (deal.II 9.6, SUNDIALS 7), and are the unit tests passed? On
 # Debian 12, as root: makes a Debian 13 in FOLDER (8 GB), copies the sources there, builds and
-# tests them. What is there already is used again.
+# tests them. Existing parts are used again.
 #
 #   debian_13.sh FOLDER
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # The site, output/doc/index.html, which needs no network: tutorials, figures, methods,
 # parameters, results, how to, and the API. It is made of sources, programs, and of the runs
-# and pictures that are in output/; what has not been made is said there.
+# and pictures that are in output/; missing ones are listed there.
 #
 #   docs.sh                     build the programs, then the site
 #   docs.sh --build-dir DIR     with programs that are there

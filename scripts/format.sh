@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Is all C++ formatted as .clang-format says? Some seconds; ctest runs it as "style/format".
 #
-#   format.sh          check; what is not formatted is named with its first lines
+#   format.sh          check; unformatted files are named with their first lines
 #   format.sh --fix    format
 #
 # Version 14 judges, that of Debian 12, as others break lines at other places; without it the

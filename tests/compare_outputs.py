@@ -5,9 +5,8 @@
     compare_outputs.py [options of numdiff, which are not looked at] STORED NEW
 
 Words and whole numbers are the same. Other numbers agree to 1e-7 of the largest number of
-their column or to one in their last digit, plus 1e-9 for what is round-off: residuals and
-drifts. A column is the same place in lines with the same words. The first line, with
-versions, is not compared.
+their column or to one in their last digit, plus 1e-9 for round-off: residuals and drifts. A column
+is the same place in lines with the same words. The first line, with versions, is not compared.
 """
 
 import math

@@ -2,14 +2,15 @@
 
 // # Unknowns a second
 //
-// What a time step is made of, each by itself: the forces of a cube (residual), their
-// derivative (tangent), the product of this matrix with a vector, its factorisation and
-// a solution with it, a cycle of multigrid and its set-up. For each the time of the
-// fastest of several calls, and the bytes that have to go through memory at the least:
-// what a kernel reads and what it writes, once each, as it is stored. Divided by the
-// bandwidth of the machine, which the same run measures (McCalpin's triad,
-// a = b + s c, whose bytes are counted in the same way), they are the time that the
-// kernel would take if nothing but memory limited it.
+// The parts of a time step, each by itself: the forces of a cube (residual),
+// their derivative (tangent), the product of this matrix with a vector, its
+// factorisation and a solution with it, a cycle of multigrid and its set-up.
+// For each the time of the fastest of several calls, and the bytes that have to
+// go through memory at the least: its input and output, once each, as stored.
+// Divided by the bandwidth of the machine, which the same run measures
+// (McCalpin's triad, a = b + s c, whose bytes are counted in the same way),
+// they are the time that the kernel would take if nothing but memory limited
+// it.
 //
 // Bytes at the least are
 // - residual: of a linear body the matrix, two displacements and the force; of a
@@ -17,7 +18,7 @@
 //   each cell the numbers of its unknowns;
 // - tangent: the values of the matrix, once (linear: twice, as they are copied);
 // - product: the matrix and two vectors;
-// - factorisation: the factor, once, as large as what it leaves on the heap;
+// - factorisation: the factor, once, as large as its memory on the heap;
 // - back-substitution: the factor, twice, and two vectors;
 // - product by blocks (of a linear body, stiffness and mass, as large bodies store
 //   them): the matrices and two vectors;
@@ -122,7 +123,7 @@ namespace
         const double *const with = c.data();
         for (std::size_t i = 0; i < n; ++i)
           to[i] = from[i] + s * with[i];
-        // What is never read need not be computed.
+        // A sink, as results that are never read need not be computed.
         s = to[n / 2] > 0. ? .5 : .25;
       },
       seconds);
@@ -275,7 +276,7 @@ private:
 
     Vector old_solution = body.make_vector(), new_solution(old_solution),
            force(old_solution);
-    // Small strains, so that no cell is turned inside out.
+    // Small strains, so that no cell is inverted.
     const double amplitude = .02 / size;
     for (const auto i : body.owned_indices())
       {

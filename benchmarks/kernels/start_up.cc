@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// What every program with deal.II does before it can do anything: load deal.II and the
-// libraries behind it, and start MPI. See start_up.py.
+// The start of every program with deal.II: load deal.II and the libraries
+// behind it, and start MPI. See start_up.py.
 
 #include <deal.II/base/mpi.h>
 

@@ -25,7 +25,7 @@ class CrankNicolson:
     """A body with mass, stiffness and load, some unknowns of which may be held at zero.
 
     `contact(u, with_tangent)` returns the contact term, its tangent or None, and whether some
-    point is active; while none is, the tangent is the same, and its factorisation is kept.
+    point is active; while none is, the tangent is the same, and its factorisation is reused.
     """
 
     def __init__(self, mass, stiffness, load, contact, time_step, held=()):

@@ -54,7 +54,7 @@ def make(made: site.Site) -> None:
     if missing:
         raise site.SiteError(f"examples/README.md has no row for {', '.join(missing)}.")
 
-    # The table becomes sections; what stands before and after it stays.
+    # The table becomes sections; the text before and after it stays.
     before, _, rest = readme.partition("| picture |")
     after = rest.partition("\n\n")[2]
     before = text.with_links(re.sub(r"\A<!--.*?-->\s*# .*\n", "", before), PAGE, "examples")

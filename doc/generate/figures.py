@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The gallery: each figure with its picture, what to see in it, its runs and its numbers."""
+"""The gallery: each figure with its picture, caption, runs and numbers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from . import site, text
 
 FOLDER = "gallery"
 
-# Parameters of a run that say what is written, and not what is computed.
+# Parameters of output, without effect on the computed problem.
 NOT_TOLD = prm.ASIDE
 
 COLUMNS = ("quantity", "paper", "exact", "ours", "ok?", "criterion")
@@ -77,7 +77,7 @@ def _title(group: str) -> tuple[str, str]:
 
 
 class Gallery:
-    """The figures, and what is there of them."""
+    """The figures, and their files that exist."""
 
     def __init__(self, made: site.Site) -> None:
         self.site = made
@@ -149,7 +149,7 @@ class Gallery:
         return "\n".join(lines)
 
     def _curves(self, entry: Entry, page: str) -> str:
-        """The parameter files of the runs, each with what was changed on the command line."""
+        """The parameter files of the runs, each with the changes on the command line."""
         overrides: dict[tuple[str, str], dict[str, list[str]]] = {}
         counts: dict[tuple[str, str], int] = {}
         for run in entry.figure.runs:

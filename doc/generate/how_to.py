@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pages that are written by hand, with what they include; and the Python package."""
+"""Handwritten pages, with their includes; and the Python package."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import ricochet
 
 from . import site, text
 
-# In which order they stand.
+# Order of the pages.
 ORDER = (
     "run",
     "scenes",
@@ -61,7 +61,7 @@ def _signature(thing: object) -> str:
 
 
 def python_reference() -> str:
-    """What the package offers, from its docstrings."""
+    """Contents of the package, from its docstrings."""
     pieces = ["## All that it offers"]
     for name in ricochet.__all__:
         thing = getattr(ricochet, name)

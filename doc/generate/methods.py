@@ -8,8 +8,8 @@ A page may begin with lines between two lines of three dashes; lists are separat
     source: lib/contact/laws/normal_compliance.h
     conserves: energy and contact potential, at the end of an impact
 
-A line `<!-- energy-curve: NAME -->` is where the curve of that treatment goes. What stands before
-the first section of index.md goes before the tables.
+A line `<!-- energy-curve: NAME -->` is where the curve of that treatment goes. Text before the
+first section of index.md goes before the tables.
 """
 
 from __future__ import annotations
@@ -146,7 +146,7 @@ def _curve(made: site.Site, page: str, name: str, run: Run) -> str:
 
 
 def _draw() -> None:
-    """Make the drawings of the pages, unless they are younger than what makes them."""
+    """Make the drawings of the pages, unless they are newer than their script."""
     script = site.DOC / "methods" / "drawings.py"
     drawings = list(script.parent.glob("*.svg"))
     if not script.is_file():

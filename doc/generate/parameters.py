@@ -15,7 +15,7 @@ from ricochet import prm
 
 from . import site, text
 
-# What a program answers to a value that no pattern but "anything" allows.
+# Answer of a program to a value that no pattern except "anything" allows.
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ def unit_of(meaning: str) -> str:
 
 
 def ask(program: pathlib.Path, *options: str) -> subprocess.CompletedProcess[str]:
-    """Start a program that only tells something of itself."""
+    """Start a program that prints information about itself."""
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     return subprocess.run(
         [str(program), *options], capture_output=True, text=True, env=environment, check=False
@@ -71,7 +71,7 @@ def ask(program: pathlib.Path, *options: str) -> subprocess.CompletedProcess[str
 
 @functools.cache
 def description(program: pathlib.Path) -> str:
-    """What a program says that it does."""
+    """Description of a program by itself."""
     answer = ask(program, "--help").stdout
     return " ".join(answer.split("Usage:")[0].split())
 
@@ -79,8 +79,7 @@ def description(program: pathlib.Path) -> str:
 def declared(program: pathlib.Path) -> list[Parameter]:
     """The parameters of a program.
 
-    Raises:
-        SiteError: the program does not tell.
+    Raises: SiteError: the program does not list them.
     """
     answer = ask(program, "--print-parameters")
     if answer.returncode != 0:
@@ -89,9 +88,9 @@ def declared(program: pathlib.Path) -> list[Parameter]:
 
 
 def parse(printed: str) -> list[Parameter]:
-    """The parameters in what a program prints of them, each with the comment before it.
+    """The parameters in the output of a program, each with the comment before it.
 
-    What is allowed stands behind all of them, as "#   Section/Name: A number".
+    The allowed values follow after all of them, as "#   Section/Name: A number".
     """
     printed, _, rest = printed.partition("# What is allowed:\n")
     allowed = dict(line.lstrip("# ").split(": ", 1) for line in rest.splitlines() if line)
@@ -118,7 +117,7 @@ def parse(printed: str) -> list[Parameter]:
 
 
 def in_words(pattern: str) -> str:
-    """What a program says that a parameter allows, within a sentence."""
+    """Allowed values of a parameter as printed by a program, within a sentence."""
     pattern = pattern.strip()
     if pattern.startswith("Any one of "):
         return "one of: " + pattern.removeprefix("Any one of ")
@@ -136,7 +135,7 @@ def files_of(program: str) -> list[pathlib.Path]:
     files = sorted((site.ROOT / "parameter_files" / program).glob("*.prm"))
     if program == "ricochet":
         files += sorted((site.ROOT / "examples").glob("*.prm"))
-    # What others build on comes first.
+    # Files that others include come first.
     return sorted(files, key=lambda path: (path.parent.name, path.stem != "default"))
 
 
@@ -151,7 +150,7 @@ def general_name(name: str, sections: set[str]) -> str:
 
 @functools.cache
 def settings_of(program: str) -> list[SetBy]:
-    """What each parameter file of a program sets itself, and not the files that it includes."""
+    """Settings of each parameter file of a program, without the files that it includes."""
     found = []
     for path in files_of(program):
         everything = prm.read(path)
@@ -217,7 +216,7 @@ def _page(program: str, parameters: list[Parameter], says: str) -> str:
         ),
     ]
     here = None
-    # What the others depend on comes first.
+    # Files that the others depend on come first.
     order = list(dict.fromkeys(each.section for each in parameters))
     for parameter in sorted(
         parameters,

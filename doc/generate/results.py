@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a run leaves: columns of the console and of energy.csv, fields of the VTU files.
+"""Results of a run: columns of the console and of energy.csv, fields of the VTU files.
 
 The texts are in doc/results/*.toml, one table for each name. A part of a name in capitals, as in
 `mean_gap_NAME`, stands for a name of the user's; `AXIS` for x, y or z.
@@ -28,14 +28,14 @@ class Item:
 
     @property
     def pattern(self) -> re.Pattern[str]:
-        """Which names it stands for."""
+        """Pattern of the names that it stands for."""
         expression = re.escape(self.name)
         expression = expression.replace("AXES", "[xyz][xyz]").replace("AXIS", "[xyz]")
         return re.compile(expression.replace("NAME", r"\w+"))
 
     @property
     def length(self) -> int:
-        """Of what is fixed in the name: the longer, the better it fits."""
+        """Length of the fixed part of the name: the longer, the better it fits."""
         return len(re.sub("NAME|AXES|AXIS", "", self.name))
 
 
@@ -58,7 +58,7 @@ def read(kind: str) -> list[Item]:
 
 
 def find(items: list[Item], name: str) -> Item | None:
-    """The item that tells of a name."""
+    """The item that describes a name."""
     fitting = [item for item in items if item.pattern.fullmatch(name)]
     return max(fitting, key=lambda item: item.length) if fitting else None
 
@@ -77,7 +77,7 @@ def _section(title: str, kind: str, introduction: str) -> str:
 
 
 def make(made: site.Site) -> None:
-    """Write the page, around what is written by hand in doc/results/index.md."""
+    """Write the page, around the text in doc/results/index.md."""
     hand = (site.DOC / "results" / "index.md").read_text(encoding="utf-8")
     hand = re.sub(r"\A<!--.*?-->\s*", "", hand, flags=re.DOTALL)
     made.page(

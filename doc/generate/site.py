@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOC = ROOT / "doc"
 
-# In which order to read the programs. Those that are not named come after them.
+# Order in which to read the programs. Others come after them.
 ORDER = (
     "bar_sd",
     "bar_by_hand",
@@ -45,7 +45,7 @@ def steps() -> list[str]:
 
 @dataclass
 class Site:
-    """Where the pages go, and what they are made of."""
+    """Target of the pages, and their sources."""
 
     #: The folder with the programs.
     programs: pathlib.Path

@@ -111,7 +111,7 @@ def program_text(step: Step) -> str:
 
 
 def _own_text(step: Step) -> tuple[str, str]:
-    """What doc/tutorials has for a step: on its results, and its exercises."""
+    """The text of doc/tutorials for a step: on its results, and its exercises."""
     path = site.DOC / "tutorials" / f"{step.name}.md"
     if not path.is_file():
         return "", ""

@@ -129,8 +129,8 @@ def picture(path: pathlib.Path, address: str, alt: str) -> str:
 def with_pictures(content: str, page: str, folder: str = "") -> str:
     """Markdown in which pictures that stand alone lead to themselves at full size.
 
-    They are in doc/ where they are in the site: below `folder`, or, with a slash before them, at
-    the place that they name.
+    Pictures have the same positions in doc/ and in the site: below `folder`, or, with a slash
+    before them, at the place that they name.
     """
 
     def change(match: re.Match[str]) -> str:
@@ -191,7 +191,7 @@ def has_section(text: str, heading: str) -> bool:
 
 
 def section(text: str, heading: str) -> str:
-    """What stands under a heading, with the headings below it; empty if there is none."""
+    """Text under a heading, with the headings below it; empty if there is none."""
     level, inside, result, fence = 0, False, [], False
     for line in text.split("\n"):
         if re.match(r"\s*(```|~~~)", line):
@@ -206,7 +206,7 @@ def section(text: str, heading: str) -> str:
     return "\n".join(result).strip("\n")
 
 
-# Links of files of the project, and the pages that hold what they lead to.
+# Links to files of the project, and the pages with their contents.
 PAGES_OF_FILES = {
     "lib/README.md": "library",
     "examples": "examples/index",
@@ -220,7 +220,7 @@ PAGES_OF_FILES = {
 def with_links(text: str, page: str, folder: str = "") -> str:
     """Markdown of a file of the project, in `folder`, for a page of the site.
 
-    Links to what the site has lead there; of others the text remains. Pictures are those of
+    Links to files within the site lead there; of others the text remains. Pictures are those of
     doc/images.
     """
 
@@ -291,9 +291,9 @@ _INCLUDE = re.compile(r"^<!-- include: (\S+)(?: # (.+?))? -->$", re.MULTILINE)
 
 
 def with_includes(text: str, page: str) -> str:
-    """Replace lines `<!-- include: README.md # Heading -->` by what stands there.
+    """Replace lines `<!-- include: README.md # Heading -->` by the text there.
 
-    Without a heading it is the whole file, but for its title. Headings in it are put below
+    Without a heading the whole file is included, except for its title. Headings in it are put below
     the one that stands before the line.
 
     Raises:

@@ -8,12 +8,12 @@
 #include <memory>
 
 /**
- * A time scheme of one's own: the backward Euler method,
+ * A user's time scheme: the backward Euler method,
  *
  *     M (v_new - v_old)/dt + F(u_new) = 0,     u_new = u_old + dt v_new,
  *
- * where F is the internal and contact force less the load. It is of first order and takes
- * energy from all that it does not resolve.
+ * where F is the internal and contact force less the load. The method is of
+ * first order and damps unresolved vibrations.
  */
 class BackwardEuler : public Ricochet::TimeScheme
 {

@@ -7,7 +7,8 @@
 #include <cmath>
 
 /**
- * A contact law of one's own: a pressure that grows exponentially with the penetration,
+ * A user's contact law: a pressure that grows exponentially with the
+ * penetration,
  *
  *     p = p_0 (exp(penetration/d) - 1),     potential p_0 (d (exp(penetration/d) - 1)
  *                                                          - penetration),

@@ -5,8 +5,8 @@
 #include <contact/treatments/contact_law_table.h>
 
 /**
- * A friction law of one's own: Coulomb's until the traction reaches the strength of the
- * surface in shear, which no pressure raises, as in metal forming.
+ * A user's friction law: Coulomb's until the traction reaches the strength of
+ * the surface in shear, which no pressure raises, as in metal forming.
  */
 struct LimitedFriction
 {

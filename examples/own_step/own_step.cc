@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// # A step of one's own
+// # A user's own step
 //
 // The shortest program on Ricochet's library: a block falls on the ground,
 //
@@ -11,8 +11,9 @@
 //
 //     own_step --output-dir output/own_step
 //
-// A contact law, a friction law, a material and a time scheme of one's own are beside it,
-// each in one file, and become choices of the parameter file in the first lines of main():
+// A user's contact law, friction law, material and time scheme are beside it,
+// each in one file, and become choices of the parameter file in the first lines
+// of main():
 //
 //     own_step --set "Contact/Treatment=exponential pressure" --set "Material/Law=Yeoh"
 
@@ -40,7 +41,7 @@ main(int argc, char **argv)
   register_material<Yeoh>();
   register_time_scheme<BackwardEuler>();
 
-  // What a parameter file may set, with this program's defaults.
+  // Parameters of the file, with this program's defaults.
   ImpactParameters   impact;
   MaterialParameters material;
   double             height             = .1;
@@ -65,7 +66,7 @@ main(int argc, char **argv)
     parameters.leave_subsection();
   };
 
-  // What is refused before any time is spent.
+  // Checks before any time is spent.
   const auto validate = [&]() {
     material.validate(2, impact.scheme.name);
     impact.validate(material.is_linear(), material.viscosity_eta > 0.);

@@ -8,8 +8,9 @@
 #include <cmath>
 
 /**
- * A material of one's own: Yeoh's law for filled rubber (Rubber Chemistry and Technology
- * 66, 1993), slightly compressible, with the deviation x = I1 I3^(-1/3) - 3 and J^2 = I3:
+ * A user's material: Yeoh's law for filled rubber (Rubber Chemistry and
+ * Technology 66, 1993), slightly compressible, with the deviation x = I1
+ * I3^(-1/3) - 3 and J^2 = I3:
  *
  *     W = c10 x + c20 x^2 + c30 x^3 + K/2 (J - 1)^2.
  *

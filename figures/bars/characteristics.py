@@ -21,7 +21,7 @@ def _end_values(end, time, sign):
 
 
 def invariants(bar, x, time):
-    """u_t + u_x and u_t - u_x at places and times; at a jump, the values after it."""
+    """u_t + u_x and u_t - u_x at points and times; at a jump, the values after it."""
     x, time = np.broadcast_arrays(np.asarray(x, float), np.asarray(time, float))
     strain, velocity = START[bar.name]
     # When the characteristics left the ends; before time 0 they came from the start.
@@ -32,7 +32,7 @@ def invariants(bar, x, time):
     if len(bar.ends) == 2:
         left_at_end = _end_values(bar.ends[1], np.maximum(from_right, 0), 1)
     else:
-        # The right end is held: it reflects what came to it, against its sign.
+        # The right end is held: it reflects the incoming invariant with the opposite sign.
         came = from_right - 1
         left_at_end = -np.where(
             came >= 0, _end_values(bar.ends[0], np.maximum(came, 0), -1), velocity - strain
@@ -51,7 +51,7 @@ def velocity(bar, x, time):
 
 
 def displacement(bar, x, time):
-    """u at one place and time: that of the left end, and the strain from there on."""
+    """u at one point and time: that of the left end, and the strain from there on."""
     part = time - np.floor(time + 1e-9)
     breaks = np.array([0, *sorted(b for b in (part, 1 - part) if 0 < b < x), x])
     middles = 0.5 * (breaks[1:] + breaks[:-1])

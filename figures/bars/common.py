@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the figures of the bars share: curves, names, runs."""
+"""Common parts of the figures of the bars: curves, names, runs."""
 
 from dataclasses import dataclass
 

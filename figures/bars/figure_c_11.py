@@ -3,7 +3,7 @@
 
 One period: the bar wriggles between two rigid obstacles. At each time the upper strip is the exact
 solution and the lower one a run (Nitsche, TR-BDF2, redistributed mass, h = dt = 0.05); colours are
-the pressure in the bar, white lines the ends of its elements, grey lines the ways of six points.
+the pressure in the bar, white lines the ends of its elements, grey lines the paths of six points.
 From t = 1 to 2 and from 3 to 4 the left end stays at the obstacle without pressing on it (grazing
 contact), from 2 to 3 it presses. Under a pressure of 1 Pa this linear bar has no length: at t = 2.5
 its left half is a point.

@@ -48,7 +48,7 @@ def formula(a, b, c):
     """The text of a + b t + c x, as a fraction if it needs one."""
     below = 1 if all(float(value).is_integer() for value in (a, b, c)) else 2
     text = ""
-    # First what is positive: t - 4, not -4 + t.
+    # Positive terms first: t - 4, not -4 + t.
     for value, name in sorted(((a, ""), (b, "t"), (c, "x")), key=lambda term: term[0] <= 0):
         size = round(abs(below * value))
         if size:
@@ -59,7 +59,7 @@ def formula(a, b, c):
 
 
 def connected(triangles):
-    """Groups of triangles that hang together by a side."""
+    """Groups of triangles that are connected by a side."""
     groups = []
     for triangle in triangles:
         near = [g for g in groups if any(len(set(triangle) & set(other)) == 2 for other in g)]
@@ -68,7 +68,7 @@ def connected(triangles):
 
 
 def end_state(end, k):
-    """What an end does from t = k to k + 1."""
+    """State of an end from t = k to k + 1."""
     if end.pressure[k] > 0:
         return "presses"
     lowest = min(end.displacement) if end.name == "left" else max(end.displacement)

@@ -5,7 +5,7 @@ Crank-Nicolson with the consistent mass; theta = 1 is the symmetric variant, 0 t
 and -1 the skew-symmetric one. Left: 1D-SD, largest gain of energy in twelve seconds against
 gamma_0. Right: hard sphere of paper C until t = 8 s, its deepest penetration. Symmetric variants
 are not stable below a gamma_0, where the program refuses them; the skew-symmetric one is stable
-with any. This is in what it is more robust, as the end of paper C has it: the energy is no better
+with any. In this sense it is more robust, as the end of paper C has it: the energy is no better
 with it.
 """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Checks that several figures of the bars share."""
+"""Checks of several figures of the bars."""
 
 import numpy as np
 
@@ -12,14 +12,14 @@ TIME_STEP = 0.05  # s
 
 
 def checks_of_runs(bar, runs):
-    """What must hold in each run, whatever the scheme."""
+    """Conditions that must hold in each run, whatever the scheme."""
     tables = [run.read() for run in runs]
     # Newton's tolerance; round-off is a thousand times less at h = 0.05, and
     # about half of it on the finest mesh of figure 10.
     residual = max(np.abs(table["balance_residual"]).max() for table in tables)
     halvings = sum(table["step_halvings"].sum() for table in tables)
 
-    # At a jump (whole seconds) the value is a matter of taste, so look between.
+    # At a jump (whole seconds) the value is arbitrary, so that only times in between are compared.
     deviation = 0.0
     for table in tables:
         time = table["time"]
@@ -102,12 +102,12 @@ def gain(table):
 
 
 def loss(table):
-    """What of the modified energy is gone at the end, relative to the start."""
+    """Loss of modified energy at the end, relative to the start."""
     return 1 - table["modified_energy"][-1] / table["modified_energy"][0]
 
 
 def loss_rows(place, curves, runs):
-    """What each curve loses of its modified energy."""
+    """Loss of modified energy of each curve."""
     return [
         compare(f"{place}.{curve.key}_{mass}", loss(runs[curve.key, mass].read()))
         for curve in curves

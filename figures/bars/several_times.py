@@ -14,7 +14,7 @@ from .rows import checks_of_runs
 
 BETWEEN = 10  # steps from one picture to the next
 HALF = 0.17  # s on the axis: the height of the exact bar, and of the computed one below it
-POINTS = np.linspace(0, 1, 6)  # whose ways are drawn
+POINTS = np.linspace(0, 1, 6)  # whose paths are drawn
 WALL = {"facecolor": "0.9", "edgecolor": "0.45", "hatch": "///", "linewidth": 0}
 
 

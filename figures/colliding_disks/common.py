@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the figures of the disks share: runs, what the program prints, momenta."""
+"""Common parts of the figures of the disks: runs, output of the program, momenta."""
 
 import re
 

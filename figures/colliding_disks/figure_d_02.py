@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Colliding disks: three treatments.
 
-Above: energy, and what friction has taken, for three collisions. Below: what the program prints.
+Above: energy, and the work of friction, for three collisions. Below: output of the program.
 Energy left counts vibrations; the drift is the largest of the three momenta, over the momentum of
 a disk (times 1 m).
 """

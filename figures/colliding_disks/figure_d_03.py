@@ -4,8 +4,8 @@
 Offset 1 m, no friction, rings (6, 5), (11, 9) and (22, 18). Dots: how much the velocity after the
 collision changes when the other disk is the slave. Triangles: the error of each choice, measured
 from the mean of both on the finest mesh with the smaller step. With 4 ms the finest mesh brings
-nothing: there the step counts, since persistent contact is as deep as a node comes in the step in
-which it touches.
+nothing: there the step counts, since persistent contact penetrates by the displacement of a node in
+the step in which it touches.
 """
 
 import matplotlib.pyplot as plt
@@ -60,7 +60,7 @@ def reference():
 
 
 def difference(rings, step):
-    """What the choice of the slave changes (m/s)."""
+    """Effect of the choice of the slave (m/s)."""
     return np.linalg.norm(velocity(rings, step, "left") - velocity(rings, step, "right"))
 
 

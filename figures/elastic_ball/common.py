@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the figures of the elastic ball share: runs of the methods, with bands."""
+"""Common parts of the figures of the elastic ball: runs of the methods, with bands."""
 
 from shared.methods import EMM, HAURET, INC, PERSISTENT, SIGNORINI, SNC, TWO_STEP, band
 from shared.runs import QUIET, Run
 
-# What the parameter files impact_*.prm hold: time step (s), initial gap (m), and the
+# Contents of the parameter files impact_*.prm: time step (s), initial gap (m), and the
 # whole steps in that gap.
 STEP = {"0.1ms": (1e-4, 0.0055, 5), "1ms": (1e-3, 0.055, 5), "10ms": (1e-2, 0.15, 1)}
 AGAINST = "time since the ball touches (ms)"

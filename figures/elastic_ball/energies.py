@@ -26,7 +26,7 @@ def lost_on_landing(one):
 def impact_over(one):
     """The first step off the foundation (s), had the ball started 15 m above it.
 
-    That is where the papers' impact is over; the gap that they print, 50 m, does not fit it.
+    At that time the papers' impact is over; the gap that they print, 50 m, does not fit it.
     """
     table = one.read()
     touching = table["contact_force_foundation"] > 0

@@ -19,7 +19,7 @@ def draw_exponents(runs, bands, step, limits):
 
 
 def checks_exponents(runs, bands, place):
-    """Rows that figures A-8 and A-9 have in common."""
+    """Common rows of figures A-8 and A-9."""
     inc = [r for m in BY_EXPONENT[1:] for r in (runs[m.key], *bands[m.key])]
     return [
         compare(f"{place}.snc", [lost(r) for r in bands["snc"]]),

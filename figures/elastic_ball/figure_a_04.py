@@ -3,8 +3,8 @@
 
 Energy relative to the start during the impact, steps of 1 ms. Bands: ten positions of the impact
 within a step. Signorini's condition and standard normal compliance lose energy as nodes land, and
-so does the equivalent mass matrix; improved normal compliance takes energy into its potential and
-gives it all back; the two-step scheme and persistent contact change nothing.
+so does the equivalent mass matrix; improved normal compliance stores energy in its potential and
+returns all of it; the two-step scheme and persistent contact change nothing.
 """
 
 from shared.figure import Figure

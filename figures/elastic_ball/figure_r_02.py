@@ -3,7 +3,7 @@
 
 Energy lost with the equivalent mass matrix over that with Signorini's condition and the consistent
 mass, means over five positions of the impact within a step, against the number of cells that a
-longitudinal wave crosses in a step. What a node loses as it lands is the work of its pressure over
+longitudinal wave crosses in a step. The loss of a landing node is the work of its pressure over
 the rest of its displacement in that step, whatever its mass: only steps in which a wave crosses
 less than half a cell let a node without mass follow its neighbours. Papers A and B say of steps of
 1 ms that the loss is strongly reduced.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Elastic ball: what Young's modulus and c_nu mean.
+"""Elastic ball: readings of Young's modulus and c_nu.
 
 Steps of 1 ms, impact in the middle of a step. Left: how long the ball is on the foundation, by its
 modulus (Signorini's condition); the text of papers A and B has the impact over 20 ms after a start
@@ -58,7 +58,7 @@ RUNS = [*BY_MODULUS.values(), *SCAN.values()]
 
 
 def duration(one):
-    """Of the first contact (s)."""
+    """Duration of the first contact (s)."""
     table = one.read()
     touching = table["contact_force_foundation"] > 0
     first = touching.argmax()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the figures of the ring share: runs of the methods, curves, what is lost and where to."""
+"""Common parts of the figures of the ring: runs of the methods, curves, losses and their causes."""
 
 from shared.curves import curve, legend_above
 from shared.figure import check
@@ -47,7 +47,7 @@ def draw_lines(axes, runs, start=GAP):
 
 
 def share_row(name, one, *columns):
-    """What is lost is what friction and viscosity took."""
+    """The loss is the dissipation of friction and viscosity."""
     table = one.read()
     taken = sum(table[column][-1] for column in columns) / table["energy"][0]
     error = abs(taken - lost(one))

@@ -24,15 +24,15 @@ def draw_family(runs, label):
 
 
 def taken(one):
-    """What friction and viscosity took, over the initial energy."""
+    """Dissipation of friction and viscosity, over the initial energy."""
     table = one.read()
     return (table["friction_work"] + table["viscous_dissipation"])[-1] / table["energy"][0]
 
 
 def checks_family(place, runs, names):
-    """Rows of the numbers of `place`: what is lost, ever more, to friction and viscosity alone.
+    """Rows of the numbers of `place`: losses, growing, to friction and viscosity alone.
 
-    `names`: of the numbers of what is lost, by the keys of the runs.
+    `names`: of the numbers of the losses, by the keys of the runs.
     """
     rest = list(runs.values())[1:]
     return [

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Hyperelastic ring: with contact of the ring with itself, and without.
 
-Persistent contact, 128 x 7 nodes, steps of 5 ms. Left the ring feels itself, right it passes
-through itself, as in the papers; red is what it covers twice. Arrows are nodal contact forces.
-Below: how deep it is in itself, by its outline in the pictures alone and by the program's table
-of its nodes; energies.
+Persistent contact, 128 x 7 nodes, steps of 5 ms. Left the ring with self-contact, right it passes
+through itself, as in the papers; red where it covers itself. Arrows are nodal contact forces.
+Below: its depth in itself, by its outline in the pictures alone and by the program's energy table;
+energies.
 """
 
 import functools

@@ -3,7 +3,7 @@
 
 Energy relative to the start with persistent contact, steps of 1/300 s. Curnier's power is that of
 the rate of C alone; Pioletti's has the factor (tr C - 3)/2 besides, so that a ring that is hardly
-strained is hardly damped: with sixteen times the eta it takes a little less.
+strained is hardly damped: with sixteen times the eta it dissipates a little less.
 """
 
 from shared.curves import energy_axes

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Hyperelastic ring: largest penetration, and what c_nu means.
+"""Hyperelastic ring: largest penetration, and readings of c_nu.
 
 Largest penetration against c_nu, a scan on 64 x 5 nodes; the paper's numbers as dashed lines. INC
 with alpha = 2 and with alpha = 3 meet them at the same c_nu, which is the default; SNC does

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the figures of the obstacle course share: runs, and how a body is drawn."""
+"""Common parts of the figures of the obstacle course: runs, and the drawing of a body."""
 
 import numpy as np
 from matplotlib.collections import LineCollection
@@ -36,7 +36,7 @@ def draw_body(axes, one, step, ghost=False, cross=True, limit=STRESS):
 
     The cross is made of points that were on two diameters at the start, and the dot was
     above the middle, so that they show how far the body has turned. A ghost is an outline
-    only. Returns what maps colours, and the middle of the body.
+    only. Returns the colour map, and the centre of the body.
     """
     rest, place, cells, fields = snapshot(one, step)
     x, y = place.T

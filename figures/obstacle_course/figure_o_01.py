@@ -52,8 +52,8 @@ def mass(key):
 def motion(key):
     """Times (s), velocity of the centre down the slope and of a disk's rolling (m/s).
 
-    One of each for a step, the mean of those at both ends: a body that has landed still
-    shivers from step to step. The velocity of rolling is spin times radius.
+    One of each for a step, the mean of those at both ends: a body that has landed still vibrates
+    from step to step. The velocity of rolling is spin times radius.
     """
     table = INCLINE[key].read()
     px, py = table["momentum_x"], table["momentum_y"]
@@ -65,7 +65,7 @@ def motion(key):
 
 
 def late(key):
-    """Which steps count for an acceleration: not those of the landing."""
+    """Steps that count for an acceleration: not those of the landing."""
     time = motion(key)[0]
     return time >= time[-1] / 3
 

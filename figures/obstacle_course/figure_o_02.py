@@ -27,7 +27,7 @@ def change(key):
 
 
 def pendulum(time):
-    """The way along x (m) of a rigid disk that slides without friction: a pendulum."""
+    """The displacement along x (m) of a rigid disk that slides without friction: a pendulum."""
     length = BOWL - RADIUS
     angle, rate = np.arctan2(START[0], -START[1]), 0.0
     values = []

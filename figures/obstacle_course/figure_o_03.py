@@ -2,9 +2,9 @@
 """Obstacle course: a plate that is lifted, a drum that turns.
 
 Left: a disk on a plate that is lifted and tilted (persistent contact), and in a drum that turns
-against the clock (improved normal compliance), with friction. Right: what the obstacle does to
-the body, once from the energy balance and once from the resultant of the contact force, its
-moment and the motion; the largest difference until 0.6 s falls with the square of the step.
+against the clock (improved normal compliance), with friction. Right: the work of the obstacle on
+the body, once from the energy balance and once from the resultant of the contact force, its moment
+and the motion; the largest difference until 0.6 s falls with the square of the step.
 """
 
 import matplotlib.pyplot as plt

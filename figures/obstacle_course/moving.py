@@ -74,12 +74,12 @@ def draw_drum(axes, time):
 
 
 def draw_moving(axes, key, step):
-    """The body on its obstacle; what maps colours, and the time."""
+    """The body on its obstacle; the colour map, and the time."""
     one = MOVES[key, STEPS[0]]
     time = one.read()["time"][step]
     drawn, _ = draw_body(axes, one, step)
     if key == "plate":
-        # Where the plate was at the start.
+        # Initial position of the plate.
         axes.axhline(0, color="0.6", linewidth=0.8, linestyle=(0, (4, 3)), zorder=0)
         draw_plate(axes, time)
         bare(axes, "", (-1.45, 1.15), (-0.36, 1.5))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the figures of several benchmarks share. It finds the package ricochet of this checkout."""
+"""Common parts of the figures of several benchmarks. The package ricochet of this checkout is found
+here."""
 
 import pathlib
 import sys

@@ -57,7 +57,7 @@ def name_panel(panel, text):
 
 
 def key_of_bands(figure, axes, colour="0.35"):
-    """What line and band are: in a panel that is left over, or above all."""
+    """Legend of line and band: in an unused panel, or above all."""
     line = Line2D([], [], color=colour, marker=".", label="impact in the middle of a step")
     band = Patch(color=colour, alpha=0.25, linewidth=0, label="other positions in the step")
     free = [panel for panel in axes.flat if not panel.axison]

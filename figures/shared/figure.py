@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Figures and checks: what the file of a figure is made of."""
+"""Figures and checks: the parts of the file of a figure."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
-# What a row of the table can say.
+# Possible verdicts of a row of the table.
 YES = "yes"  # the number meets its criterion
 NO = "NO"  # it does not: make.py fails
 DIFFERS = "differs"  # it is ours as written down, and the paper's is known to be another one

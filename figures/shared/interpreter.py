@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A Python that has what the figures need."""
+"""A Python with the modules that the figures need."""
 
 import importlib.util
 import os

@@ -60,7 +60,7 @@ def mean(values):
 
 
 def scientific(value, digits=3):
-    """A number as a table has it, 1.54·10⁻²; 0 for what is round-off of metres."""
+    """A number as in a table, 1.54·10⁻²; 0 for round-off of metres."""
     if abs(value) < 1e-12:
         return "0"
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Fields of a run in the plane: triangles with fields at their vertices.
+"""Fields of a run in 2D: triangles with fields at their vertices.
 
-Of a quadrilateral two triangles are made. Each cell has vertices of its own in a VTU file;
-`read` joins those that are in the same place, so that a sum over nodes counts each of them
-once.
+A quadrilateral is split into two triangles. Each cell has vertices of its own in a VTU file;
+`read` joins coincident ones, so that a sum over nodes counts each of them once.
 """
 
 import numpy as np
@@ -27,8 +26,8 @@ def read(path):
         for i in range(data.GetNumberOfArrays())
     }
 
-    # Points in the same place have bitwise the same coordinates, but for the
-    # last digit of some: a millionth of the largest coordinate joins them.
+    # Coincident points have bitwise the same coordinates, except for the last digit of some: a
+    # millionth of the largest coordinate joins them.
     key = np.round(points / (1e-6 * np.abs(points).max())).astype(np.int64)
     _, first, inverse = np.unique(key, axis=0, return_index=True, return_inverse=True)
     fields = {name: values[first] for name, values in arrays.items()}

@@ -4,7 +4,7 @@
 A: Barboteu, Bonaldi, Danan and El-Hadri, improved normal compliance.
 B: the hyper-viscoelastic model with persistent contact.
 
-Where within a step the body touches changes what a method does at the impact. A figure that
+The position of the impact within a step changes the results of a method. A figure that
 compares methods therefore shows a band over ten positions around the curve of the parameter
 file, whose impact falls in the middle of a step.
 """

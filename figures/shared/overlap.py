@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where a body in the plane covers itself, from a picture of it alone.
+"""Overlap of a body in 2D with itself, from a picture of it alone.
 
-Nothing here knows of contact, or of how the programs search for it. The outline of a
-deformed mesh goes around any point of the plane as often as the body covers it. Where that is
-twice or more the body overlaps itself. The border of that region is made of pieces of
-the outline, cut where its sides cross; how deep a point of such a piece is, is its distance
-from the other pieces.
+The method is independent of contact, and of the search for it in the programs. The outline of a
+deformed mesh goes around any point of the plane as often as the body covers it. Where that is twice
+or more the body overlaps itself. The border of that region is made of pieces of the outline, cut
+where its sides cross; the depth of a point of such a piece is its distance from the other pieces.
 """
 
 from dataclasses import dataclass
@@ -129,7 +128,7 @@ def overlap_of(lines):
     far = distances(places, pieces)
     far[np.concatenate((chain, chain))[:, None] == chain] = np.inf
     depth = far.min(axis=1)
-    # A loop that crosses itself has no other side: then the way back to its crossing.
+    # A loop that crosses itself has no other side: then the path back to its crossing.
     alone = np.isinf(depth)
     if alone.any():
         ends = pieces[:, 0][begin[covered] > 0]
@@ -140,7 +139,7 @@ def overlap_of(lines):
 def overlap_in(path):
     """The overlap of the body in a VTU file.
 
-    Such files have single precision: what is less than a millionth of the lengths in them is
+    Such files have single precision: numbers below a millionth of the lengths in them are
     round-off.
     """
     points, cells, fields = meshes.read(path)

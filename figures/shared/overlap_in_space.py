@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Where bodies of hexahedra in space cover each other or themselves, from a picture alone.
+"""Overlap of bodies of hexahedra in 3D with each other or with themselves, from a picture alone.
 
-Nothing here knows of contact, or of how the programs search for it. The boundary of a deformed
-mesh is seen from any point of space under 4 pi as often as the bodies cover it. Points within the
-cells that are covered twice tell the volume of the overlap; nodes of the boundary that are covered
-by what they are not part of tell its depth.
+The method is independent of contact, and of the search for it in the programs. The boundary of a
+deformed mesh is seen from any point of space under 4 pi as often as the bodies cover it. Points
+within the cells that are covered twice give the volume of the overlap; nodes of the boundary that
+are covered by cells which they are not part of give its depth.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ FACES = ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (
 @dataclass(frozen=True)
 class Overlap:
     volume: float  # m^3; what is covered three times counts twice
-    depth: float  # m, of the deepest node in what it is not part of
+    depth: float  # m, of the deepest node in cells which it is not part of
 
 
 def read(path):
@@ -31,7 +31,7 @@ def read(path):
     moved = points + array(grid, "displacement").astype(float)
     cells = np.array([[grid.GetCell(c).GetPointId(i) for i in range(8)]
                       for c in range(grid.GetNumberOfCells())])
-    # Each cell has vertices of its own; of several bodies only those in one place before any
+    # Each cell has vertices of its own; of several bodies only those that coincide before any
     # displacement are joined.
     key = np.round(points / (1e-6 * np.abs(points).max())).astype(np.int64)
     _, first, inverse = np.unique(key, axis=0, return_index=True, return_inverse=True)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The papers' numbers and ours, from figures/numbers/*.toml.
 
-Each number has a name such as "A.table_1.persistent". The file has what the paper prints, what
-ours is, and how far ours may be off: a check fails on either side of it, whether the paper's
-number is met or not. Where it is not met the file says why, or what was tried; and where that is
-no longer so, the check fails as well.
+Each number has a name such as "A.table_1.persistent". The file has the printed number, ours, and
+the tolerance of ours: a check fails on either side of it, whether the paper's number is met or not.
+Where it is not met the file says why, or what was tried; and where that is no longer so, the check
+fails as well.
 """
 
 import functools
@@ -19,9 +19,9 @@ from .figure import DIFFERS, NO, YES, Check
 
 FOLDER = CHECKOUT / "figures" / "numbers"
 
-# What a number has from its place where it does not say it itself.
+# Keys that a number inherits from its place.
 INHERITED = ("band", "within", "why")
-# What a place and a number of it can have.
+# Possible keys of a place and of its numbers.
 SERIES = "series"  # of a place: lists of numbers of the paper that are drawn beside ours
 PLACE_KEYS = {"figure", "source", "about", *INHERITED}
 NUMBER_KEYS = {"of", "paper", "holds", "exact", "ours", "band", "tolerance", "within", "why"} | {
@@ -98,7 +98,7 @@ class PaperNumber:
 
     @property
     def verdict(self):
-        """How ours stands to the paper's, in words."""
+        """Comparison of ours with the paper's, in words."""
         if self.paper is None or self.ours is None:
             return ""
         verdict = f"differs: {self.why}" if self.why else "not reproduced"
@@ -116,7 +116,7 @@ class PaperNumber:
         return f"equal within {100 * off:.1g} %"
 
     def is_pinned(self, ours):
-        """Whether ours is what is written down, but for the band and for round-off."""
+        """Whether ours is the recorded number, within the band and round-off."""
         written = _ends(self.ours)
         slack = max(self.tolerance, 1e-9 * max(map(abs, written)))
         return all(
@@ -205,7 +205,7 @@ def paper_number(name):
 
 
 def numbers(place):
-    """What the paper prints at a place, such as "A.table_1", by the names of its numbers."""
+    """The paper's numbers at a place, such as "A.table_1", by the names of its numbers."""
     found = {
         name.removeprefix(f"{place}."): number.paper
         for name, number in everything().items()

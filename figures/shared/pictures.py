@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Drawing of bodies in the plane, from the fields of a run."""
+"""Drawing of bodies in 2D, from the fields of a run."""
 
 import matplotlib.animation as animation
 import matplotlib.pyplot as plt
@@ -20,8 +20,8 @@ def body(axes, path, arrow=1.0, limit=None, offset=(0.0, 0.0), lines=True):
     """A deformed body with its contact forces, from a VTU file.
 
     `arrow` is the length of an arrow in m per N, `limit` the largest stress (Pa) if that is
-    shown, `offset` where to move the picture, `lines` whether to draw the cells. Returns the
-    total force, what maps colours, if any, and where the nodes are.
+    shown, `offset` where to move the picture, `lines` whether to draw the cells. Returns the total
+    force, the colour map, if any, and the positions of the nodes.
     """
     points, cells, fields = meshes.read(path)
     place = points + fields["displacement"][:, :2] + offset
@@ -121,7 +121,7 @@ def outline(cells):
 
 
 def zero_line(place, cells, values):
-    """Where a linear function on triangles is zero: a piece of a line in each.
+    """Zero line of a linear function on triangles: a piece in each.
 
     (tricontour never comes back from values that are zero in a vertex.)
     """
@@ -146,7 +146,7 @@ def sides_of(cells):
 
 
 def draw_cells(axes, place, cells, values, limit, lines=True):
-    """Deformed bodies with a colour for each triangle; what maps colours."""
+    """Deformed bodies with a colour for each triangle; the colour map."""
     # Few colours keep an animation small.
     drawn = PolyCollection(
         place[cells], cmap=plt.get_cmap("YlOrRd", 15), edgecolor="face", linewidth=0.3

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Checks that several figures share."""
+"""Checks of several figures."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from .runs import Run
 
 
 def checks_of_runs(runs, tolerance=1e-9, criterion="< 1e-9 of the energy"):
-    """What must hold in each run, whatever the method."""
+    """Conditions that must hold in each run, whatever the method."""
     runs = list({run.folder: run for run in runs}.values())
     # Newton's tolerance is 1e-12 of the forces; stiff contact multiplies it.
     residual = max(np.abs(run.read()["balance_residual"]).max() for run in runs)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs of the programs: what to run, running it once, reading what it wrote."""
+"""Runs of the programs: their set-up, a single execution, their results."""
 
 import concurrent.futures
 import dataclasses
@@ -53,7 +53,7 @@ class Run:
 
     @property
     def results(self):
-        """What the run has left, as the package reads it."""
+        """Results of the run, as read by the package."""
         return ricochet.Run(self.folder)
 
     def field_file(self, step):
@@ -93,7 +93,7 @@ def _checksum(path, _time):
 def _fingerprint(run, build_dir):
     """All that the result of a run depends on.
 
-    Programs and meshes count by what is in them, and parameter files by the values that they
+    Programs and meshes count by their contents, and parameter files by the values that they
     set: a build or a checkout may write the same anew.
     """
     program = build_dir / run.program
@@ -127,7 +127,7 @@ def _fingerprint(run, build_dir):
 
 
 def _is_finished(run, fingerprint):
-    """Whether the folder of the run holds the end of this very run."""
+    """Whether the folder of the run holds the end of the same run."""
     try:
         stamp = json.loads((run.folder / STAMP).read_text(encoding="utf-8"))
         size = (run.folder / run.table).stat().st_size
@@ -169,7 +169,7 @@ def _execute(run, build_dir, fingerprint):
     run.folder.mkdir(parents=True, exist_ok=True)
     for stale in (STAMP, run.table):
         (run.folder / stale).unlink(missing_ok=True)
-    # The runs share the cores among them: a run of its own takes one.
+    # One core for each run, as several of them are made at a time.
     exit_code, text = programs.execute(run.command(build_dir), CHECKOUT)
     table = run.folder / run.table
     _check_promise(run, exit_code == programs.OPEN)

@@ -20,8 +20,8 @@ def timing_exponent(dofs, seconds, last):
 def cost_checks(place, methods, runs, family):
     """Rows of the numbers of `place`, "A.table_2" or "A.table_4": seconds of a method.
 
-    Machines differ: what can be compared is a method against Signorini's multipliers on the same
-    mesh, and how the seconds grow from the coarsest mesh to the finest.
+    Machines differ: comparable are a method against Signorini's multipliers on the same mesh, and
+    how the seconds grow from the coarsest mesh to the finest.
     """
     dofs = [2 * nodes for nodes in family.values()]
     seconds = {m.key: [timing_of_steps(runs[m.key, n])[0] for n in family] for m in methods}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A block that slides on a strip, on the level and on a slope.
 
-No paper has it; what it is compared with is a rigid block, by hand.
+No paper has it; it is compared with a rigid block, by hand.
 """

@@ -2,7 +2,7 @@
 """Sliding block on a strip.
 
 Two elastic bodies with exact Coulomb friction. Left: on the level the block is slowed down by
-mu g. Middle: the weight is there at once; without viscosity what it excites stays. Right: a slope
+mu g. Middle: the weight acts at once; without viscosity its vibrations stay. Right: a slope
 of 1/2, with friction just below and just above it; without viscosity the block hops and never
 sticks. Below: the block and the strip, with von Mises stress.
 """

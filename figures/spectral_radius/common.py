@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What both figures of the spectral radii share: the run, curves of HHT, orders."""
+"""Common parts of both figures of the spectral radii: the run, curves of HHT, orders."""
 
 import matplotlib.pyplot as plt
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Schemes and spheres: what is run, and what is drawn in which colour."""
+"""Schemes and spheres: the runs, and their colours."""
 
 from dataclasses import dataclass
 

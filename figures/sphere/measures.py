@@ -7,23 +7,23 @@ from .common import RADIUS, SPEED
 
 
 def conserved(table):
-    """What a scheme should keep: modified energy without the work of gravity."""
+    """The quantity that a scheme should keep: modified energy without the work of gravity."""
     return table["modified_energy"] - table["external_work"]
 
 
 def change_of_energy(table):
-    """Its change at the end, of the largest energy."""
+    """Change of it at the end, over the largest energy."""
     kept = conserved(table)
     return (kept[-1] - kept[0]) / np.abs(table["energy"]).max()
 
 
 def largest_gain(table):
-    """Its largest gain in a step, of the largest energy."""
+    """Largest gain of it in a step, over the largest energy."""
     return np.diff(conserved(table)).max() / np.abs(table["energy"]).max()
 
 
 def change_before_contact(table):
-    """Its largest change before the first touch, of the largest energy."""
+    """Largest change of it before the first touch, over the largest energy."""
     first = (table["contact_force_foundation"] > 0).argmax()
     kept = conserved(table)[:first]
     return np.abs(kept - kept[0]).max() / np.abs(table["energy"]).max()

@@ -2,10 +2,10 @@
 """Sphere: Newton iterations of the schemes.
 
 Totals of a run, with one iteration more for each stage of a step, and their ratio to Crank-
-Nicolson with Nitsche's method. The paper counts the iteration in which nothing is left: it has two
-of them in a step in flight, whose equations are linear, where ours end with the first. It does not
-say which sphere its table is for; its totals need some 475 steps, 90 of them in contact, which are
-nearer to the hard one (500 and 48) than to the soft one (240 and 165). Seconds: C-T2.
+Nicolson with Nitsche's method. The paper counts the iteration in which the residual is zero: it has
+two of them in a step in flight, whose equations are linear, where ours end with the first. It does
+not say which sphere its table is for; its totals need some 475 steps, 90 of them in contact, which
+are nearer to the hard one (500 and 48) than to the soft one (240 and 165). Seconds: C-T2.
 """
 
 from shared.figure import Figure, Table

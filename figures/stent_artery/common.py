@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the figures of the stent share: runs, energies and what is asked of them."""
+"""Common parts of the figures of the stent: runs, energies and their checks."""
 
 import numpy as np
 
@@ -45,7 +45,7 @@ def family(mus=("0",), etas=("0",)):
 
 
 def dissipation(one):
-    """What friction and viscosity took until each step (mJ)."""
+    """Dissipation of friction and viscosity until each step (mJ)."""
     table = one.read()
     return table["friction_work"] + table["viscous_dissipation"]
 

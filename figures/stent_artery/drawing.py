@@ -13,7 +13,7 @@ WHOLE = ((-0.45, LENGTH + 0.45), (-0.66, THICKNESS + 0.16))
 
 
 def draw_mesh(axes, step, coloured, lines=True):
-    """Artery and stent at a step; what maps colours, if any."""
+    """Artery and stent at a step; the colour map, if any."""
     _, place, cells, fields = snapshot(DEPLOYMENT, step)
     if coloured:
         stress = fields["von_mises of cells"]

@@ -33,7 +33,7 @@ def held(axes):
 
 
 def draw_setup(axes):
-    """The sketch: what is held, what is moved, what may touch."""
+    """The sketch: held, moved and contact boundaries."""
     rest, place, cells, fields = snapshot(DEPLOYMENT, 0)
     draw_mesh(axes, 0, coloured=False, lines=False)
     held(axes)

@@ -2,7 +2,7 @@
 """Stent and artery: viscosity.
 
 Without friction. Left: change of energy less the work of the imposed displacement, in each step;
-right: what viscosity has taken. The paper's viscosities have no unit.
+right: the dissipation of viscosity. The paper's viscosities have no unit.
 """
 
 import matplotlib.pyplot as plt

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Stent and artery: friction.
 
-Left: change of energy less the work of the imposed displacement, in each step; right: what
-friction and viscosity have taken. Above: without viscosity; below: with eta = 1, as in the paper,
-which has no unit; here MPa s.
+Left: change of energy less the work of the imposed displacement, in each step; right: the
+dissipation of friction and viscosity. Above: without viscosity; below: with eta = 1, as in the
+paper, which has no unit; here MPa s.
 """
 
 import matplotlib.pyplot as plt

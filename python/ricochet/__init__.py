@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Run the programs of Ricochet and read what they leave, from Python.
+"""Run the programs of Ricochet and read their results, from Python.
 
     import ricochet
 
@@ -13,8 +13,7 @@
     ricochet.sweep("bar_sd", overrides={"Time/Time step": [0.1, 0.05, 0.025]})
 
 The commands `ricochet-plot` and `ricochet-compare` are made of the same parts. NumPy is
-needed by all; pandas by `Run.energy`, VTK by fields, matplotlib by what draws, each when it
-is used.
+needed by all; pandas by `Run.energy`, VTK by fields, matplotlib by drawings, each when it is used.
 """
 
 from .errors import (

@@ -14,14 +14,14 @@ What the columns are:
   largest force        of all contacts together (their sum at a time)
   largest penetration  of any contact
   contact lasts        all steps at whose end there is force
-  ms per step          of wall time in the steps, while as many runs share the machine as jobs
+  ms per step          of wall time in the steps, while as many runs as jobs use the machine
   error of ...         root of the mean square of the difference from the finest run with the same
                        method, over the first energy, or over the range of the displacement
 
 With --impact-positions the initial gap is shifted so that the impact falls at N places evenly
-spread over a time step, as where it falls changes what a method does. A number is then the mean,
-and after "±" stands half the distance from the smallest to the largest. Figures show the run whose
-impact is nearest to the middle of a step, and the range of all of them.
+spread over a time step, as this position changes the results of a method. A number is then the
+mean, and after "±" stands half the distance from the smallest to the largest. Figures show the run
+whose impact is nearest to the middle of a step, and the range of all of them.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ def _settings(texts: Sequence[str]) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Impact:
-    """When and how fast a body hits, as a run of the file as it is tells."""
+    """Time and speed of the impact, from a run of the unchanged file."""
 
     #: The parameter that shifts it: GAP or ADVANCE.
     parameter: str
@@ -163,14 +163,14 @@ def find_impact(run: Run, parameter: str, value: float) -> Impact:
 
 
 def positions(number: int) -> list[float]:
-    """Places within a step: the middles of so many parts of it."""
+    """Positions within a step: the middles of so many parts of it."""
     return [round((k + 0.5) / number, 6) for k in range(number)]
 
 
 def check_names(
     program: pathlib.Path, case: pathlib.Path, parameter: str, names: Sequence[str]
 ) -> None:
-    """See that a program knows all names of treatments, or of schemes.
+    """Check that a program knows all names of treatments, or of schemes.
 
     Raises:
         RicochetError: one is misspelt; the message has the nearest one that is known.
@@ -205,7 +205,7 @@ def compare(options: argparse.Namespace) -> Comparison:
     folder = options.output or pathlib.Path("output") / "compare" / options.case.stem
     folder.mkdir(parents=True, exist_ok=True)
     settings, finest = _settings(options.settings), _settings(options.finest)
-    # In a file, what a method has no use for is noted; on the command line it is refused.
+    # In a file, a parameter without effect is noted; on the command line it is refused.
     case = folder / "compared.prm"
     if case.resolve() == options.case.resolve():
         raise RicochetError(f"'{case}' would be overwritten: name another folder by -o.")
@@ -247,7 +247,7 @@ def compare(options: argparse.Namespace) -> Comparison:
             (position, {impact.parameter: impact.value_for(position)})
             for position in positions(options.impact_positions)
         ]
-    # What is refused is refused at each position: it is asked once.
+    # A refusal holds for each position: one query suffices.
     if len(gaps) > 1 or finest:
         refusals = check_many([task(method, "", gaps[0][1]) for method in methods], jobs)
     else:

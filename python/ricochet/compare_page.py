@@ -100,7 +100,7 @@ def _keep_within(axes: Axes) -> None:
 
 
 def _spread(comparison: Comparison) -> Figure:
-    """What each method loses: all runs as points, their mean as a bar."""
+    """Loss of each method: all runs as points, their mean as a bar."""
     column = next(q for q in quantities(comparison) if q.name == "energy lost")
     methods = [method for method in comparison.methods if method.runs]
     figure, axes = plt.subplots(figsize=(8.5, 0.42 * len(methods) + 1.1), layout="constrained")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Methods beside each other on one case: their runs, and the numbers that tell them apart."""
+"""Methods beside each other on one case: their runs, and the numbers that distinguish them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Method:
 
     @property
     def name(self) -> str:
-        """What it is called in tables."""
+        """Name in tables."""
         return ", ".join(filter(None, (self.treatment, self.scheme))) or "as in the file"
 
     def overrides(self, contact_sections: Sequence[str]) -> dict[str, object]:
@@ -89,7 +89,7 @@ class Quantity:
 
 @dataclass
 class Comparison:
-    """All that was run, and what it was."""
+    """All runs, and their description."""
 
     case: pathlib.Path
     program: pathlib.Path
@@ -101,7 +101,7 @@ class Comparison:
 
     @property
     def units(self) -> dict[str, str]:
-        """Of the columns of the tables, from the first run that there is."""
+        """Units of the columns of the energy tables, from the first run that there is."""
         for method in self.methods:
             for run in method.runs:
                 return run.units
@@ -166,7 +166,7 @@ def quantities(comparison: Comparison) -> list[Quantity]:
                 error = function(shown.table, fine.table) if shown and fine else float("nan")
                 values[method.name] = [100 * error] if np.isfinite(error) else []
             result.append(Quantity(name, "%", values))
-    # What no method has is no column.
+    # A quantity without any value has no column.
     return [q for q in result if any(q.values.values())]
 
 

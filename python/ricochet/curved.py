@@ -72,7 +72,7 @@ def _small_ones(halvings: int) -> tuple[Array, Any]:
 def pieces(grid: Any, fields: dict[str, Array], halvings: int = 2) -> Any:
     """The same body of linear tetrahedra, with fields at its points.
 
-    The places of the points and vectors are those of the quadratic cells. Numbers are taken
+    Positions of the points and vectors are those of the quadratic cells. Numbers are taken
     linear between the nodes, so that none exceeds those at the nodes.
     """
     import vtk
@@ -106,7 +106,7 @@ def pieces(grid: Any, fields: dict[str, Array], halvings: int = 2) -> Any:
 
 
 def with_joined_points(grid: Any) -> Any:
-    """The grid with one point for all that agree in place and in the field `moved`."""
+    """The grid with one point for all that agree in position and in the field `moved`."""
     import vtk
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
@@ -138,7 +138,7 @@ def with_joined_points(grid: Any) -> Any:
 
 
 def _linear_weights(local: Array) -> Array:
-    """What interpolates linearly on the eight tetrahedra of the first halving, (m, 10)."""
+    """Linear interpolation on the eight tetrahedra of the first halving, (m, 10)."""
     at_nodes: Array = np.array(
         [*np.eye(4), *(0.5 * (np.eye(4)[i] + np.eye(4)[j]) for i, j in EDGES)]
     )

@@ -24,7 +24,7 @@ from . import measures, prm  # noqa: E402
 from .results import Run  # noqa: E402
 from .tables import Array, Table  # noqa: E402
 
-# Colours that can be told apart with any eyes (Okabe and Ito), without the yellow one.
+# Colours that are distinguishable with any eyes (Okabe and Ito), without the yellow one.
 COLOURS = (
     "#0072B2",
     "#D55E00",
@@ -130,7 +130,7 @@ def _unit(lines: Sequence[Line], column: str) -> str:
 
 
 def _draw(axes: Axes, line: Line, column: str, values: Array | None = None) -> None:
-    """A column over time, or what was made of it, if there is any value."""
+    """A column over time, or a function of it, if there is any value."""
     if column not in line.table or np.isnan(line.table[column]).all():
         return
     shown = line.table[column] if values is None else values
@@ -171,7 +171,7 @@ def legend_below(
 
 
 def _grid(n: int, columns: int, width: float, height: float) -> tuple[Figure, list[Axes]]:
-    """Axes for `n` panels that share the time."""
+    """Axes for `n` panels with a common time."""
     rows = math.ceil(n / columns)
     figure, axes = plt.subplots(
         rows,
@@ -220,8 +220,8 @@ ENERGY_NAMES = {
 def energies(lines: Sequence[Line]) -> Figure:
     """Kinetic, elastic, total and modified energy.
 
-    Of one run: all in one panel, and the change of the last two in another. Of several: a
-    panel for each, the last two as changes, so that what is lost can be seen.
+    For one run: all in one panel, and the change of the last two in another. For several: a panel
+    for each, the last two as changes, so that losses can be seen.
     """
 
     def change(line: Line, column: str, panel: Axes) -> None:
@@ -267,7 +267,7 @@ def _contact_names(lines: Sequence[Line]) -> list[str]:
 def _by_contact(lines: Sequence[Line], quantities: Sequence[tuple[str, str]]) -> Figure | None:
     """Panels of quantities `(beginning of the column, name)`, one row for each of them.
 
-    Of one run the contacts are curves; of several they are panels beside each other.
+    For one run the contacts are curves; for several they are panels beside each other.
     """
     names = _contact_names(lines)
     if not names:
@@ -320,7 +320,7 @@ def gaps(lines: Sequence[Line]) -> Figure | None:
 
 
 def save(figure: Figure, path: pathlib.Path) -> pathlib.Path:
-    """Write a figure and forget it."""
+    """Write a figure and close it."""
     figure.savefig(path, bbox_inches="tight")
     plt.close(figure)
     return path

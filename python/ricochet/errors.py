@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What can go wrong, each with one sentence for the user."""
+"""Errors, each with one sentence for the user."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ class RicochetError(Exception):
 
 
 class NotARun(RicochetError):
-    """A folder, or a file in it, is missing or is not what a run leaves."""
+    """A folder, or a file in it, is missing or is not that of a run."""
 
 
 class BadParameterFile(RicochetError):

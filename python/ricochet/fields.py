@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What bodies can be coloured by: numbers at the points of a VTK grid."""
+"""Fields by which bodies can be coloured: numbers at the points of a VTK grid."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Colour:
     label: str
     #: The field of the VTU file.
     field: str
-    #: What its unit is made of: pressure, length or velocity.
+    #: Kind of its unit: pressure, length or velocity.
     kind: str
 
 
@@ -36,7 +36,7 @@ COLOURS = {
 def unit(units: dict[str, str], kind: str) -> str:
     """The unit of a kind of fields, from those of the columns of energy.csv.
 
-    VTU files have no units. Empty if the columns do not tell.
+    VTU files have no units. Empty if the columns have none.
     """
 
     def first(*begins: str) -> str:
@@ -72,7 +72,7 @@ def array(grid: Any, name: str) -> Array:
 
 
 def dimension(grid: Any) -> int:
-    """1 for lines, 2 for a plane body, 3 for one in space."""
+    """1 for lines, 2 for a body in 2D, 3 for one in 3D."""
     return int(grid.GetCell(0).GetCellDimension())
 
 
@@ -85,8 +85,8 @@ def displacements(grid: Any) -> Array:
 def values(grid: Any, colour: str) -> Array:
     """One number for each point.
 
-    Of displacement and velocity the length (on a bar the value itself); of the stress the
-    largest compression in any direction, positive.
+    The length of displacement and velocity (on a bar the value itself); for the stress, the largest
+    compression in any direction, positive.
     """
     data = array(grid, COLOURS[colour].field)
     dim = dimension(grid)
@@ -102,14 +102,14 @@ def values(grid: Any, colour: str) -> Array:
 
 
 def array_of_points(grid: Any) -> Array:
-    """Where the points are at the start, (n, 3)."""
+    """Initial positions of the points, (n, 3)."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     return np.asarray(vtk_to_numpy(grid.GetPoints().GetData()), dtype=float)
 
 
 def area(grid: Any) -> float:
-    """Of all cells of a grid in the plane, where they were at the start."""
+    """Initial area of all cells of a grid in 2D."""
     import vtk
     from vtkmodules.util.numpy_support import vtk_to_numpy
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Numbers that tell about a run, each with its definition."""
+"""Numbers that characterise a run, each with its definition."""
 
 from __future__ import annotations
 
@@ -46,13 +46,13 @@ def work_from_outside(table: Table) -> Array:
 
 
 def begins_at_rest(table: Table) -> bool:
-    """Whether the first energy is nothing beside the largest one: what is at rest, or nearly."""
+    """Whether the first energy is negligible beside the largest one: bodies at rest, or nearly."""
     energy = table["energy"]
     return not energy[0] > 1e-9 * np.nanmax(energy)
 
 
 def energy_scale(table: Table) -> float:
-    """What energies are measured by: the first one, or of what begins at rest the largest one."""
+    """Scale of energies: the first one, or for bodies that begin at rest the largest one."""
     energy = table["energy"]
     return float(np.nanmax(energy)) if begins_at_rest(table) else float(energy[0])
 
@@ -75,7 +75,7 @@ def change_of_energy(table: Table, column: str = "energy") -> Array:
 def largest_balance_residual(table: Table) -> float:
     """By how much the energy balance of a step fails to close at most.
 
-    It is measured by the largest sum so far of the absolute values of energies and works.
+    The scale is the largest sum so far of the absolute values of energies and works.
     """
     if "balance_residual" not in table:
         return float("nan")
@@ -83,7 +83,8 @@ def largest_balance_residual(table: Table) -> float:
 
 
 def largest_promise_residual(table: Table) -> float:
-    """How far the total energy is from what contact promises at most, measured as the balance.
+    """Largest deviation of the total energy from the promise of contact, on the scale of the
+    balance.
 
     Where nothing is promised, by how much it has risen; not a number without a potential.
     """
@@ -95,7 +96,7 @@ def largest_promise_residual(table: Table) -> float:
 def energy_lost(table: Table) -> float:
     """The part of the energy that is gone at the end.
 
-    It is (E_first + work from outside - E_last) / E_first, with the largest energy in place of
+    This is (E_first + work from outside - E_last) / E_first, with the largest energy in place of
     the first one if it begins at rest. Negative if there is more than there should be.
     """
     energy = table["energy"]
@@ -146,7 +147,7 @@ def turns_at_start(parameters: Mapping[str, str]) -> bool:
 def restitution(table: Table, log: str = "", turns: bool = True) -> float | None:
     """The coefficient of restitution of a collision, or None where it has no meaning.
 
-    It is e = -(w_after . n) / (w_before . n). There w is the velocity of the centre of mass, of
+    This is e = -(w_after . n) / (w_before . n). There w is the velocity of the centre of mass, of
     two bodies that of one relative to the other, in the rows before the first and after the
     last force of contact; n is the normal of contact.
 
@@ -194,7 +195,7 @@ def restitution(table: Table, log: str = "", turns: bool = True) -> float | None
     elif len(bodies) == 2 and not has_friction:
         # Masses are not in the table. The bodies fly without deformation at first, so that
         # p^2 / (2 T) is the mass of one that does not turn.
-        # Nothing else may push them, say what holds a boundary.
+        # No other force may act on them, such as the reaction of a held boundary.
         exchanged = [momentum(after, body) - momentum(before, body) for body in bodies]
         if np.linalg.norm(exchanged[0] + exchanged[1]) > 1e-6 * np.linalg.norm(exchanged[0]):
             return None
@@ -253,7 +254,7 @@ class ContactMeasures:
 
 @dataclass(frozen=True)
 class Summary:
-    """The numbers that tell most about a run; `print` shows them with their units."""
+    """The most important numbers of a run; `print` shows them with their units."""
 
     #: How many steps the table has, and the time of the last one.
     steps: int
@@ -282,7 +283,7 @@ class Summary:
     #: More of each contact.
     contacts: dict[str, ContactMeasures]
     units: dict[str, str]
-    #: What the energy lost is a part of: "first" or "largest".
+    #: Reference of the energy lost: "first" or "largest".
     energy_scale: str = "first"
 
     def __str__(self) -> str:
@@ -354,7 +355,7 @@ def measure_contact(table: Table, name: str) -> ContactMeasures:
 
 
 def summarise(table: Table, log: str = "", turns: bool = True) -> Summary:
-    """The summary of a table of energies; `log` is the text of log.txt, `turns` as for
+    """The summary of an energy table; `log` is the text of log.txt, `turns` as for
     `restitution`."""
     each = {name: measure_contact(table, name) for name in contacts(table)}
 
@@ -382,7 +383,7 @@ def summarise(table: Table, log: str = "", turns: bool = True) -> Summary:
 
 
 def histories(table: Table) -> list[str]:
-    """The columns that tell where the body is: displacements, or else the gaps."""
+    """The columns with the position of the body: displacements, or else the gaps."""
     names = [
         name for name in table.columns if "displacement" in name and not name.startswith("exact_")
     ]
@@ -401,7 +402,7 @@ def error_of_energy(table: Table, finest: Table) -> float:
 def error_of_displacement(table: Table, finest: Table) -> float:
     """How far the displacements are from those of another run, over their range there.
 
-    Of the columns `histories` the one that is furthest off; otherwise as error_of_energy.
+    The largest error of the columns `histories`; otherwise as error_of_energy.
     """
     errors = []
     for name in histories(table):

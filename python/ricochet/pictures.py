@@ -46,7 +46,7 @@ def check_ffmpeg() -> None:
 
 @dataclass(frozen=True)
 class _Scene:
-    """What the frames of a run have in common."""
+    """Common settings of the frames of a run."""
 
     run: Run
     colour: str
@@ -57,7 +57,7 @@ class _Scene:
     view: render.View
     edges: bool
     cut: float | None
-    #: In space, how far from the bodies' box obstacles are shown.
+    #: In 3D, distance from the bodies' box up to which obstacles are shown.
     box: tuple[tuple[float, float], ...] | None
 
     @property
@@ -69,7 +69,7 @@ class _Scene:
 
     @property
     def mappable(self) -> ScalarMappable:
-        """What the colour bar shows."""
+        """Quantity of the colour bar."""
         return ScalarMappable(Normalize(*self.limits), COLOUR_MAP)
 
     @property
@@ -80,7 +80,7 @@ class _Scene:
 
 @dataclass(frozen=True)
 class Shown:
-    """What `show` has drawn: its time, and what a colour bar needs."""
+    """Result of `show`: its time, and the data for a colour bar."""
 
     time: float
     mappable: ScalarMappable
@@ -119,7 +119,7 @@ def _scene(
             colour == "contact_pressure" and not on_foundation
         ):
             cut = 0.5 * sum(first.GetBounds()[2:4])
-        # A cut through what lies on a foundation is seen from where that is level.
+        # A cut through a body on a foundation is seen from a direction in which that is level.
         from_above = (0.0, -1.0, 0.3) if cut is not None and on_foundation else (0.35, -1.0, 0.4)
         right, up = _axes(np.array((0.6, -0.9, -0.75) if from_below else from_above))
 
@@ -227,7 +227,7 @@ def _render(scene: _Scene, files: Sequence[FieldFile], folder: pathlib.Path) -> 
 
 
 def _scale_bar(panel: Axes, scene: _Scene) -> None:
-    """A length to compare with, in a picture of a body in space."""
+    """A length to compare with, in a picture of a body in 3D."""
     raw = 0.25 * scene.view.width
     power = 10.0 ** math.floor(math.log10(raw))
     length = max(f * power for f in (1, 2, 5) if f * power <= raw)
@@ -285,7 +285,7 @@ def instants(run: Run) -> list[FieldFile]:
 
 
 def check_colour(run: Run, colour: str | None) -> str:
-    """What a run can be coloured by: `colour`, or without one von Mises stress, on bars stress.
+    """The colour field of a run: `colour`, or without one von Mises stress, on bars stress.
 
     Raises:
         RicochetError: it has no fields, or not this one.
@@ -315,8 +315,8 @@ def show(
         shown.colour_bar(axes)
 
     `limits` of the colours make panels comparable; without them they are those of the picture.
-    A body in space is cut in halves for stress; contact pressure on a foundation is shown from
-    below. Without `obstacles` those in space are left away.
+    A body in 3D is cut in halves for stress; contact pressure on a foundation is shown from below.
+    Without `obstacles` those in 3D are left away.
 
     Raises:
         RicochetError: there are no such fields, or VTK cannot draw.
@@ -341,7 +341,7 @@ def draw_instants(
     run: Run, colour: str, path: pathlib.Path, title: str | None = None
 ) -> pathlib.Path:
     """A picture of the body at the beginning, at the largest stored energy and at the end;
-    of a bar the field over place and time.
+    of a bar the field over position and time.
 
     Raises:
         RicochetError: there are no such fields, or VTK cannot draw.
@@ -371,7 +371,7 @@ def draw_instants(
 
 
 def _bar(run: Run, colour: str, title: str | None) -> Figure:
-    """A field of a bar: where its points are, over time, with their values as colours."""
+    """A field of a bar: positions of its points over time, with their values as colours."""
     places, shown = [], []
     for file in run.field_files:
         grid = run.fields(file.step)
@@ -454,7 +454,7 @@ class _GifWriter(animation.PillowWriter):  # type: ignore[misc]
     def finish(self) -> None:
         colours = plt.get_cmap(COLOUR_MAP)(np.linspace(0, 1, 112))[:, :3]
         greys = np.repeat(np.linspace(0, 1, 32)[:, None], 3, axis=1)
-        # Bodies in space are in the shade where they turn away from the light.
+        # Bodies in 3D are in the shade where they face away from the light.
         palette = np.concatenate((colours, 0.75 * colours, greys))
         holder = Image.new("P", (1, 1))
         holder.putpalette((255 * palette).round().astype(np.uint8).tobytes())

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Draw what runs have left: energies, contact forces and gaps over time, and the bodies.
+"""Draw the results of runs: energies, contact forces and gaps over time, and the bodies.
 
-Of several runs the curves are laid into the same axes, and legends name what differs between
-the runs. Of the folder of a set-up (ricochet FILE.prm --validate --output-dir FOLDER) the bodies
-are drawn with the names of their boundaries. Images go to FOLDER, without -o to `plots` in the folder of the first run.
+For several runs the curves are in the same axes, and legends name the differences between the runs.
+For the folder of a set-up (ricochet FILE.prm --validate --output-dir FOLDER) the bodies are drawn
+with the names of their boundaries. Images go to FOLDER, without -o to `plots` in the folder of the
+first run.
 """
 
 from __future__ import annotations
@@ -100,7 +101,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _in_a_process_of_its_own(action: Callable[[], int]) -> int:
-    """What an action returns; VTK crashes on some damaged files, or takes all memory."""
+    """The result of an action in a child process; VTK crashes on some damaged files, or takes all
+    memory."""
     sys.stdout.flush()
     child = os.fork()
     if child == 0:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Parameter files: what stands in them, without knowing which parameters there are."""
+"""Parameter files: their contents, without knowledge of the declared parameters."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from dataclasses import dataclass, field
 
 from .errors import BadParameterFile
 
-#: Sections that say what is written and how hard the solvers try, not what is computed.
+#: Sections of output and solvers, without effect on the computed problem.
 ASIDE = ("Output/", "Limits/", "Linear solver/", "Newton/")
 
-#: What is taken off both ends of words.
+#: Characters that are stripped from both ends of words.
 BLANKS = " \t\r\n\f\v"
 
 #: Files that include each other, and all of them, as in the programs.
@@ -23,7 +23,7 @@ MOST_DEEP, MOST_FILES = 100, 1000
 
 @dataclass
 class ParameterText:
-    """What a parameter file says, with those that it includes."""
+    """Contents of a parameter file, with those that it includes."""
 
     #: "Section/Name" -> value as text; the last one counts. Sections nest: "A/B/Name".
     values: dict[str, str] = field(default_factory=dict)
@@ -60,7 +60,7 @@ def read(path: str | os.PathLike[str]) -> ParameterText:
 def _read(
     path: pathlib.Path, origin: str, open_files: tuple[pathlib.Path, ...], result: ParameterText
 ) -> None:
-    """Add what stands in a file; `origin` is the line that includes it."""
+    """Add the contents of a file; `origin` is the line that includes it."""
     if path.resolve() in open_files:
         raise BadParameterFile(f"{origin}the parameter file '{path}' includes itself.")
     if len(open_files) >= MOST_DEEP or len(result.files) >= MOST_FILES:
@@ -173,7 +173,7 @@ def labels(parameters: Iterable[Mapping[str, str]], telling_only: bool = False) 
     common = [name for name in names if all(name in each for each in parameters)]
     if common:
         names = common
-    # What a treatment or a scheme brings along comes after it.
+    # Parameters of a treatment or a scheme come after it.
     telling = ("Program", "Treatment", "Scheme")
     names.sort(key=lambda name: name.split("/")[-1] not in telling)
     if telling_only:

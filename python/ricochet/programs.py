@@ -42,10 +42,10 @@ NAMES = (
     "colliding_tori",
 )
 
-#: The environment of a run that shares the cores with others: it takes one.
+#: The environment of one of several runs at a time: one core for each.
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
 
-#: The exit code of a run that is complete, but whose energy is not what it says.
+#: The exit code of a run that is complete, but whose balance or promise is violated.
 OPEN = 4
 
 PathLike = str | os.PathLike[str]
@@ -141,8 +141,7 @@ def _check(name: str, exit_code: int, text: str) -> None:
 def default_output(
     program: str, parameter_file: PathLike | None, overrides: Overrides | None = None
 ) -> pathlib.Path:
-    """The folder that a program writes to if it is not told: `Output/Folder`, or
-    output/PROGRAM/FILE."""
+    """The default folder of a program: `Output/Folder`, or output/PROGRAM/FILE."""
     folder = str((overrides or {}).get("Output/Folder", ""))
     if not folder and parameter_file:
         folder = prm.read(parameter_file).values.get("Output/Folder", "")
@@ -169,12 +168,11 @@ def run(
         program_or_path: its name, see `find_program`, or the path of it.
         parameter_file: none for the program's defaults.
         overrides: "Section/Name" -> value.
-        output: the folder to write to; without it that which the program takes itself,
-            output/PROGRAM/FILE.
+        output: the folder to write to; without it the program's default, output/PROGRAM/FILE.
         ranks: how many MPI ranks.
         programs: the folder with the programs.
-        overwrite: take the place of the run of another parameter file in that folder.
-        mpiexec: what starts several ranks.
+        overwrite: replace the run of another parameter file in that folder.
+        mpiexec: the command that starts several ranks.
 
     Raises:
         Refused: the program refused its input.
@@ -278,7 +276,7 @@ def check_many(tasks: Sequence[Task], jobs: int | None = None) -> list[ProgramEr
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of one run of several."""
+    """Outcome of one run of several."""
 
     name: str
     overrides: dict[str, object]

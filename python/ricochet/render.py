@@ -20,7 +20,7 @@ from .results import read_vtu
 
 @dataclass(frozen=True)
 class View:
-    """A parallel projection: what is seen, from where, on how many pixels.
+    """A parallel projection: centre, direction and pixels.
 
     The picture is a rectangle in the plane of `right` and `up`, about `centre`; one pixel is
     `height / pixels[1]` long.
@@ -48,9 +48,9 @@ class Job:
     palette: list[tuple[float, float, float]]
     view: View
     edges: bool
-    #: What is before the plane y = cut (at the start) is left away.
+    #: Parts in front of the plane y = cut (at the start) are left away.
     cut: float | None
-    #: In space, lower and upper bound of each coordinate within which obstacles are shown.
+    #: In 3D, lower and upper bound of each coordinate within which obstacles are shown.
     box: tuple[tuple[float, float], ...] | None
 
     def to_json(self) -> str:
@@ -67,7 +67,7 @@ def read_job(path: str) -> Job:
 
 
 def _strips(curves: Any, depth: float) -> Any:
-    """Quadrilaterals behind curves in the plane, `depth` wide, on the side away from the normal."""
+    """Quadrilaterals behind curves in 2D, `depth` wide, on the side away from the normal."""
     import vtk
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -88,7 +88,7 @@ def _strips(curves: Any, depth: float) -> Any:
 
 
 def _show_obstacles(actor: Any, grid: Any, dim: int, job: Job) -> None:
-    """Have `actor` show obstacles: in the plane as strips, in space as surfaces within a box."""
+    """Have `actor` show obstacles: in 2D as strips, in 3D as surfaces within a box."""
     import vtk
 
     if not grid.GetNumberOfCells() or (dim == 3 and job.box is None):
@@ -126,7 +126,7 @@ def _show_obstacles(actor: Any, grid: Any, dim: int, job: Job) -> None:
 
 
 def _clipped(data: Any, clip: Any, cut: float | None) -> Any:
-    """What is behind the plane y = cut, by a filter that clips."""
+    """Parts behind the plane y = cut, by a filter that clips."""
     import vtk
 
     if cut is None:
@@ -141,7 +141,7 @@ def _clipped(data: Any, clip: Any, cut: float | None) -> Any:
 
 
 def _warped(data: Any) -> Any:
-    """A grid whose points are where the field `moved` brings them."""
+    """A grid whose points are moved by the field `moved`."""
     import vtk
 
     warp = vtk.vtkWarpVector()
@@ -154,7 +154,7 @@ def _warped(data: Any) -> Any:
 def _surface(grid: Any, job: Job, lines: Any) -> Any:
     """The surface to be seen, with the field `shown`; `lines` becomes the edges of curved cells.
 
-    In space the field is the mean of the cells around a point, and the light that of a smooth
+    In 3D the field is the mean of the cells around a point, and the light that of a smooth
     surface.
     """
     import vtk

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a run has left in its folder."""
+"""Results of a run in its folder."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ class Run:
         print(run.summary())
         grid = run.fields(0.02)  # the VTK grid of the written time nearest to 0.02
 
-    A run that is still at work can be read too: the table then ends with its last whole row.
-    What was read once is kept; make another `Run` to see later rows.
+    A run that is still at work can be read too: the energy table then ends with its last complete
+    row. Data read once are kept; make another `Run` to see later rows.
 
     Raises:
         NotARun: there is no such folder, or no run in it.
@@ -108,7 +108,7 @@ class Run:
         return measures.contacts(self.table)
 
     def summary(self) -> measures.Summary:
-        """The numbers that tell most about the run."""
+        """The most important numbers of the run."""
         try:
             turns = measures.turns_at_start(self.parameters)
         except NotARun:
@@ -152,7 +152,7 @@ class Run:
 
     @property
     def open_lines(self) -> list[str]:
-        """What log.txt says of an energy balance that does not close or a broken promise."""
+        """The message of log.txt on an energy balance that does not close or a broken promise."""
         marks = ("THE ENERGY BALANCE DOES NOT CLOSE", "THE PROMISE IS BROKEN")
         return [line for line in self.log.splitlines() if line.endswith(marks)]
 
@@ -225,7 +225,7 @@ class Run:
     def fields(self, at: int | float = -1) -> vtkUnstructuredGrid:
         """The fields of a step (an integer), or of the written time nearest to `at` (a float).
 
-        Points are where they were at the start; `displacement` says where they are.
+        Points are at their initial positions; `displacement` leads to the current ones.
         Without an argument: the last ones.
 
         Raises:

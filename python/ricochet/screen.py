@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Something for VTK to draw on."""
+"""A screen for VTK."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A picture of what `ricochet FILE.prm --validate --output-dir FOLDER` has left: the bodies and
+"""A picture of the results of `ricochet FILE.prm --validate --output-dir FOLDER`: the bodies and
 their boundaries with the names by which a parameter file knows them."""
 
 from __future__ import annotations
@@ -23,21 +23,21 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.typing import NDArray
 
 OBSTACLE = "0.45"
-# Numbers of points of VTK's cells, by type; those of bodies in space come last.
+# Numbers of points of VTK's cells, by type; those of bodies in 3D come last.
 LINE, TRIANGLE, QUADRILATERAL, TETRAHEDRON, HEXAHEDRON = 3, 5, 9, 10, 12
 
 
 @dataclass(frozen=True)
 class _Setup:
     points: NDArray[np.float64]
-    #: Of cells of the bodies, their points and parts.
+    #: Points and parts of the cells of the bodies.
     cells: list[tuple[list[int], int]]
-    #: Of faces of the boundary, their points and numbers.
+    #: Points and numbers of the faces of the boundary.
     faces: list[tuple[list[int], int]]
     #: Names of the boundaries by their numbers.
     names: dict[int, str]
     dim: int
-    #: Pieces of rigid obstacles: the places of their corners.
+    #: Pieces of rigid obstacles: positions of their corners.
     obstacles: list[NDArray[np.float64]]
 
 
@@ -79,8 +79,7 @@ def _names(folder: pathlib.Path) -> dict[int, str]:
 def read(folder: pathlib.Path) -> _Setup:
     """Read the set-up in a folder.
 
-    Raises:
-        NotARun: it is not what the program writes.
+    Raises: NotARun: it is not written by the program.
     """
     try:
         sections = _sections((folder / "setup.vtk").read_text(encoding="utf-8"))
@@ -164,7 +163,7 @@ def _draw_plane(panel: Axes, setup: _Setup, colours: dict[int, tuple[float, ...]
     )
     panel.set_aspect("equal")
     panel.autoscale_view()
-    # Of obstacles only what is near.
+    # Only near parts of obstacles.
     panel.add_collection(
         LineCollection(
             [piece[:, :2] for piece in setup.obstacles], colors=OBSTACLE, linewidths=2.0, zorder=0.5

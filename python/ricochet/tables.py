@@ -51,7 +51,7 @@ def read_table(path: str | os.PathLike[str]) -> Table:
         raise NotARun(f"There is no table '{path}'.") from None
     except (OSError, UnicodeDecodeError) as error:
         raise NotARun(f"The table '{path}' cannot be read: {error}.") from None
-    # What comes after the last end of a line is not complete, nor is an empty line a row.
+    # Text after the last end of a line is not complete, nor is an empty line a row.
     lines = [line for line in text.split("\n")[:-1] if line.strip()]
     if not lines:
         raise NotARun(f"The table '{path}' is empty.")

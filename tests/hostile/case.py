@@ -33,7 +33,7 @@ class Result:
 
 
 class Context:
-    """What all cases share: programs, environment, undisturbed runs."""
+    """Common parts of all cases: programs, environment, undisturbed runs."""
 
     def __init__(self, programs, mpiexec, seed, work, verbose=False):
         self.programs = pathlib.Path(programs).resolve()
@@ -136,7 +136,7 @@ class Case:
         self.findings.append((sort, detail, last))
 
     def note(self, text):
-        """What a reader of commands.sh should know."""
+        """A note for readers of commands.sh."""
         self.commands.append("# " + text)
 
     def script(self, *words):
@@ -168,8 +168,8 @@ class Case:
 
     def command(self, program, settings=(), prm=None, folder=None, options=(),
                 n_ranks=1):
-        """The words of a run; an output folder is always given, and a file to what
-        needs one."""
+        """The words of a run; an output folder is always given, and a file to programs that need
+        one."""
         if prm is None:
             prm = programs.FILES.get(program)
         words = []
@@ -283,7 +283,7 @@ class Case:
         return result
 
     def undisturbed(self, program, settings, n_ranks=1):
-        """The folder of a run that nobody disturbs, made once."""
+        """The folder of an undisturbed run, made once."""
         key = (program, tuple(sorted(settings.items())), n_ranks)
 
         def make():

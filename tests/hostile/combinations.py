@@ -65,13 +65,13 @@ def scheme_for(rng, settings, choices):
 
 
 def material_for(rng, settings, program):
-    """What goes with a hyperelastic body, more often than chance has it."""
+    """Values that go with a hyperelastic body, more often than by chance."""
     if program == "hyperelastic_ring" and rng.random() < .7:
         settings["Material/Viscosity"] = "none"
 
 
 def pair_for(rng, settings, program):
-    """What goes with contact between bodies, more often than chance has it."""
+    """Values that go with contact between bodies, more often than by chance."""
     if program not in BODIES or rng.random() < .2:
         return
     settings["Time/Scheme"] = "midpoint"

@@ -110,7 +110,7 @@ def resume_of_nothing(case, program):
 
 
 def full_console(case, program):
-    """What was asked for cannot be printed: that is no success."""
+    """The requested text cannot be printed: that is no success."""
     option = case.rng.choice(["--print-parameters", "--help", "--version"])
     words = ["sh", "-c", 'exec "$0" "$@" >/dev/full',
              str(case.context.programs / program), option]

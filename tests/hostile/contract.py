@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What every program promises about every run, whatever it is given.
+"""Promises of every program for every run, whatever its input.
 
 Each check returns a list of complaints, (sort, detail): the sort is the same for
 the same kind of defect, so that findings can be grouped.
@@ -35,8 +35,8 @@ def check_texts(result):
 
 
 def check_exit(result, expected):
-    """0, 1, 2 or 4, and in time; @p expected says which of them. What is complete, but whose
-    energy is open (4), is as good as 0 here: the run has said so."""
+    """0, 1, 2 or 4, and in time; @p expected says which of them. A complete run with an open energy
+    (4) is as good as 0 here: the run has reported it."""
     if result.timed_out:
         return [("hangs", f"no end within {result.seconds:.0f} s")]
     if result.code < 0 or result.code > 128:
@@ -107,7 +107,7 @@ def check_ledger(csv_file, settings):
         if len(row) != len(names):
             return [("row of energy.csv is not whole", f"row {number}")]
         for name, cell in zip(names, row):
-            # Bodies may be nowhere before each other.
+            # Bodies may nowhere face each other.
             if cell == "" and (name in ("modified_energy", "total_energy",
                                         "promise_residual") or "_gap_" in name
                                or name.startswith("contact_work_")):
@@ -124,12 +124,12 @@ def check_ledger(csv_file, settings):
         energies.append(float(row[names.index("energy")]))
         residuals.append(float(row[names.index("balance_residual")]))
     # Relative to the initial energy; where a displacement is imposed, to the largest
-    # energy so far, which is next to nothing at the beginning. What is only moved, by
-    # millimetres, has no energy but round-off of some 1e-13. Loads may bring more
-    # energy than there was by any factor, and its round-off with it.
+    # energy so far, which is next to nothing at the beginning. A body that is only moved, by
+    # millimetres, has no energy except round-off of some 1e-13. Loads may bring more energy than
+    # there was by any factor, and its round-off with it.
     largest = max(energies)
     for number, residual in enumerate(residuals, 1):
-        # The column measures by the largest sum so far; what is at rest begins with round-off.
+        # The column measures by the largest sum so far; bodies at rest begin with round-off.
         residual *= max(energies[:number]) / max(largest, 1e-6)
         if abs(residual) >= LARGEST_RESIDUAL:
             return [("success although the balance does not close",

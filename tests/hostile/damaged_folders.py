@@ -20,7 +20,7 @@ def settings_for(program, n_steps):
 
 
 class Folder:
-    """What may have happened to a folder. Each method returns the exit codes that
+    """Possible damages of a folder. Each method returns the exit codes that
     --resume may end with."""
 
     def __init__(self, case):

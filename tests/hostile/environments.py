@@ -129,7 +129,7 @@ def another_file(case, program):
 
 
 def closed_streams(case, program):
-    """Files must not be taken for the console that is closed."""
+    """Files must not be written in place of the closed console."""
     close = case.rng.choice(["<&-", ">&-", "<&- >&-", "2>&-", "<&- >&- 2>&-",
                              ">/dev/full", ">/dev/full 2>/dev/full"])
     words = ["sh", "-c", f'exec "$0" "$@" {close}'] \

@@ -25,7 +25,7 @@ def size(rng):
 
 
 def undisturbed(case, program, settings):
-    """What is written changes nothing in the ledger."""
+    """Output changes nothing in the ledger."""
     settings = {name: value for name, value in settings.items()
                 if not name.startswith("Output/")}
     settings["Output/Fields every"] = "0"

@@ -26,7 +26,7 @@ sys.dont_write_bytecode = True
 
 from case import Case, Context  # noqa: E402
 
-# Kinds of input, the modules that make them, and their shares of --inputs.
+# Kinds of input, the modules that make them, and their parts of --inputs.
 KINDS = {
     "parameter-files": ("parameter_files", .20),
     "command-lines": ("command_lines", .15),

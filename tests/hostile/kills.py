@@ -217,7 +217,7 @@ def run(case):
         if result is None:
             options = ["--resume"]
         elif result.code == 1 and options and "does not exist" in result.err:
-            # Killed before the first checkpoint: there is nothing to go on from.
+            # Killed before the first checkpoint: there is no state to continue from.
             if (case.run_folder / "checkpoint.bin").exists():
                 case.judge(result, program, ACCEPTED, n_ranks=n_ranks)
                 return
@@ -234,7 +234,7 @@ def run(case):
 
 
 def check_number_of_fields(case, fields_every, program):
-    """No file of a field is lost on the way."""
+    """No file of a field is lost in between."""
     if fields_every == 0:
         return
     expected = STEPS[program] // fields_every + 1

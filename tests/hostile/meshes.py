@@ -14,8 +14,8 @@ TETRAHEDRA = [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6),
 
 
 class Box:
-    """A row of n cubes of side 10, two above the foundation: what can touch is
-    the lower side, physical surface 1; the others are physical surface 2."""
+    """A row of n cubes of side 10, two above the foundation: the contact surface is the lower side,
+    physical surface 1; the others are physical surface 2."""
 
     def __init__(self, n, tetrahedra):
         self.nodes = {}

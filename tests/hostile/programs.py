@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the harness knows of the programs: small runs, and their parameters as
---print-parameters tells them."""
+"""Data of the programs for the harness: small runs, and their parameters as printed by
+--print-parameters."""
 
 import pathlib
 import re
@@ -13,7 +13,7 @@ THROWN = ["elastic_ball", "hyperelastic_ring", "obstacle_course"] + BODIES
 RUNS = BARS + THROWN + ["sphere"]
 ALL = RUNS + ["spectral_radius"]
 
-# What cannot run without a file has one here.
+# A file for each program that cannot run without one.
 FILES = {"ricochet": pathlib.Path(__file__).resolve().with_name("scene.prm")}
 
 # Coarse meshes, and a time in which something touches.

@@ -28,9 +28,9 @@ SURFACE = {"triangle": "line", "quadrangle": "line", "tetrahedron": "triangle",
 
 
 class Grid:
-    """A row of n squares or cubes of side 1 above the origin. What is below is called
-    "foot" and has the number 1, the rest of the surface "rest" with 2; the first half of
-    the cells is "soft" with 10, the others "hard" with 20."""
+    """A row of n squares or cubes of side 1 above the origin. The lower side is called "foot" and
+    has the number 1, the rest of the surface "rest" with 2; the first half of the cells is "soft"
+    with 10, the others "hard" with 20."""
 
     def __init__(self, dim, n, simplices, order):
         self.dim, self.order = dim, order
@@ -158,7 +158,7 @@ class Grid:
 
 
 class SceneDamage(Damage):
-    """What differs for meshes with names, of any dimension."""
+    """Changes of meshes with names, of any dimension."""
 
     dim = 3
 
@@ -177,7 +177,7 @@ class SceneDamage(Damage):
 
     def coordinates(self):
         text, sure = super().coordinates()
-        # In the plane the third one is only read.
+        # In 2D the third coordinate is only read.
         return text, sure
 
     def no_surface_one(self):
@@ -329,7 +329,7 @@ def geometry(case, dim):
 
 
 def make_file(case, dim):
-    """A file, what is expected of it, whether it has names, and its order."""
+    """A file, the expected result, whether it has names, and its order."""
     rng = case.rng
     ending = rng.choices([".msh", ".geo", ".vtk"], [60, 30, 10])[0]
     if ending == ".geo":

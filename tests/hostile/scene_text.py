@@ -138,7 +138,7 @@ def add_contacts(scene, rng):
         scene.add("Obstacle wall", Shape="half space",
                   Centre=scene.vector(across=.502),
                   Direction=scene.vector(across=-1.))
-        # It may share nodes with what is held.
+        # Its surface may have common nodes with held boundaries.
         scene.add("Contact at wall", Surface="; ".join(bodies), Against="wall",
                   Treatment="penalty")
     if len(bodies) == 1 and scene.dim == 2 and rng.random() < .3:

@@ -68,7 +68,7 @@ BAD_UNITS = ["", "m", "m, kg", "m, kg, s, K", "mm; t; s", "1, 2, 3", "m,, s", ",
 ODD_UNITS = ["mm, t, s", "m,kg,s", " m , kg , s ", "um, ug, ms", "mm, g, ms", "cm, g, s",
              "a, b, c", "m, m, m", "s, kg, m"]
 
-# What schemes and masses combine with, and some that nothing combines with.
+# Combinations with schemes and masses, and some that are never allowed.
 CHANCES = {"Treatment": .6, "Scheme": .35, "Friction coefficient": .3, "Coupling": .25}
 COMBINED = ("Contact NAME", "Time", "Body NAME", "Mesh", "Linear solver")
 LEFT_ALONE = ("File", "Shape", "Generator", "Generator arguments", "Surface", "Against",
@@ -80,7 +80,7 @@ LEFT_ALONE = ("File", "Shape", "Generator", "Generator arguments", "Surface", "A
 
 
 class SceneMutation(Mutation):
-    """What can befall any file."""
+    """Damages of any file."""
 
     def __init__(self, case, scene, parameters):  # pylint: disable=super-init-not-called
         self.case, self.rng = case, case.rng
@@ -94,7 +94,7 @@ class SceneMutation(Mutation):
                     self.parameters[f"{name}/{own}"] = parameter
 
     def typo_in_section(self):
-        """Names of one's own may be anything, as far as nothing refers to them."""
+        """Users' names may be anything, as far as nothing refers to them."""
         text, _ = super().typo_in_section()
         return text, False
 
@@ -107,7 +107,7 @@ def pick(rng, bad, odd):
 
 
 def name_of_section(scene, rng, _):
-    """Anything for a name; what refers to it follows."""
+    """Anything for a name; references to it follow."""
     kind = rng.choice(KINDS)
     names = scene.of_kind(kind)
     new, sure = pick(rng, BAD_NAMES, ODD_NAMES)
@@ -195,7 +195,7 @@ def list_of_wrong_length(scene, rng, parameters):
 
 
 def expression(scene, rng, _):
-    """Of loads, displacements, ways of obstacles, level sets."""
+    """Expressions of loads, displacements, motions of obstacles, level sets."""
     text, sure = pick(rng, BAD_EXPRESSIONS, ODD_EXPRESSIONS)
     several = "; ".join([text] + ["0"] * (scene.dim - 1))
     if rng.random() < .15:
@@ -224,7 +224,7 @@ def expression(scene, rng, _):
 
 
 def on_top_of_each_other(scene, rng, _):
-    """Two bodies in one place."""
+    """Two coincident bodies."""
     bodies = scene.of_kind("Body")
     first = bodies[0]
     if len(bodies) == 1:
@@ -232,7 +232,7 @@ def on_top_of_each_other(scene, rng, _):
         scene.add("Contact twins", Surface=scene.names("Body")[0], Against="twin",
                   Treatment=rng.choice(["improved normal compliance",
                                         "persistent contact", "penalty"]))
-        # Bodies of one shape in one place have no node within the other.
+        # Coincident bodies of one shape have no node within the other.
         return True
     shift = rng.choice([0., .1, .25])
     scene.sections[bodies[1]]["Translation"] = ", ".join(
@@ -372,7 +372,7 @@ def springs(scene, rng, _):
 def conditions(scene, rng, _):
     """Several on one boundary, on surfaces in contact, on all of a body."""
     body = rng.choice(scene.names("Body"))
-    # Nodal contact and prescribed displacements share no nodes.
+    # Nodal contact and prescribed displacements have no common nodes.
     for name in scene.of_kind("Contact")[:rng.choice([0, 1, 1])]:
         scene.sections[name]["Treatment"] = "penalty"
     boundaries = [scene.on_top[body][0], scene.on_top[body][1], body]
@@ -418,7 +418,7 @@ def generator(scene, rng, _):
     if rng.random() < .1:
         own["Generator"] = rng.choice(NO_GENERATORS)
     if rng.random() < .8:
-        # A body alone, which touches nothing: whatever can be made is accepted.
+        # A body alone, without contact: any valid mesh is accepted.
         scene.sections = {key: value for key, value in scene.sections.items()
                           if key in (name, "Time", "Output")}
         own["Cells"] = rng.choice(["automatic", "triangles or tetrahedra"])
@@ -576,7 +576,7 @@ def run(case):
 
 
 def attempt(case, prm, expected, validate, n_ranks=1):
-    """A check or a run. What a run refuses, the check refuses, too."""
+    """A check or a run. Input refused by a run is refused by the check, too."""
     if validate:
         case.attempt("ricochet", prm=prm, options=["--validate"], is_run=False,
                      expected=expected)

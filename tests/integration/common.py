@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What all integration tests need: run a program, read its ledger."""
+"""Common functions of all integration tests: run a program, read its ledger."""
 
 import argparse
 import csv
@@ -61,8 +61,8 @@ arguments = None
 
 
 def is_part_of_energy(name):
-    """Whether a column may be the round-off of energies: what is kept, and what contact
-    that keeps has made."""
+    """Whether a column may be the round-off of energies: conserved quantities, and gains of
+    conserving contact."""
     return name == "total_energy" or name.startswith("contact_gain_")
 
 

@@ -3,7 +3,7 @@
 
 The semi-discrete Nitsche and penalty systems are Lipschitz differential
 equations (paper C, (11), (15); it says so of the first) with one solution on one
-mesh. ARKODE knows nothing of our time schemes.
+mesh. ARKODE is independent of our time schemes.
 """
 
 from common import *
@@ -27,7 +27,7 @@ class Arkode(ProgramTest):
                                    "Time/ARKODE relative tolerance=1e-11",
                                    "Time/ARKODE absolute tolerance=1e-13"])
         self.assertEqual(len(reference["time"]), 61)
-        # Its own balance: the integration error is all that is left.
+        # The residual of its balance is the integration error.
         self.assertLess(max(map(abs, reference["balance_residual"])), 1e-9)
         energy = reference["modified_energy"]
         self.assertLess(max(energy) - min(energy), 1e-8)

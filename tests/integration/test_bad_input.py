@@ -160,7 +160,7 @@ class BadInput(Refusal):
 
 
 class BadSettings(Refusal):
-    """Settings that mean nothing, or that nobody would notice."""
+    """Settings without meaning, or without notice."""
 
     def test_forms_of_set(self):
         for text in ("=1", "/Time/Time step=0.1", "Time//Time step=0.1", "=",
@@ -215,7 +215,7 @@ class BadSettings(Refusal):
             code, _, error = self.attempt("bar_sd", parameters,
                                           options=["--validate"])
             self.assertEqual(code, 0, msg=error)
-        # A file may set what belongs together; it is told.
+        # A file may set parameters without effect; a note is printed.
         code, out, error = self.attempt(
             "bar_sd", options=["--validate"],
             prm=self.write("subsection Time\nset HHT alpha = 0.1\nend\n"))
@@ -310,7 +310,7 @@ class FailureWhileRunning(ProgramTest):
 
 
 class BadThrownBodies(Refusal):
-    """Papers A and B: what has no meaning, and what does have one."""
+    """Papers A and B: combinations without meaning, and one with a meaning."""
 
     def refuse_ball(self, *messages, parameters):
         self.refuse(*messages, program="elastic_ball", parameters=parameters)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Contact between deformable bodies (colliding_disks, stent_artery, sliding_block):
-energy and momenta, the answers of a rigid block, what does not depend on the choice
-of the slave, restart, ranks, and what is refused."""
+energy and momenta, the motion of a rigid block, independence of the choice of the slave, restart,
+ranks, and refused input."""
 
 import math
 
@@ -48,7 +48,7 @@ def by_turns(cases):
 class BodiesTest(ProgramTest):
 
     def check_parts(self, program, ledger):
-        """What the parts have makes up what all have, row by row."""
+        """The contributions of the parts add up to the whole, row by row."""
         first, second = PARTS[program]
         for name in ("kinetic_energy", "elastic_energy") + MOMENTA:
             parts = [ledger[f"{name}_{part}"] for part in (first, second)]
@@ -62,9 +62,8 @@ class BodiesTest(ProgramTest):
             for whole, one in zip(ledger[f"{name}_work"],
                                   ledger[f"{kind}_work_{contact}"]):
                 self.assertLess(abs(whole - one), 1e-9 * max(ledger["energy"]))
-        # What goes from one to the other: what the parts give away together is lost to
-        # contact and friction, and what a part that nothing else works on has given
-        # away it lacks.
+        # Exchange of energy: the sum given away by the parts is the dissipation of contact and
+        # friction, and a part without other loads lacks the energy that it has given away.
         scale = max(ledger["energy"])
         works = [ledger[f"contact_work_{part}"] for part in (first, second)]
         for c, f, a, b in zip(ledger["contact_work"], ledger["friction_work"],
@@ -85,8 +84,8 @@ class BodiesTest(ProgramTest):
 
     def check_balance(self, ledger, tolerance):
         """The residual is relative to the initial energy, or, where a displacement is
-        imposed, to the largest energy so far. At the beginning that is nearly
-        nothing: these are measured by the largest of the run."""
+        imposed, to the largest energy so far. At the beginning that is nearly zero: these rows are
+        relative to the largest of the run."""
         energy, so_far = ledger["energy"], 0.
         for residual, e in zip(ledger["balance_residual"], energy):
             so_far = max(so_far, e)
@@ -94,7 +93,7 @@ class BodiesTest(ProgramTest):
             self.assertLess(abs(residual) * weight, tolerance)
 
     def check_friction(self, ledger, friction):
-        """It never gives anything back, but for round-off of what the run is about."""
+        """Friction never adds energy, except for round-off of the largest terms of the run."""
         work = ledger["friction_work"]
         self.assertGreaterEqual(min(increments(work)),
                                 -1e-12 * max(ledger["energy"]))
@@ -108,8 +107,8 @@ class BodiesTest(ProgramTest):
 class Disks(BodiesTest):
 
     def check_momenta(self, ledger):
-        """Nothing comes from outside. Measured by what either disk brings, as
-        momentum and, over the radius of 1 m, as moment."""
+        """No external loads. Relative to the momentum of either disk and, over the radius of 1 m,
+        its moment."""
         scale = sum(abs(ledger[f"momentum_x_{part}"][0])
                     for part in PARTS["colliding_disks"])
         for name, tolerance in (("momentum_x", 1e-11), ("momentum_y", 1e-11),
@@ -120,7 +119,7 @@ class Disks(BodiesTest):
     def check_energy(self, treatment, ledger, friction):
         scale = ledger["energy"][0]
         if treatment in KEEP_ENERGY:
-            # Friction takes what is lost; contact itself does no work.
+            # The loss is the work of friction; contact itself does no work.
             kept = ledger["energy"]
             self.assertLess(largest(ledger["contact_work"]), 1e-9 * scale)
         else:
@@ -184,8 +183,8 @@ class Disks(BodiesTest):
         """Which disk is the slave matters less than the mesh: the velocities at the
         end differ by less than what they changed by from the next coarser mesh,
         for either slave. Steps are refined with the mesh: with all of them of 4 ms
-        the two come no nearer to each other than 0.004 m/s, since persistent
-        contact is as deep as a point comes in the step in which it touches."""
+        the two come no nearer to each other than 0.004 m/s, since persistent contact penetrates by
+        the displacement of a point in the step in which it touches."""
         self.long_run()
         meshes = ((6, 5, 8e-3), (11, 9, 4e-3), (22, 18, 2e-3))
         cases = [((left, slave), "colliding_disks",
@@ -213,8 +212,8 @@ class Disks(BodiesTest):
 
 
 class CutFaces(BodiesTest):
-    """Linear elastic disks at small displacements: treatments that integrate over
-    faces, with the time schemes that they have before rigid obstacles."""
+    """Linear elastic disks at small displacements: treatments that integrate over faces, with the
+    time schemes that they have against rigid obstacles."""
 
     DISKS = NO_FIELDS + ["Material/Law=linear elastic",
                          "Contact/Coupling=cut faces",
@@ -269,7 +268,7 @@ class CutFaces(BodiesTest):
 
     def test_like_other_treatments(self):
         """They leave with the velocities that Signorini's condition on mortar gaps
-        gives them, but for the error of meshes as coarse as these."""
+        gives them, except for the error of meshes as coarse as these."""
         restitution = {}
         runs = [(name, "colliding_disks", parameters) for name, parameters in (
             ("mortar", NO_FIELDS + self.DISKS[1:2] +
@@ -305,7 +304,7 @@ class Stent(BodiesTest):
                                 prm=FILES / "stent_artery" / file, **kwargs)
 
     def test_without_friction(self):
-        """All that the imposed displacement does is stored."""
+        """All work of the imposed displacement is stored."""
         self.long_run()
         ledger = self.deploy("default.prm")
         scale = max(ledger["energy"])
@@ -315,13 +314,13 @@ class Stent(BodiesTest):
         for energy, work in zip(ledger["energy"], ledger["imposed_work"]):
             self.assertLess(abs(energy - work), 1e-9 * scale)
         self.assertLess(largest(ledger["contact_work"]), 1e-9 * scale)
-        # Half the nodes of the wall touch at the end. Where they first did, they
-        # came as deep as a step carries them, and stay; a facet is 0.12 mm long.
+        # Half the nodes of the wall touch at the end. At first touch they penetrate by the
+        # displacement of a step, and stay; a facet is 0.12 mm long.
         self.assertGreater(ledger["active_points_wall"][-1], 30)
         self.assertLess(max(ledger["penetration_wall"]), .015)
 
     def test_what_friction_and_viscosity_take(self):
-        """The more of either, the more. Neither gives anything back."""
+        """Dissipation grows with either coefficient. Neither adds energy."""
         self.long_run()
         for column, files in (
                 ("friction_work",
@@ -374,7 +373,7 @@ class Stent(BodiesTest):
 
 
 class Block(BodiesTest):
-    """The answers of a rigid block of 500 kg. tan(beta) = 1/2."""
+    """The motion of a rigid block of 500 kg. tan(beta) = 1/2."""
 
     MASS, GRAVITY = 500., 9.81
     SINE, COSINE = math.sqrt(.2), 2. * math.sqrt(.2)
@@ -405,7 +404,7 @@ class Block(BodiesTest):
                                     f"Contact/Treatment={treatment}")
                 self.assertAlmostEqual(self.acceleration(ledger) / exact, 1.,
                                        delta=.01)
-                # How far it has come, v t + a t^2/2, and what that takes.
+                # Displacement, v t + a t^2/2, and the work of friction over it.
                 self.assertAlmostEqual(ledger["slide_block"][-1],
                                        2. * .5 + .5 * exact * .25, delta=2e-3)
                 self.assertAlmostEqual(
@@ -476,14 +475,13 @@ class RestartAndRanks(BodiesTest):
                                      [.06, .1, .12])
 
     def compare(self, one, other):
-        """To 1e-9 of the largest value of each column; what is round-off by itself
-        is measured by what it is part of."""
+        """To 1e-9 of the largest value of each column; columns that are round-off are relative to
+        the quantity that they are part of."""
         self.assertEqual(one.names, other.names)
         self.assertEqual(len(one["time"]), len(other["time"]))
         parts = [name for name in one.names
                  if name.startswith("momentum_x_")]
-        # Disks fly, so mass times speed is what they bring; nothing of the stent
-        # moves before the run.
+        # Disks fly, so mass times speed is what they bring; the stent is at rest before the run.
         momentum = sum(largest(one[name]) for name in parts)
         energy = largest(one["energy"])
         whole = {"momentum_x": momentum, "momentum_y": momentum,

@@ -2,7 +2,7 @@
 """The programs that are written out by hand against those that take the library.
 
 bar_by_hand has everything in one file, disk_step_by_step all but mesh, material and
-table: what both programs have in common are the equations. A difference is an error in
+table: both programs have only the equations in common. A difference is an error in
 one of them.
 """
 
@@ -17,8 +17,7 @@ class ByHand(ProgramTest):
             [(by_hand, by_hand, parameters), (library, library, parameters + NO_FIELDS)])]
 
     def compare(self, by_hand, library, tolerance, scales):
-        """Each number of the columns that both tables have; by unit, of what size
-        they are."""
+        """Each number of the columns that both tables have; their size by unit."""
         names = [name for name in by_hand.names if name in library.names
                  and name not in NOISE]
         for name in names:

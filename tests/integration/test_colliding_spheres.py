@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Two spheres that collide in space: energy, all six momenta, friction, ranks, restart,
-and what is refused."""
+"""Two spheres that collide in 3D: energy, all six momenta, friction, ranks, restart, and refused
+input."""
 
 from common import *
 
@@ -25,7 +25,7 @@ class CollidingSpheres(ProgramTest):
         self.assertLess(largest(ledger["balance_residual"]), 1e-10)
         self.assertGreaterEqual(min(increments(ledger["friction_work"])),
                                 -1e-12 * scale)
-        # Nothing comes from outside. Measured by what one sphere brings.
+        # No external loads. Relative to the momentum of one sphere.
         momentum = abs(ledger["momentum_x_left"][0])
         for name in MOMENTA:
             drift = largest([p - ledger[name][0] for p in ledger[name]])
@@ -33,7 +33,7 @@ class CollidingSpheres(ProgramTest):
             # is where they are.
             if not (linear and "angular" in name):
                 self.assertLess(drift / momentum, 1e-10, msg=name)
-            # What both have together.
+            # Sum over both.
             for whole, a, b in zip(ledger[name], ledger[f"{name}_left"],
                                    ledger[f"{name}_right"]):
                 self.assertLess(abs(whole - a - b), 1e-11 * momentum, msg=name)
@@ -43,11 +43,11 @@ class CollidingSpheres(ProgramTest):
         if treatment in KEEP_MODIFIED_ENERGY:
             kept = [e + w for e, w in
                     zip(ledger["modified_energy"], ledger["friction_work"])]
-            # But for the node at the rim.
+            # Except for the node at the rim.
             self.assertLess(largest([e - scale for e in kept]), 1e-4 * scale)
             self.assertLess(sorted(abs(b - a) for a, b in zip(kept, kept[1:]))[-2],
                             1e-9 * scale)
-        # Nobody is seen through a body or round a corner of it.
+        # No facet is found through a body or round a corner of it.
         self.assertLess(max(ledger["penetration_spheres"]), .1)
         if treatment == "Signorini active set":
             self.assertLess(max(increments(total)), 1e-11 * scale)
@@ -60,8 +60,8 @@ class CollidingSpheres(ProgramTest):
                   [f"Contact/Treatment={treatment}"] +
                   (["Contact/Compliance coefficient=1e7"]
                    if treatment in COMPLIANT else []),
-                  # A node at the rim turns until it faces its facet no longer, and what
-                  # it stored is lost.
+                  # A node at the rim turns until it faces its facet no longer, and its stored
+                  # energy is lost.
                   2.7e-5 if treatment == "Hauret-Le Tallec" and not friction else None)
                  for treatment in KEPT + PENALTIES
                  for friction in ([], FRICTION)
@@ -100,8 +100,7 @@ class CollidingSpheres(ProgramTest):
             with self.subTest(treatment):
                 folder = self.folder / coupling / treatment
                 ledger = self.run_program("colliding_spheres", parameters, folder)
-                # Not a node, but the mean gap around it is held, over other pieces in
-                # the next step.
+                # Contact acts on the mean gap around a node, over other pieces in the next step.
                 self.check(treatment, ledger, holds_nodes=False)
             if is_debug_build():
                 return
@@ -145,15 +144,15 @@ class CollidingSpheres(ProgramTest):
                             1e-9 * scale, msg=name)
 
     def test_spin_of_what_slides(self):
-        """Head-on, the left sphere spins about z: friction takes of its spin what it
-        gives to the other one, and both are pushed apart along y."""
+        """Head-on, the left sphere spins about z: friction transfers spin from it to the other one,
+        and both are pushed apart along y."""
         ledger = self.run_program(
             "colliding_spheres",
             COARSE + NO_FIELDS + FRICTION + ["Spheres/Spin of the left sphere=0, 0, 2"])
         self.check("persistent contact", ledger)
         # The surface of the left sphere goes towards y where it touches, so that the
-        # right one is dragged there, and begins to turn the same way about z as what
-        # drags it pushes: r x t points against z.
+        # right one is dragged there, and begins to turn about z in the sense of the traction on it:
+        # r x t points against z.
         self.assertGreater(ledger["momentum_y_right"][-1], 0.)
         self.assertLess(ledger["momentum_y_left"][-1], 0.)
         momentum = abs(ledger["momentum_x_left"][0])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Two hollow tori that collide and feel themselves: energy, all six momenta, what the walls do
-inside with self-contact and without it, ranks, restart, the same in a scene, and what is refused.
+"""Two hollow tori that collide, with self-contact: energy, all six momenta, the walls inside with
+self-contact and without it, ranks, restart, the same in a scene, and refused input.
 
 They lie flat against each other, so that their tubes are squashed all around: the walls meet
 inside after half of the run.
@@ -41,7 +41,7 @@ class CollidingTori(ProgramTest):
             self.assertLess(drift / momentum, 1e-10, msg=name)
 
     def overlap_with_themselves(self, folder):
-        """Of each torus at the end, found without the program's help."""
+        """Volumes and depths of each torus at the end, computed independently of the program."""
         last = sorted((folder / "solution").glob("step-*.vtu"))[-1]
         return overlap_in_space.overlap_in(last, itself=True)
 

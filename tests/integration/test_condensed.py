@@ -23,8 +23,8 @@ def distributed(parameters):
         "Linear solver/Distribute=true"]
 
 
-# Dissipation is round-off by itself, and a multiplier that is zero but for round-off counts
-# as a pressed point or does not.
+# Dissipation is round-off by itself, and a multiplier that is zero up to round-off may count as a
+# pressed point or not.
 NOT_COMPARED = (*NOISE, "numerical_dissipation")
 
 
@@ -45,7 +45,7 @@ CASES = [
     case("sphere", "improved normal compliance", "midpoint", *NODES, *OBLIQUE),
     case("sphere", "Hauret-Le Tallec", "midpoint", *NODES, *OBLIQUE),
     case("sphere", "Signorini multipliers", "CN", *NODES),
-    # What takes rows of the body.
+    # Treatments that replace rows of the body.
     case("sphere", "Signorini active set", "TR-BDF2", *NODES),
     case("sphere", "persistent contact", "midpoint", *NODES, *OBLIQUE),
     case("sphere", "Ayyad-Barboteu two-step", "midpoint", *NODES, *OBLIQUE),
@@ -62,7 +62,7 @@ CASES = [
     case("bar_sd", "penalty", "midpoint"),
 ]
 
-# Two bodies, each before the other: contact acts on all unknowns of their surfaces.
+# Two bodies, each the slave of the other: contact acts on all unknowns of their surfaces.
 DISKS = NO_FIELDS + ["Material/Law=linear elastic", "Output/Timing=true",
                      "Disks/Offset=0.3"]
 SPHERES = NO_FIELDS + ["Material/Law=linear elastic", "Output/Timing=true",
@@ -81,7 +81,7 @@ PAIRS = [
     ("colliding_spheres", SPHERES + ["Contact/Treatment=persistent contact"]),
 ]
 
-# A ball rolls on a floor into another one, which is before a wall: four contacts.
+# A ball rolls on a floor into another one, which is in front of a wall: four contacts.
 SEVERAL = """
 set Program   = ricochet
 set Dimension = 2
@@ -141,9 +141,8 @@ subsection Contact balls
 end
 """
 
-# Two disks that are mirror images of each other, so that each node meets a node. Points
-# are at vertices, where full steps of Newton's method go to and fro and shortened ones
-# take their time.
+# Two disks that are mirror images of each other, so that each node meets a node. Points are at
+# vertices, where full steps of Newton's method oscillate and shortened ones converge slowly.
 NODES_BEFORE_NODES = "\n".join(["set Program = ricochet", "set Dimension = 2"] + [f"""
 subsection Body {name}
   set Shape         = disk
@@ -236,8 +235,8 @@ class Condensed(ProgramTest):
                 continue
             values = [(a, b) for a, b in zip(one[name], other[name])
                       if not (math.isnan(a) and math.isnan(b))]
-            # What is open has no penetration but round-off, and what does no work has
-            # that of the energies.
+            # Open points have a penetration of round-off only, and forces without work the
+            # round-off of the energies.
             floor = (1e-2 * max(abs(energy) for energy in one["energy"])
                      if "work" in name or "momentum" in name or is_part_of_energy(name)
                      else 1e-4)
@@ -317,7 +316,7 @@ class Condensed(ProgramTest):
                              len(ledger["time"]) - 1 + 2)
 
     def test_directions_that_turn(self):
-        """Before curved obstacles that move, too; on two ranks, and resumed."""
+        """Against curved obstacles that move, too; on two ranks, and resumed."""
         cases = TURNING_CASES[3:11:7] if is_debug_build() else TURNING_CASES
         for number, (dim, degree, treatment, *more) in enumerate(cases):
             with self.subTest(f"{dim}D, {treatment} " + " ".join(more)):
@@ -379,9 +378,8 @@ class Condensed(ProgramTest):
             self.assertEqual(err.count(f"{program}: "), 1, msg=err)
 
     def test_same_digits_on_two_threads(self):
-        """Bodies that are solved for, dense systems that are factored, and points that are
-        looked for and evaluated by one thread or by two. The rings of the disks are so many
-        that their matrices are cut."""
+        """Solutions of bodies, factorisations of dense systems, and search and evaluation of points
+        by one thread or by two. The rings of the disks are so many that their matrices are cut."""
         disks = ["Disks/Rings of the left disk=20", "Disks/Rings of the right disk=23"]
         spheres = ["Spheres/Offset=0.3", "Time/Final time=0.1"]
         cases = [PAIRS[4], (PAIRS[3][0], PAIRS[3][1] + disks),
@@ -511,7 +509,7 @@ class Condensed(ProgramTest):
                                    .read_text() for name in ("two", "parts")))
 
     def test_two_bodies_with_large_strains(self):
-        """Each before the other: one factorisation a step, the same results as with
+        """Each the slave of the other: one factorisation a step, the same results as with
         the whole tangents, on two ranks too, and the same digits when resumed."""
         disks = NO_FIELDS + ["Output/Timing=true", "Disks/Offset=0.3",
                              "Output/Checkpoint every=1000"]

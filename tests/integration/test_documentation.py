@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The site's pages are complete: each step, parameter, column and field is told of."""
+"""The site's pages are complete: each step, parameter, column and field is documented."""
 
 import re
 import sys
@@ -308,7 +308,7 @@ class Methods(unittest.TestCase):
 
 class Results(ProgramTest):
     def test_columns_and_fields(self):
-        """What programs write is told of, and what is told of is written."""
+        """Columns and fields of the programs are documented, and documented ones are written."""
         (self.folder / "scene.prm").write_text(SCENE)
         (self.folder / "in_space.prm").write_text(SCENE_IN_SPACE)
         cases = [

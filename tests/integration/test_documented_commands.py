@@ -17,7 +17,7 @@ def commands_in(file, prefix):
             yield shlex.split(match.group(1).replace("build/release/", ""))
 
 
-# What takes minutes is cut short: the command line is what is tested.
+# Long runs are cut short: the test is on the command line.
 SHORTENED = {"elastic_ball": "Time/Final time=0.01",
              "hyperelastic_ring": "Time/Final time=0.05",
              "sphere": "Time/Final time=1",
@@ -84,7 +84,7 @@ class DocumentedCommands(ProgramTest):
                 for run in figure.runs}
 
     def test_all_parameter_files_are_valid(self):
-        """Those that the short figures take are run by them, in a test of their own."""
+        """Files of the short figures are run by these, in a test of their own."""
         files = sorted(set((ROOT / "parameter_files").glob("*/*.prm")) -
                        self.files_of_short_figures())
         self.assertGreater(len(files), 20)

@@ -20,7 +20,7 @@ class Energy(ProgramTest):
     ledgers = {}
 
     def sd(self, *parameters):
-        """The ledger of a run that is made once, whoever reads it."""
+        """The ledger of a run that is made once for all tests."""
         key = frozenset(parameters) - {DEFAULT}
         if key not in self.ledgers:
             self.ledgers[key] = self.run_program("bar_sd",
@@ -86,9 +86,9 @@ class Energy(ProgramTest):
 
     def test_redistributed_mass_has_no_pressure_in_flight(self):
         """C says so of HHT on 1D-SD (4.1.2), and of Crank-Nicolson that it is smoother
-        (4.1.1); here with each scheme: without inertia at the end nothing is left to
-        oscillate. With HHT, (1 - alpha) F_new + alpha F_old = 0 in the end's row
-        damps what is there at lift-off by |alpha|/(1 - alpha) a step."""
+        (4.1.1); here with each scheme: without inertia the end has nothing to oscillate. With HHT,
+        (1 - alpha) F_new + alpha F_old = 0 in the end's row damps the force at lift-off by
+        |alpha|/(1 - alpha) a step."""
         treatments = ("Nitsche", "penalty", "proximal augmented Lagrangian")
         schemes = (("CN", 1), ("TR-BDF2", 1), ("HHT 0.05", 13))
         for number, treatment in enumerate(treatments):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The figures as they are written down: one file each, found by their names, with what
-they need. What they show is checked by figures/make.py itself."""
+"""The files of the figures: one for each, found by their names, with their runs. Their numbers are
+checked by figures/make.py itself."""
 
 import collections
 import pathlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The arithmetic of the guard of speed, with timings that were made up; and what it refuses."""
+"""The arithmetic of the guard of speed, with timings that were made up; and refused input."""
 
 import contextlib
 import io
@@ -18,7 +18,7 @@ def timing(seconds, cpu=1., iterations=7):
 
 class Guard(ProgramTest):
     def judge(self, cases, **options):
-        """What the guard says of series of runs, {name: (before, now)}.
+        """Result of the guard for series of runs, {name: (before, now)}.
 
         @return the slower ones, the table's rows, and in which order runs were asked for
         """
@@ -56,7 +56,7 @@ class Guard(ProgramTest):
         self.assertEqual(self.judge(pairs, bound=1.2)[0], ["case"])
 
     def test_clock(self):
-        """Seconds of the processor see what those in the steps do not."""
+        """Seconds of the processor include parts that those in the steps do not."""
         pairs = {"case": ([timing(1., cpu=2.)], [timing(1., cpu=3.)])}
         self.assertEqual(self.judge(pairs)[0], [])
         self.assertEqual(self.judge(pairs, clock="cpu")[0], ["case"])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What is installed works where it was put: programs, a step of one's own that is built
-against the library, the commands in Python; what the library shows to others."""
+"""The installation works in its folder: programs, a user's own step that is built against the
+library, the commands in Python; exported symbols of the library."""
 
 from common import *
 
@@ -26,7 +26,7 @@ class Installed(ProgramTest):
         self.call(programs / "ricochet", share / "examples" / "colliding_bars.prm",
                   "--validate")
 
-        # A step of one's own, from the folder that was installed.
+        # A user's own step, from the folder that was installed.
         self.call("cmake", "-S", share / "examples" / "own_step", "-B", build,
                   f"-DCMAKE_PREFIX_PATH={moved}", "-DCMAKE_BUILD_TYPE=Release")
         self.call("cmake", "--build", build)
@@ -35,7 +35,7 @@ class Installed(ProgramTest):
         ledger = Ledger(self.folder / "run")
         self.assertGreater(max(ledger["contact_force_ground"]), 1e3)
         self.assertLess(largest(ledger["balance_residual"]), 1e-11)
-        # What falls by h on the ground has the energy m g h.
+        # A body that falls by h on the ground has the energy m g h.
         self.assertAlmostEqual(max(ledger["external_work"]), 500. * 9.81 * .1,
                                delta=.2 * 500. * 9.81 * .1)
         # Laws, material and scheme that the library does not know.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The notebooks of the documentation: their cells run one after the other, without
-Jupyter, and show what the text between them says."""
+Jupyter, and confirm the text between them."""
 
 import contextlib
 import io
@@ -90,14 +90,14 @@ class Notebooks(ProgramTest):
         self.assertEqual(len(ways), 3)
         for way, exact in zip(ways, rigid):
             self.assertAlmostEqual(way / exact, 1., delta=.03)
-        # The belt works m v^2 = 5 J, half of it is heat, whatever the coefficient.
+        # The work of the belt is m v^2 = 5 J, half of it is heat, whatever the coefficient.
         [axes] = figures[1].axes
         ends = [line.get_ydata()[-1] for line in axes.lines]
         self.assertEqual(len(ends), 6)
         for work, heat in zip(ends[::2], ends[1::2]):
             self.assertAlmostEqual(work, 5., delta=.05)
             self.assertAlmostEqual(heat, 2.5, delta=.03)
-        # More friction takes more from the ring, but less and less so.
+        # Dissipation in the ring grows with friction, but less and less so.
         taken = {mu: part for mu, part, _, _ in names["rows"]}
         self.assertEqual(taken[0], 0.)
         self.assertGreater(taken[.1], .5)
@@ -121,7 +121,7 @@ class Notebooks(ProgramTest):
             self.assertLess(swings[name], .9 * swings["Crank-Nicolson"])
             self.assertLess(swings["TR-BDF2"], .5 * swings[name])
         self.assertGreater(swings["Nitsche-hybrid"], .1)
-        # Zero to round-off with a boundary without mass, but for the hybrid.
+        # Zero to round-off with a boundary without mass, except for the hybrid.
         for name, pressure in off["redistributed"].items():
             if name == "Nitsche-hybrid":
                 self.assertGreater(pressure, .1)

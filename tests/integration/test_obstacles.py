@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Bodies on curved and moving obstacles (obstacle_course): energy, friction on an
-incline against hand calculations, work of moving obstacles, restart, ranks, and
-what is refused."""
+incline against hand calculations, work of moving obstacles, restart, ranks, and refused input."""
 
 import math
 
@@ -20,7 +19,7 @@ DISK = []
 
 
 def energy_of_all(ledger):
-    """With that of contact and without what gravity did."""
+    """Energy with that of contact and without the work of gravity."""
     return [e - w for e, w in zip(ledger["modified_energy"],
                                   ledger["external_work"])]
 
@@ -129,7 +128,7 @@ class FoldingStrip(ProgramTest):
 
     def test_on_a_circle_with_friction(self):
         """Forces of both contacts have all directions here, and nodes that can touch
-        themselves have multipliers, which are nothing to the obstacle."""
+        themselves have multipliers, which do not act on the obstacle."""
         for treatment in ("persistent contact", "Ayyad-Barboteu two-step",
                           "Signorini active set"):
             with self.subTest(treatment):
@@ -148,13 +147,13 @@ class FoldingStrip(ProgramTest):
 
 
     def test_shares_of_both_contacts(self):
-        """What presses a node is the strip or the ground, here a plate that rises. The
-        strip touches itself while it flies: nothing of that is the plate's."""
+        """A node is pressed by the strip or by the ground, here a plate that rises. The strip
+        touches itself while it flies: these forces do not belong to the plate."""
         for treatment, parameters, promise_off_by in (
                 ("persistent contact", [], None),
                 ("Signorini active set", [], None),
-                # Two nodes are let go in a fold while they are pressed, and what they
-                # stored is lost.
+                # Two nodes are released in a fold while they are pressed, and their stored energy
+                # is lost.
                 ("improved normal compliance", ["Contact/Compliance coefficient=1e9"],
                  2.7e-4)):
             with self.subTest(treatment):
@@ -168,7 +167,7 @@ class FoldingStrip(ProgramTest):
                         self.assertEqual(ledger["active_points_obstacle"][k], 0)
                         n_in_flight += ledger["active_points_itself"][k] > 0
                 self.assertGreater(n_in_flight, 2)
-                # The plate pushes upwards with what the ledger says, at 0.5 m/s.
+                # The plate pushes upwards with the force of the ledger, at 0.5 m/s.
                 push = sum(.5 * force * (b - a) for force, a, b in
                            zip(ledger["contact_force_obstacle"][1:], ledger["time"],
                                ledger["time"][1:]))
@@ -221,7 +220,7 @@ class Incline(ProgramTest):
 class MovingObstacles(ProgramTest):
 
     def difference(self, file, time_step):
-        """Of the obstacle's work by the balance and by its resultants."""
+        """Difference of the obstacle's work by the balance and by its resultants."""
         ledger = self.run_program("obstacle_course", COARSE +
                                   [f"Time/Time step={time_step}",
                                    "Time/Final time=0.4"], prm=FILES / file)

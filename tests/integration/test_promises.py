@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What contact treatments promise of the energy: kept where nodes meet nodes and ends meet
-ends, and a broken promise, a dropped point and a body that was gone through are told."""
+"""Promises of contact treatments for the energy: kept where nodes meet nodes and ends meet ends; a
+broken promise, a dropped point and a passage through a body are reported."""
 
 import sys
 import warnings
@@ -85,8 +85,8 @@ class Promises(ProgramTest):
         return CONTACT.format(name=name, first=first, second=second, treatment=treatment)
 
     def test_stacks_of_equal_blocks(self):
-        """Three equal blocks on each other gained 231 kJ as their border nodes were let go
-        and taken back; a treatment must keep 1e-9 of its largest energy, about 2e4 J."""
+        """Three equal blocks on each other gained 231 kJ as their border nodes were released and
+        captured again; a treatment must keep 1e-9 of its largest energy, about 2e4 J."""
         bodies = [block(f"b{k}", f"0, {.5 * k}", size="1, 0.5", cells="4, 2")
                   for k in range(3)]
         for treatment in ("improved normal compliance", "standard normal compliance",
@@ -118,8 +118,8 @@ class Promises(ProgramTest):
         self.assertLess(ledger["momentum_x_a"][-1], 0.)
 
     def test_a_broken_promise_is_told(self):
-        """A disk that is shot at the outside of a ring from within comes in behind its
-        facets, with a potential that nobody has paid for."""
+        """A disk that is shot at the outside of a ring from within enters behind its facets, with a
+        potential without work done for it."""
         file = self.folder / "wrong_side.prm"
         file.write_text("""
 set Program   = ricochet
@@ -197,7 +197,7 @@ end
         return result.returncode, result.stdout, result.stderr
 
     def test_what_is_dropped_is_counted(self):
-        """A block slides off the end of another one: its nodes are let go while pressed."""
+        """A block slides off the end of another one: its nodes are released while pressed."""
         bodies = [block("lower", "0, 0", size="1, 0.25", cells="4, 1"),
                   block("upper", "0.5, 0.25", "2, 0", size="0.5, 0.25", cells="2, 1")]
         file = self.scene(bodies, [self.contact("penalty")],
@@ -208,8 +208,8 @@ end
         self.assertLess(max(ledger["promise_residual"]), 1e-9)
 
     def test_nothing_is_gone_through(self):
-        """A fast block and a thin plate: a step of 50 ms leads through it, and in its
-        middle the block is still in front, so that nothing is pressed."""
+        """A fast block and a thin plate: it passes through in a step of 50 ms, and in its middle
+        the block is still in front, so that there is no pressure."""
         bodies = [block("plate", "-1, -0.1", size="2, 0.1", cells="20, 2", young="1e7"),
                   block("block", "-0.1, 0.3", "0, -10", "0.2, 0.2", "4, 4", "1e7")]
         contacts = [self.contact("persistent contact", "block: lower", "plate: upper",
@@ -225,7 +225,7 @@ end
         self.assertIn("go through the contact 'hit' without touching it", err)
 
     def test_no_post_is_gone_through(self):
-        """The same before a thin rigid post, at rest and on its way to the block."""
+        """As above with a thin rigid post, at rest and moving towards the block."""
         post = """
 subsection Obstacle post
   set Shape       = circle
@@ -343,9 +343,9 @@ end
                 self.assertLess(max(map(abs, ledger["balance_residual"])), 1e-9)
 
     def test_work_of_bodies_is_that_of_the_scheme(self):
-        """Two linear blocks on cut faces: with each scheme what the bodies give to each
-        other is the work of contact, and the resultant on the first one is that of the
-        law, with what Nitsche's method does behind the surface."""
+        """Two linear blocks on cut faces: with each scheme the energy exchanged between the bodies
+        is the work of contact, and the resultant on the first one is that of the law, including the
+        forces of Nitsche's method behind the surface."""
         bodies = [block("lower", "0, 0").replace("neo-Hookean", "linear elastic"),
                   block("upper", "0, 1.001", "0, -1",
                         cells="3, 3").replace("neo-Hookean", "linear elastic")]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The Python package: numbers of a run against its files, what is refused, commands."""
+"""The Python package: numbers of a run against its files, refused input, commands."""
 
 import math
 import re
@@ -104,7 +104,7 @@ class PythonPackage(ProgramTest):
         self.assertEqual(frame.attrs["units"]["contact_force_foundation"], "N")
 
     def test_units_of_the_user_and_unfinished_rows(self):
-        """Units are what the header says; a row without an end is left out; an empty cell is
+        """Units are those of the header; a row without an end is left out; an empty cell is
         not a number; a contact may have blanks in its name."""
         run = self.folder / "run"
         run.mkdir()
@@ -122,7 +122,7 @@ class PythonPackage(ProgramTest):
         self.assertIn("2 kN at 1 ms (ball on floor)", str(summary))
 
     def test_restitution_of_two_disks(self):
-        """From the momenta alone it is what the program prints."""
+        """Restitution from the momenta alone is that of the program."""
         disks = ricochet.run(program_path("colliding_disks"), overrides={
             "Disks/Rings of the left disk": 5, "Disks/Rings of the right disk": 4,
             "Time/Final time": 0.3, "Output/Fields every": 0, "Output/Log every": 0},
@@ -149,7 +149,7 @@ class PythonPackage(ProgramTest):
             self.skipTest("VTK (Debian's python3-vtk9) is missing")
         from ricochet import fields
         grid = self.ball.fields(20)
-        # Over the nodes once: those of neighbouring cells are in the same place.
+        # Over the nodes once: those of neighbouring cells coincide.
         places = fields.array_of_points(grid)
         _, first = numpy.unique(places.round(6), axis=0, return_index=True)
         force = fields.array(grid, "contact_force")[first].sum(axis=0)
@@ -235,7 +235,7 @@ class PythonPackage(ProgramTest):
         (self.folder / "20.prm").write_text("set Z = 1\n")
         with self.assertRaisesRegex(ricochet.BadParameterFile, "one of more than"):
             prm.read(self.folder / "0.prm")
-        # What is written is read as it was.
+        # Written data are read back unchanged.
         file.write_text(prm.write(text.values))
         self.assertEqual(prm.read(file).values, text.values)
 
@@ -247,7 +247,7 @@ class PythonPackage(ProgramTest):
         self.assertEqual(prm.labels([a, b, c]), ["x, Time step = 0.001", "y, Time step = 0.001",
                                                  "x, Time step = 0.002"])
 
-    # What is refused
+    # Refused input
 
     def test_what_is_no_run(self):
         with self.assertRaisesRegex(ricochet.NotARun, "There is no folder 'nowhere'"):
@@ -286,7 +286,7 @@ class PythonPackage(ProgramTest):
         self.assertTrue(all(o.wall_seconds > 0 for o in outcomes))
 
     def test_obstacle_that_moves(self):
-        """A plate that is lifted and turned is where its motion says."""
+        """A plate that is lifted and turned has the position of its motion."""
         try:
             import vtkmodules.vtkIOXML
         except ImportError:
@@ -381,7 +381,7 @@ class PythonPackage(ProgramTest):
         self.assertIn("cannot be combined", page)
 
     def test_compare_with_a_misspelt_method(self):
-        """Nothing is run, and the nearest name is told."""
+        """Nothing is run, and the nearest name is suggested."""
         scene = self.folder / "scene.prm"
         scene.write_text("""set Program = ricochet
 set Dimension = 2
@@ -410,7 +410,7 @@ end
             self.assertFalse((self.folder / "misspelt").exists())
 
     def test_compare_runs_our_programs_only(self):
-        """A parameter file may be a stranger's: what it names is not run for that."""
+        """A parameter file may come from an untrusted source: a program named in it is not run."""
         own = self.folder / "evil"
         own.write_text(f"#!/bin/sh\ntouch {self.folder}/was_run\n")
         own.chmod(0o755)

@@ -16,7 +16,7 @@ class Ranks(ProgramTest):
                 continue
             # Some columns are round-off by themselves: the dissipation of a
             # scheme that conserves, the penetration of Signorini's condition.
-            # They are measured by the quantity that they are part of.
+            # They are relative to the quantity that they are part of.
             whole = {"numerical_dissipation": "energy",
                      "penetration_left": "mean_gap_left",
                      "penetration_right": "mean_gap_right"}.get(name, name)

@@ -77,8 +77,8 @@ class Restart(ProgramTest):
         return whole, stopped
 
     def check_same(self, one, other):
-        """What there is in one row by another: energies against the largest energy,
-        momenta against the largest momentum of their kind, the rest by itself."""
+        """Scale of the columns: energies against the largest energy, momenta against the largest
+        momentum of their kind, the rest by itself."""
         kinds = (".*energy.*|.*work.*|.*dissipation.*", "momentum.*",
                  "angular_momentum.*", "contact_force.*", "contact_pressure.*",
                  "penetration.*|mean_gap.*|smallest_gap.*", "displacement.*")
@@ -96,7 +96,7 @@ class Restart(ProgramTest):
         self.assertGreater(n_compared, 10)
 
     def test_on_another_number_of_ranks(self):
-        """Unknowns are numbered by the partition: what is stored must not be."""
+        """Unknowns are numbered by the partition: the stored order must not be."""
         self.restart_on_other_ranks(
             "bar_ss", ["Contact/Treatment=proximal augmented Lagrangian"], 1.5, 3,
             ((1, 2), (2, 1), (2, 3)))

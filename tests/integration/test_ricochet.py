@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Scenes of one's own: the benchmarks as files, several contacts at once, units,
-materials, conditions, ranks, restart, and what is refused."""
+"""Users' scenes: the benchmarks as files, several contacts at once, units, materials, conditions,
+ranks, restart, and refused input."""
 
 import math
 import unittest.mock
@@ -205,7 +205,7 @@ class Scenes(ProgramTest):
             self.assertGreater(max(whole[f"contact_force_{name}"]), 1e3, msg=name)
         self.assertLess(largest(whole["balance_residual"]), 1e-11)
         self.assertGreaterEqual(min(increments(whole["friction_work"])), -1e-9)
-        # What loads, contacts and friction give and take is what is there.
+        # The energy is the sum of the works of loads, contacts and friction.
         for row in range(len(whole["time"])):
             self.assertAlmostEqual(
                 whole["energy"][row] - whole["energy"][0],
@@ -220,7 +220,7 @@ class Scenes(ProgramTest):
             scale = largest(whole[f"momentum_{axis}_ball"])
             for change, force in zip(increments(whole[f"momentum_{axis}_ball"]), rate[1:]):
                 self.assertAlmostEqual(change, 5e-3 * force, delta=1e-9 * scale)
-        # What bodies have is what there is.
+        # The energies of the bodies add up to the whole.
         for row in range(len(whole["time"])):
             parts = sum(whole[f"{kind}_energy_{name}"][row]
                         for kind in ("kinetic", "elastic") for name in ("ball", "brick"))
@@ -252,7 +252,7 @@ class Scenes(ProgramTest):
                          (self.folder / "parts" / "energy.csv").read_bytes())
 
     def test_units(self):
-        """What is not given follows from the bodies: the same digits in any units."""
+        """Default values follow from the bodies: the same digits in any units."""
         steps = 15 if is_debug_build() else 60
         si = self.scene(scene(steps=steps))
         for name, units in (("mm_t_s", (1e3, 1e-3, 1.)),
@@ -289,7 +289,7 @@ class Scenes(ProgramTest):
         self.assertGreater(max(ledger["contact_force_sole"]), 1e-3)
         self.assertLess(largest(ledger["balance_residual"]), 1e-9)
         self.assertEqual(max(ledger["viscous_dissipation"]), 0.)
-        # A dashpot takes energy, and only that.
+        # A dashpot only dissipates energy.
         damped = self.scene(SHOE_SCENE, "Condition handle/Damping=0.001",
                             name="damped")
         self.assertGreater(damped["viscous_dissipation"][-1],
@@ -356,8 +356,8 @@ end
                                impulse, delta=1e-8 * impulse)
 
     def test_linear_body_of_two_materials(self):
-        """Parts that hang together move as one; a bar of two materials in a row, end on
-        against the floor, keeps its energy, and so does one that spins."""
+        """Connected parts move as one; a bar of two materials in a row, end on against the floor,
+        keeps its energy, and so does one that spins."""
         text = """
 set Program = ricochet
 set Dimension = 2
@@ -422,8 +422,8 @@ end
         self.assertLess(largest(ledger["balance_residual"]), 1e-12)
 
     def test_loads_by_hand(self):
-        """A load that pushes a free block: momentum is force times time, and the work
-        that of the momentum, but for what goes into waves."""
+        """A load that pushes a free block: momentum is force times time, and the work that of the
+        momentum, except for the energy of waves."""
         load = BLOCK + """
 subsection Condition push
   set Boundary = block: left, right
@@ -508,7 +508,7 @@ end
         self.assertAlmostEqual(ledger["hold_impulse_x"][-1],
                                ledger["momentum_x"][-1] - ledger["pull_impulse_x"][-1],
                                delta=1e-6 * 4e4)
-        # Of each step, the force is what the impulse grows by.
+        # The force of each step is the increment of the impulse.
         self.assertEqual(ledger["pulled_force_x"][0], 0.)
         for force, grown in zip(ledger["pulled_force_x"][1:],
                                 increments(ledger["pull_impulse_x"])):
@@ -549,9 +549,9 @@ end
         self.assertLess(largest([e - energy for e in ledger["energy"]]), 1e-12 * energy)
 
     def test_points_at_vertices(self):
-        """Disks of equal facets, where half of the points in contact are near vertices
-        and each goes to and fro over its own: Newton's method took 861 iterations when
-        points stayed only after the pattern of all of them had come back."""
+        """Disks of equal facets, where half of the points in contact are near vertices and each
+        oscillates across its own: Newton's method took 861 iterations when points stayed only after
+        the pattern of all of them had come back."""
         if is_debug_build():
             self.skipTest("takes long with assertions; other tests run the same")
         disk = """
@@ -585,15 +585,15 @@ subsection Time
   set Final time = 0.2
 end
 """
-        # Which points go to and fro is decided by round-off, and with it whether one step
-        # is halved: with the kernels that OpenBLAS has for newer processors it is. The
-        # counts below are those of a kernel that all processors have.
+        # Round-off decides which points oscillate, and with it whether one step is halved: with the
+        # kernels that OpenBLAS has for newer processors it is. The counts below are those of a
+        # kernel that all processors have.
         with unittest.mock.patch.dict(os.environ, {"OPENBLAS_CORETYPE": "Nehalem"}):
             ledger = self.scene(scene, "Contact middle/Augmentation=1e6")
         self.assertLess(sum(ledger["newton_iterations"]), 600)
         self.assertLess(largest(ledger["balance_residual"]), 1e-12)
         # Points that stay bring gaps of their own, which are small against that of the
-        # impact, half a step's way.
+        # impact, the displacement of half a step.
         depth = ledger["penetration_middle"]
         self.assertLess(max(depth), 6e-3)
         self.assertLess(max(depth), 1.001 * depth[4])
@@ -642,7 +642,7 @@ end
             self.assertIn(message, " ".join(error.split()))
 
     def test_shared_material(self):
-        """A material by its name is the same as what is said in the body."""
+        """A material by its name is the same as the parameters in the body."""
         own = self.scene(scene(steps=10))
         text = scene(steps=10)
         said = "  set Density       = 1000.0\n  set Young modulus = 1000000.0\n"
@@ -826,7 +826,7 @@ end
         self.assertIn("Contact on_the.floor-2: persistent contact", result.stdout)
 
     def test_what_is_said_twice_or_without_end(self):
-        """Each was read as something else without a word, or never ended."""
+        """Each was misread silently, or never ended."""
         self.refused_at_once()
         self.refuse_scene("", "subsection Obstacle floor\n  set Shape = half space\nend\n",
                           "'Obstacle floor' is there already, in ")
@@ -889,7 +889,7 @@ end
             with self.subTest(new):
                 error = self.refuse_scene(old, new, *messages, text=BLOCK)
                 self.assertNotRegex(error, "MAX_DOUBLE|2147483647|4294967295")
-        # What is not finite at the start is the input's fault.
+        # Values that are not finite at the start are an error of the input.
         load = """
 subsection Condition pull
   set Boundary = block: right
@@ -954,8 +954,8 @@ end
         self.assertIn("which Gmsh would follow without a word", refused.stderr)
 
     def test_what_fails_on_one_rank_ends_all(self):
-        """A load that is no number at one end of a block left the other ranks waiting for
-        ever."""
+        """A load that is no number at one end of a block left the other ranks waiting without
+        end."""
         text = BLOCK + ("subsection Condition push\n  set Boundary = block: left\n"
                         "  set Kind = traction\n"
                         "  set Value = sqrt(0.1 - t); 0\nend\n")
@@ -1017,7 +1017,7 @@ end
         self.refused_at_once()
         result = self.validate(self.write(scene(steps=1)))
         self.assertEqual(result.returncode, 0, msg=result.stderr)
-        # What a run refuses.
+        # Input that a run refuses.
         outside = self.write(BLOCK + "subsection Probe stress\n  set Body = block\n"
                              "  set Quantity = stress\n  set Point = 9, 9\nend\n")
         refused = self.validate(outside)
@@ -1084,8 +1084,7 @@ end
 
 
 class OneThatTouchesItself(ProgramTest):
-    """In space: what a body does to itself changes neither its energy nor its
-    momenta; the floor does."""
+    """In 3D: self-contact changes neither the energy nor the momenta of a body; the floor does."""
 
     def run_split_ring(self, *parameters):
         if is_debug_build():
@@ -1113,11 +1112,11 @@ class OneThatTouchesItself(ProgramTest):
     def test_split_ring(self):
         ledger = self.run_split_ring()
         self.check_alone(ledger)
-        # Persistent contact with the floor takes no energy either.
+        # Persistent contact with the floor dissipates no energy either.
         first = ledger["energy"][0]
         for energy in ledger["energy"]:
             self.assertLess(abs(energy / first - 1.), 1e-9)
-        # What the floor gave is what the momentum has become.
+        # The impulse of the floor is the change of the momentum.
         momentum = ledger["momentum_z"]
         given = sum(2e-4 * force for force in ledger["contact_force_on_floor"])
         self.assertLess(abs(given / (momentum[-1] - momentum[0]) - 1.), 1e-9)

@@ -27,7 +27,7 @@ class Safety(ProgramTest):
         return result.returncode, result.stderr
 
     def whole_files_only(self, run):
-        """Whatever is there is whole, but for the end of tables that grow."""
+        """All files are complete, except for the end of energy tables."""
         for file in run.rglob("*"):
             if file.suffix == ".vtu":
                 self.assertTrue(file.read_text().rstrip().endswith("</VTKFile>"),
@@ -40,8 +40,8 @@ class Safety(ProgramTest):
             self.assertNotEqual(file.suffix, ".unfinished", msg=file)
 
     def test_programs_that_start_at_once_share_no_folder(self):
-        """One that ended took away what another had just begun to use: now they
-        need no folder of temporary files, and start without one."""
+        """One that ended removed files that another had just begun to use: now they need no folder
+        of temporary files, and start without one."""
         (self.folder / "file").touch()
         environment = dict(os.environ, TMPDIR=str(self.folder / "file" / "below"))
         result = subprocess.run(self.command("bar_sd", SHORT, self.folder / "run"),
@@ -104,7 +104,7 @@ class Safety(ProgramTest):
 
     def test_a_failure_of_fields_leaves_the_checkpoint(self):
         """Fields are larger than the rest: with no room for them the run stops,
-        and its checkpoint and table of energies are there."""
+        and its checkpoint and energy table are there."""
         run = self.folder / "run"
         parameters = BALL + ["Output/Fields every=3", "Output/Log every=0"]
         self.run_program("elastic_ball", BALL + ["Time/Final time=0.01"] +
@@ -214,7 +214,7 @@ class Safety(ProgramTest):
         self.assertEqual(list(run.glob("solution/*.vtu")), [])
 
     def test_surfaces_of_obstacles_that_are_gone(self):
-        """Those of an earlier run are taken away; what is lost is not listed."""
+        """Fields of an earlier run are removed; lost ones are not listed."""
         run = self.folder / "run"
         parameters = ["Mesh/Nodes=100", "Mesh/Boundary nodes=32", "Time/Time step=1e-3",
                       "Time/Final time=4e-3", "Output/Checkpoint every=1"]
@@ -279,7 +279,7 @@ class Signals(ProgramTest):
         return process
 
     def test_the_step_is_finished_and_the_run_goes_on_later(self):
-        """The table is that of a run that nobody stopped, digit for digit."""
+        """The table is that of a run without a stop, digit for digit."""
         whole, run = self.folder / "whole", self.folder / "run"
         self.run_program("bar_sd", self.LONG, whole)
         options = []
@@ -298,7 +298,7 @@ class Signals(ProgramTest):
             options = ["--resume"]
         n_rows = len(Ledger(run)["time"])
         self.assertLess(n_rows, len(Ledger(whole)["time"]))
-        # It is not lost because somebody forgets to say --resume.
+        # A run is not lost because --resume was forgotten.
         table = (run / "energy.csv").read_bytes()
         code, _, error = self.attempt("bar_sd", self.LONG)
         self.assertEqual(code, 1, msg=error)
@@ -362,7 +362,7 @@ class Signals(ProgramTest):
 
 
 class FilesOfOthers(ProgramTest):
-    """What is not of a run stays as it is."""
+    """Files that are not of a run stay as they are."""
 
     def setUp(self):
         if is_debug_build():
@@ -448,7 +448,7 @@ class FilesOfOthers(ProgramTest):
 
 
 class StrangeCheckpoint(ProgramTest):
-    """A checkpoint with a good checksum, whose content nobody knows."""
+    """A checkpoint with a good checksum and unknown contents."""
 
     def test_random_payload(self):
         random.seed(1)
@@ -498,7 +498,7 @@ class LittleMemory(ProgramTest):
 
 
 class DamagedTable(ProgramTest):
-    """--resume believes nothing of energy.csv. Each test damages a copy of the same
+    """--resume does not trust energy.csv. Each test damages a copy of the same
     run."""
 
     def setUp(self):
@@ -563,7 +563,7 @@ class ChangedMesh(ProgramTest):
         shutil.copy(mesh, moved)
         self.run_program("sphere", self.PARAMETERS + [f"Mesh/File={moved}"],
                          options=["--resume"])
-        # One coordinate in another place.
+        # One coordinate is changed.
         lines = text.split("\n")
         first = lines.index("$Nodes") + 2
         words = lines[first].split()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The ring that feels itself (hyperelastic_ring with Contact/Self): energy and momenta,
-what its nodes and its outline do, ranks, restart, and what is refused.
+"""The ring with self-contact (hyperelastic_ring with Contact/Self): energy and momenta, penetration
+of its nodes and its outline, ranks, restart, and refused input.
 
 The ring touches the foundation after 0.05 s, and itself, with its inner circle, after
 1.4 s, for about half a second.
@@ -71,7 +71,7 @@ class SelfContactTest(ProgramTest):
         return ledgers[name]
 
     def depths(self, ledger):
-        """Of the ring's deepest node in itself (m), after each step."""
+        """Penetration of the ring's deepest node in itself (m), after each step."""
         return [max(both) for both in
                 zip(*(ledger[f"penetration_{circle}"] for circle in CIRCLES))]
 
@@ -120,7 +120,7 @@ class Conservation(SelfContactTest):
                     self.assertLess(max(increments(kept)), 1e-11 * scale)
                     self.assertGreaterEqual(min(increments(ledger["contact_work"])),
                                             -1e-11 * scale)
-                    # It loses also while it touches nothing but itself.
+                    # Energy is lost also in self-contact alone.
                     free = [work for below, inside, work in
                             zip(ledger["contact_force_foundation"][1:],
                                 ledger["contact_force_inner_circle"][1:],
@@ -131,8 +131,8 @@ class Conservation(SelfContactTest):
                     self.assertLess(largest([e - scale for e in kept]), 1e-9 * scale)
 
     def test_energy_comes_back(self):
-        """What improved normal compliance stores is there again whenever no point is
-        active, and it stores a lot between the circles."""
+        """The energy stored by improved normal compliance is returned whenever no point is active,
+        and it is large between the circles."""
         self.long_run()
         ledger = self.shared_run("improved normal compliance")
         scale = ledger["energy"][0]
@@ -148,7 +148,7 @@ class Conservation(SelfContactTest):
             ledger["active_points_inner_circle"]) if p > 0), 1e-3 * scale)
 
     def test_momenta(self):
-        """Nothing but the foundation takes any, and that in the vertical only."""
+        """Only the foundation changes the momentum, and that in the vertical only."""
         for name in TREATMENTS:
             with self.subTest(name):
                 ledger = self.shared_run(name)
@@ -193,7 +193,7 @@ class Conservation(SelfContactTest):
 
 
 class Nodes(SelfContactTest):
-    """How deep the ring's nodes are in itself, by the program's own columns."""
+    """Depth of the ring's nodes in itself, by the program's own columns."""
 
     def check_signorini(self, name):
         self.assertLess(max(self.depths(self.shared_run(name))), 1e-10 * 2. * RADIUS)
@@ -212,8 +212,8 @@ class Nodes(SelfContactTest):
                 self.assertLess(max(increments(energy)), 1e-11 * energy[0])
 
     def test_degree_2(self):
-        """Nodes between vertices touch and are touched as others are: what the ring does
-        to itself changes neither energy nor momentum."""
+        """Nodes between vertices touch and are touched as others are: self-contact changes neither
+        energy nor momentum."""
         self.long_run()
         ledger = self.run_program(
             "hyperelastic_ring",
@@ -232,8 +232,8 @@ class Nodes(SelfContactTest):
 
     @needs_numpy
     def test_conditions_on_the_velocity(self):
-        """Nodes are as deep as they come in the step in which they touch: at most by
-        the way of two nodes towards each other."""
+        """Nodes keep the penetration of the step in which they touch: at most the approach of two
+        nodes in a step."""
         for name in set(KEEP_ENERGY) & set(TREATMENTS):
             with self.subTest(name):
                 deepest = max(self.depths(self.shared_run(name)))
@@ -263,7 +263,7 @@ class Nodes(SelfContactTest):
 
 @needs_numpy
 class Outline(SelfContactTest):
-    """Where the ring covers itself, found in its pictures without the program's help
+    """Overlap of the ring with itself, found in its pictures independently of the program
     (figures/shared/overlap.py). They have single precision."""
 
     ROUND_OFF = 1e-5
@@ -325,7 +325,7 @@ class Outline(SelfContactTest):
         self.assertEqual(found[0], overlap.NONE)
 
     def test_with(self):
-        """The outline is in the ring by what the columns say of the nodes: at each
+        """The overlap of the outline is the penetration of the nodes in the columns: at each
         instant the two are the same."""
         for name in TREATMENTS:
             with self.subTest(name):
@@ -340,10 +340,9 @@ class Outline(SelfContactTest):
                 self.assertEqual(n_overlaps > 1, name not in LOSE_ENERGY)
 
     def test_meshes(self):
-        """With Signorini's condition the outline is not in the ring on any mesh: nodes
-        of both sides are held off, and of two polygons that overlap one has a corner in
-        the other. A pass over one side only would let corners in by as much as a chord
-        is away from its arc."""
+        """With Signorini's condition the outline is not in the ring on any mesh: contact acts on
+        nodes of both sides, and of two polygons that overlap one has a corner in the other. A pass
+        over one side only would let corners in by as much as a chord is away from its arc."""
         self.long_run()
         for name, around in (((48, 3), 48), ("Signorini active set", 64),
                              ((96, 5), 96)):
@@ -381,11 +380,10 @@ class RestartAndRanks(SelfContactTest):
             self.assertLess(difference / scale, 1e-9, msg=column)
 
     def test_one_and_two_ranks(self):
-        """The first steps in which the ring touches itself. It is symmetric but for
-        round-off, and what comes down at its top is a node, just above another one:
-        later it is round-off that decides before which facet either is, and runs
-        part. With Signorini's condition they part at once, so friction at the foundation
-        bends the ring to one side."""
+        """The first steps in which the ring touches itself. Up to round-off it is symmetric, and a
+        node at its top comes down just above another one: later round-off decides which facet
+        either of them faces, and runs diverge. With Signorini's condition they diverge at once, so
+        friction at the foundation bends the ring to one side."""
         for name, end, special in (
                 ("persistent contact", 1.52, None),
                 ("Signorini active set", 1.54, ["Contact/Friction coefficient=0.2"])):
@@ -473,7 +471,7 @@ class BadInput(ProgramTest):
                 self.refuse([f"the time scheme '{scheme}'", "midpoint"],
                             f"Time/Scheme={scheme}",
                             f"Contact/Treatment={treatment}")
-        # Before rigid obstacles this treatment does go with the scheme.
+        # Against rigid obstacles this treatment does go with the scheme.
         self.refuse(["Contact between bodies cannot be combined with the time scheme "
                      "'TR-BDF2'", "Allowed with it: midpoint"],
                     "Time/Scheme=TR-BDF2", "Contact/Treatment=Signorini active set")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The checks of style see what they are there for, in a small tree that was made up."""
+"""The checks of style find deliberate errors in a small artificial tree."""
 
 import importlib.util
 import shlex
@@ -41,7 +41,7 @@ class Style(ProgramTest):
         return result
 
     def test_format(self):
-        """What is not formatted is named, with what to do; and then it is formatted."""
+        """Unformatted files are named, with the command; and then formatted."""
         self.assertEqual(self.format().returncode, 0)
         self.write("examples/ugly.h", "using  B=int ;\n")
         result = self.format()
@@ -52,7 +52,8 @@ class Style(ProgramTest):
         self.assertEqual(self.format().returncode, 0)
 
     def test_changed_files(self):
-        """Those of the last commit and of the working tree, or of all that upstream lacks."""
+        """Files of the last commit and of the working tree, or of all commits that upstream
+        lacks."""
         self.assertIsNone(tidy.changed_files(self.folder))  # no git
         self.git("init", "-b", "main")
         self.assertEqual(tidy.changed_files(self.folder),
@@ -72,7 +73,7 @@ class Style(ProgramTest):
                          ["lib/a.cc", "lib/new.h", "lib/other.cc"])
 
     def test_headers_are_seen_within_a_source(self):
-        """That of their name, or the first one that includes them."""
+        """The source of their name, or the first one that includes them."""
         def chosen(*changed):
             return tidy.to_check(self.folder, SOURCES, list(changed))
 
@@ -82,7 +83,7 @@ class Style(ProgramTest):
         self.assertEqual(chosen("lib/gone.cc", "README.md", "lib/nobody.h"), [])
 
     def test_commands(self):
-        """Only what says how a source is to be read is passed on, and only of our own."""
+        """Only flags that affect parsing are passed on, and only for our own sources."""
         entries = [{"directory": "/b", "file": str(self.folder / path), "command": shlex.join(
             ["c++", "-DNAME=\"x y\"", "-I/lib", "-isystem", "/their", "-include", "pch.hxx",
              "-mmove-max=256", "-mavx2", "-std=c++17", "-O2", "-Werror"])}
@@ -94,7 +95,7 @@ class Style(ProgramTest):
                           "-mavx2", "-std=c++17", "-w", "-c", entries[0]["file"]])
 
     def test_findings(self):
-        """A finding in a header of ours is told of; one in a header of others is not."""
+        """A finding in a header of ours is reported; one in a header of others is not."""
         program = tidy.clang_tidy()
         if program is None:
             self.skipTest("no clang-tidy")

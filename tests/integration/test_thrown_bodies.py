@@ -2,8 +2,8 @@
 """The elastic ball and the hyperelastic ring: every treatment of papers A and B,
 with and without friction and viscosity.
 
-What is asked of them are identities (papers A and B, proposition 3.1) and the
-conservation laws that follow, not stored numbers.
+The checks are identities (papers A and B, proposition 3.1) and the conservation laws that follow,
+not stored numbers.
 """
 
 import itertools
@@ -69,8 +69,7 @@ class ThrownBodies(ProgramTest):
                 else "energy")
         energy = [e / scale for e in ledger[kept]]
         if treatment in LOSE_ENERGY:
-            # Signorini and SNC lose at the impact. What compliance stores
-            # belongs to it.
+            # Signorini and SNC lose at the impact. The energy stored by compliance belongs to it.
             energy = [e / scale for e in ledger["modified_energy"]]
             self.assertLess(max(increments(energy)), 5e-10)
             self.assertLess(energy[-1], 1. - 1e-4)

@@ -84,7 +84,7 @@ class Test:
         self.require(f"    def {method}(self)" in body)
 
     def target(self):
-        """What must be built. Programs take the library as it is."""
+        """Targets to build. Programs take the library as it is."""
         if self.kind == "unit":
             return ["unit_tests"]
         return ["ricochet"] + (["all"] if self.kind == "ctest" else [])
@@ -108,7 +108,7 @@ class Test:
         """Run; return what went wrong, or nothing."""
         if self.kind == "ctest":
             # The harness runs a program again only when the program is newer
-            # than its output; the library is what has changed.
+            # than its output; here the library has changed.
             for output in (build / "tests" / self.words[0]).glob("output*"):
                 output.unlink()
         process = subprocess.Popen(

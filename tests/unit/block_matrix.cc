@@ -35,7 +35,7 @@ namespace
     return error.l2_norm() / exact.l2_norm();
   }
 
-  /// A body with stiffness and mass stored in both ways.
+  /// A body with stiffness and mass in both storage formats.
   template <int dim>
   struct StoredTwice
   {
@@ -50,7 +50,7 @@ namespace
       , mass_by_blocks(assemble_mass_matrix(body, {2.}, MatrixStorage::blocks))
     {}
 
-    /// 3 K + 5 M, in one way or the other.
+    /// 3 K + 5 M, in either storage format.
     MatrixSum
     terms(const MatrixStorage storage) const
     {

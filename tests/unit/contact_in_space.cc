@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Contact between bodies in space. The rows of a point before a triangle, at random
-// states: their product with the change of the positions is the change of the gap and
-// the slip, their sums and moments are zero, their derivatives are quotients of
-// differences. Then two balls that meet off their centres: balances, momenta, friction,
-// tangents, ranks.
+// Contact between bodies in 3D. The rows of a point against a triangle, at
+// random states: their product with the change of the positions is the change
+// of the gap and the slip, their sums and moments are zero, their derivatives
+// are quotients of differences. Then two balls that meet off their centres:
+// balances, momenta, friction, tangents, ranks.
 
 #include "on_all_ranks.h"
 #include "meshes.h"
@@ -246,14 +246,15 @@ namespace
 {
   using Passing = PointPassingTriangles<double>;
 
-  /// A point before the first of two triangles, which goes on to the second one: over
-  /// the edge that they share, with an angle of @p turn, or past the only node that
-  /// they share.
+  /// A point that faces the first of two triangles and moves on to the second
+  /// one: over their common edge, with an angle of @p turn, or past their only
+  /// common node.
   struct Passage
   {
     Passage(const bool share_edge, const double turn, const double size)
     {
-      // Nodes of a surface around the origin, the point before the first triangle.
+      // Nodes of a surface around the origin, the point in front of the first
+      // triangle.
       std::array<Tensor<1, 3>, 6> x;
       x[1] = Tensor<1, 3>({0., 0., 0.});
       x[2] = Tensor<1, 3>({0., 1., 0.});
@@ -489,7 +490,7 @@ namespace
             Viscosity{}};
   }
 
-  /// What touches, and how it moves.
+  /// Contact boundaries and motion.
   struct Motion
   {
     void
@@ -613,8 +614,8 @@ namespace
     }
   };
 
-  /// A block with a slit, free in space: its two arms fly at each other, turn, and the
-  /// upper one slides along the lower one. Their meshes do not match.
+  /// A free block with a slit in 3D: its two arms fly at each other, turn, and
+  /// the upper one slides along the lower one. Their meshes do not match.
   struct Clamp : Motion
   {
     Clamp(const std::string &treatment,
@@ -624,7 +625,8 @@ namespace
     {
       mesh = distribute_mesh<3>(
         [&](Triangulation<3> &whole) {
-          // The slit is the middle one of three layers, but for the first cells along x.
+          // The slit is the middle one of three layers, except for the first
+          // cells along x.
           dealii::Table<3, dealii::types::material_id> cells(4, 2, 3);
           for (unsigned int i = 1; i < 4; ++i)
             for (unsigned int j = 0; j < 2; ++j)
@@ -659,7 +661,7 @@ namespace
         },
         MPI_COMM_WORLD);
       set_treatment(treatment, friction);
-      // Few points hold a whole arm.
+      // Few points carry a whole arm.
       parameters.contact.values["Compliance coefficient"] = 4e3;
       const Material<3> soft                              = rubber(200.);
       ImpactSetup<3>    setup{soft};
@@ -714,8 +716,9 @@ namespace
 
 
 
-// Which patches are near, against the distances of all facets; and what ranks get to
-// know: where nodes of far patches are does not travel, and gaps are right without.
+// Near patches, against the distances of all facets; and data received by
+// ranks: positions of nodes of far patches are not sent, and gaps are right
+// without.
 BOOST_AUTO_TEST_CASE(only_what_comes_near_is_known)
 {
   for (const bool tetrahedra : {false, true})
@@ -911,7 +914,7 @@ BOOST_AUTO_TEST_CASE(closest_facets_are_found)
       BOOST_CHECK(search.closest_facing(y, normal, [&](const unsigned int f) {
         return f % 7 != 0 && faces(f, normal);
       }) == closest(some));
-      // Whatever is looked at first, and whatever is known already.
+      // Any likely facet, and any earlier queries.
       for (const unsigned int likely :
            std::vector<unsigned int>{*closest(facets),
                                      n_facets / 2,
@@ -1142,11 +1145,11 @@ BOOST_AUTO_TEST_CASE(own_nodes_on_nodes)
 
 
 
-// Cubes that meet with what is no face before a point: face on face with nodes on
-// nodes or not, edge on face, edge across edge, corner on corner, and facets of very
-// different size. Nothing fails, and no energy comes from anywhere; with persistent
-// contact points are as deep as they come in a step. What points do not see, edges that
-// cross, goes on until nodes do.
+// Cubes that meet with other parts than a point against a face: face on face
+// with nodes on nodes or not, edge on face, edge across edge, corner on corner,
+// and facets of very different size. Nothing fails, and no energy is created;
+// with persistent contact points penetrate by the displacement of a step.
+// Crossing edges, which points do not detect, penetrate until nodes are inside.
 BOOST_AUTO_TEST_CASE(degenerate_configurations)
 {
   struct Configuration

@@ -101,7 +101,7 @@ namespace
       }
   }
 
-  /// Work of a two-point law over a step less what its potential gains.
+  /// Work of a two-point law over a step less the increase of its potential.
   double
   excess_work(const NitscheTwoPoint     &law,
               const ContactPointState<> &old_state,
@@ -312,7 +312,7 @@ BOOST_AUTO_TEST_CASE(grazing_tangent_is_one_sided)
 }
 
 // The proximal augmented Lagrangian is Nitsche's method with the multiplier in
-// the place of the stress (paper C, remark after (18)).
+// place of the stress (paper C, remark after (18)).
 BOOST_AUTO_TEST_CASE(augmented_lagrangian_is_nitsche_with_multiplier)
 {
   const Nitsche                     nitsche{5., 1.};

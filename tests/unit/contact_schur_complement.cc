@@ -397,8 +397,8 @@ BOOST_AUTO_TEST_CASE(accelerations_have_their_forces)
                     NewtonFailure);
 }
 
-// The norm of a sum of rows, some of which share unknowns, is that of the vector which
-// is the sum.
+// The norm of a sum of rows, some of which have common unknowns, is that of the
+// summed vector.
 BOOST_AUTO_TEST_CASE(norms_of_sums_of_rows)
 {
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)

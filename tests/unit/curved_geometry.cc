@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Cells of second order: balls against the volume, area and normals of the sphere, on
-// any number of ranks; what displacements of degree 2 reproduce in them.
+// any number of ranks; exactness of displacements of degree 2 in them.
 
 #include <base/exceptions.h>
 #include <discretization/body.h>

@@ -76,8 +76,8 @@ namespace
     return setup;
   }
 
-  /// What Nitsche's method adds to the tangent of two bodies that are pressed together
-  /// everywhere.
+  /// The part of the tangent by Nitsche's method for two bodies that are
+  /// pressed together everywhere.
   Entries
   tangent_of_contact(const CellShape shape, const double theta)
   {

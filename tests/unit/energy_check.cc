@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What a run says of its balance and of the promises of its contacts, from rows that
-// were made by hand.
+// The check of the balance and of the promises of contacts, on rows that were
+// made by hand.
 
 #include <contact/treatments/contact_treatment.h>
 #include <output/energy_check.h>
@@ -23,7 +23,8 @@ namespace
     return {promise, {{"joint", promise}}, obstacles_move};
   }
 
-  /// A row with kinetic energy 10 J less what contact stores and takes.
+  /// A row with kinetic energy 10 J less the energy stored and dissipated by
+  /// contact.
   EnergyCheck::Terms
   row(const double potential, const double gain)
   {
@@ -80,7 +81,7 @@ BOOST_AUTO_TEST_CASE(a_loss_breaks_the_promise_to_keep_only)
     }
   BOOST_TEST(keeps.is_open());
   BOOST_TEST(!falls.is_open());
-  // What rises again after a loss is a gain.
+  // A rise after a loss is a gain.
   falls.add(row(0., -5e-4));
   BOOST_TEST(falls.is_open());
 }
@@ -130,7 +131,8 @@ BOOST_AUTO_TEST_CASE(works_from_outside_are_no_gain)
   terms.obstacle_work = 2.;
   terms.kinetic += 9.;
   BOOST_TEST(check.add(terms).total == 10.);
-  // The same of an obstacle that moves, by what contact work and potential leave over.
+  // As above for a moving obstacle, whose work is the rest of contact work and
+  // potential.
   EnergyCheck moves = check_of(Kind::keeps, true);
   terms             = row(0., 0.);
   moves.add(terms);

@@ -3,8 +3,9 @@
 // The rows of contact between a point and facets that move, at random states: their
 // product with the change of the positions is the change of the gap (and of the
 // coordinate along the facet), their sums and moments are zero, their derivatives
-// are quotients of differences. Points that pass vertices, to and fro and several at
-// a time, convex and concave ones and nearly flat ones; mirror images.
+// are quotients of differences. Points that pass vertices, back and forth and
+// several at a time, convex and concave ones and nearly flat ones; mirror
+// images.
 
 #include <boost/test/unit_test.hpp>
 #include <contact/surfaces/facet_chain.h>
@@ -50,7 +51,7 @@ namespace
     return x;
   }
 
-  /// Put the point at a distance before the facet.
+  /// Put the point at a distance in front of the facet.
   void
   put_point(Positions         &x,
             const unsigned int facet,
@@ -223,7 +224,7 @@ BOOST_AUTO_TEST_CASE(mirror_images_have_mirrored_rows)
         Positions mirror = original;
         for (unsigned int i = 0; i < mirror.size(); ++i)
           {
-            // The chain is gone through the other way.
+            // The chain in reverse order.
             mirror[i] = original[i == 0 ? 0 : original.size() - i];
             mirror[i][0] *= -1.;
           }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Files that are whole at any time, and parameters from files and command lines.
+// Files that are complete at any time, and parameters from files and command
+// lines.
 
 #include <base/exceptions.h>
 #include <base/files.h>
@@ -55,7 +56,7 @@ BOOST_AUTO_TEST_CASE(written_atomically)
   write_atomically(file, bytes);
   BOOST_CHECK(read_file(file) == bytes);
   BOOST_CHECK(!fs::exists(file + unfinished));
-  // What cannot be written leaves the old file and nothing else.
+  // A failed write leaves the old file and nothing else.
   fs::create_directory(folder.file("b"));
   BOOST_CHECK_THROW(write_atomically(folder.file("b"), bytes),
                     ComputationError);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Mesh files of Gmsh: whole ones pass and deal.II reads them; of damaged ones
-// the file, the line and the reason are said.
+// Mesh files of Gmsh: whole ones pass and deal.II reads them; for damaged ones
+// the file, the line and the reason are reported.
 
 #include <base/exceptions.h>
 #include <problems/gmsh_file_check.h>
@@ -25,7 +25,7 @@ BOOST_AUTO_TEST_SUITE(gmsh_file_check)
 
 namespace
 {
-  /// Two tetrahedra that share a face.
+  /// Two tetrahedra with a common face.
   const std::string format_2 = R"($MeshFormat
 2.2 0 8
 $EndMeshFormat
@@ -202,7 +202,7 @@ $EndElements
 
 
 
-  /// @return what is said of a file with this text, without the file's name.
+  /// @return the message for a file with this text, without the file's name.
   std::string
   verdict(const std::string &text, const unsigned int dim = 3)
   {
@@ -675,7 +675,7 @@ BOOST_AUTO_TEST_CASE(damaged_blocks)
 
 BOOST_AUTO_TEST_CASE(truncation_anywhere)
 {
-  // Of what is cut off, only the last line break is dispensable.
+  // Only the last line break may be missing.
   for (const std::string &text : {format_2, format_4})
     for (std::size_t size = 0; size + 1 < text.size(); ++size)
       BOOST_TEST(verdict(text.substr(0, size)) != "passes");

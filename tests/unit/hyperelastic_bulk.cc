@@ -58,7 +58,7 @@ namespace
         Vector old_solution = body.make_vector(), solution(old_solution),
                direction(old_solution), force(old_solution), plus(old_solution),
                minus(old_solution), product(old_solution);
-        // Small enough that no element of degree 2 is turned inside out.
+        // Small enough that no element of degree 2 is inverted.
         randomise(old_solution, .02, 1);
         randomise(solution, .02, 2);
         randomise(direction, 1., 3);

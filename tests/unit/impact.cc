@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Setting up an impact and running it: what is refused, and what is saved when
-// something goes wrong that nobody has foreseen.
+// Set-up and run of an impact: refused input, and files saved after an
+// unforeseen failure.
 
 #include "meshes.h"
 
@@ -41,7 +41,7 @@ namespace
 
 BOOST_AUTO_TEST_SUITE(impact)
 
-// Boundary 1 looks at the plane, 2 is the other end.
+// Boundary 1 faces the plane, 2 is the other end.
 BOOST_AUTO_TEST_CASE(boundaries_that_the_mesh_has_not_are_refused)
 {
   const CubeAbovePlane<1> bar(false, 8);
@@ -59,8 +59,8 @@ BOOST_AUTO_TEST_CASE(boundaries_that_the_mesh_has_not_are_refused)
                     InputError);
 }
 
-// An error of a library in the middle of a run is not one of ours; the checkpoint
-// and the table of energies are saved all the same.
+// An error of a library in the middle of a run is not one of ours; the
+// checkpoint and the energy table are saved all the same.
 BOOST_AUTO_TEST_CASE(errors_that_nobody_foresaw_leave_a_checkpoint)
 {
   const std::string path = (std::filesystem::temp_directory_path() /
@@ -162,10 +162,10 @@ BOOST_AUTO_TEST_SUITE_END()
 BOOST_AUTO_TEST_SUITE(node_probe)
 
 // On any number of ranks the node is the nearest of all, and not of one rank's
-// part: values that are the coordinates tell which one it is.
+// part: values that are the coordinates identify it.
 BOOST_AUTO_TEST_CASE(the_nearest_node_of_all)
 {
-  // A mesh of which each rank knows its part and what is next to it only.
+  // A mesh of which each rank has its part and a ghost layer only.
   dealii::parallel::distributed::Triangulation<2> mesh(MPI_COMM_WORLD);
   dealii::GridGenerator::hyper_cube(mesh);
   mesh.refine_global(3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Values that come from elsewhere than the code: hand calculations for one
+// Values that are independent of the code: hand calculations for one
 // element, one oscillator, a rectangle in rigid motion. Other suites compare
 // parts of the code with each other (stress with energy, tangent with force), and
 // a factor that is wrong in all of them alike passes; here it does not.
@@ -328,8 +328,8 @@ BOOST_AUTO_TEST_CASE(von_mises_of_linear_bodies)
                         young / (1. - nu) * size,
                         round_off);
       // The section of a long body pulled in x, free in y: e_y = -nu/(1 - nu) e,
-      // s = E/(1 - nu^2) e, and nu s out of the plane, which makes
-      // s sqrt(1 - nu + nu^2).
+      // s = E/(1 - nu^2) e, and nu s across the section, which gives s sqrt(1 -
+      // nu + nu^2).
       BOOST_CHECK_CLOSE(
         section.von_mises(diagonal<2>({{e, -nu / (1. - nu) * e}})),
         young / (1. - nu * nu) * size * std::sqrt(1. - nu + nu * nu),
@@ -431,7 +431,7 @@ BOOST_AUTO_TEST_CASE(simple_shear)
     }
 }
 
-// What the thickness becomes, from dW/dC33 = 0:
+// The thickness, from dW/dC33 = 0:
 //   Saint Venant-Kirchhoff: E3 = -lambda/(lambda + 2 mu) (E1 + E2);
 //   neo-Hookean: mu (l3^2 - 1) + lambda ln J = 0, solved for l2;
 //   Ciarlet-Geymonat: l3^2 (c1 + c2 (l1^2 + l2^2) + d l1^2 l2^2) = c1 + 2 c2 + d.
@@ -459,9 +459,9 @@ BOOST_AUTO_TEST_CASE(thickness_of_sheets)
               std::sqrt(1.07 / 1.534715));
 }
 
-// What the parameters say is what the body is made of: uniaxial stretches of each
-// law, and the viscosities by their stresses. E = 2.6 and nu = 0.3 are lambda = 3/2
-// and mu = 1.
+// The material has the values of its parameters: uniaxial stretches of each
+// law, and the viscosities by their stresses. E = 2.6 and nu = 0.3 are lambda =
+// 3/2 and mu = 1.
 BOOST_AUTO_TEST_CASE(materials_by_their_parameters)
 {
   MaterialParameters parameters;
@@ -557,7 +557,7 @@ BOOST_AUTO_TEST_CASE(viscous_stress_at_a_known_rate)
   BOOST_CHECK_CLOSE(tangent[1][1][1][1], 10. * .4, round_off);
 
   // Plane stress: C33 = 0.8, the factor is 0.2 and S = 2 difference; tr C grows
-  // by half of the trace in the plane.
+  // by half of the in-plane trace.
   tangent = SymmetricTensor<4, 2>();
   stress = viscous_stress<2>(*sheet, pioletti, old_c, difference, .5, &tangent);
   BOOST_CHECK_CLOSE(stress[0][0], .4, round_off);
@@ -640,7 +640,7 @@ BOOST_AUTO_TEST_CASE(one_element_at_a_known_rate)
 }
 
 // Small strains: stress (lambda + 2 mu) e and eta edot, at the mean of strains 1
-// and 3 per cent; the energy of the second one, and what viscosity takes.
+// and 3 per cent; the energy of the second one, and the viscous dissipation.
 BOOST_AUTO_TEST_CASE(linear_body_at_a_known_rate)
 {
   const double   height = .5, volume = 1., time_step = .25, eta = 3.;
@@ -824,7 +824,7 @@ BOOST_AUTO_TEST_CASE(rotation_of_a_box)
       if (angle < 3.)
         BOOST_CHECK_SMALL((found - angle * axis).norm(), 1e-12);
     }
-  // What is turned inside out has none.
+  // An inverted body has none.
   BOOST_CHECK_EQUAL(
     rotation
       .vector(interpolated<3>(body,
@@ -996,7 +996,8 @@ BOOST_AUTO_TEST_CASE(summary_of_a_tilted_block_in_nodes)
                      [](const Point<2> &x) { return -.35 + .16 * x[0]; }});
   Vector force = body.make_vector();
   contact->force_at(solution, 0., force);
-  // Pressures 8 and 1.6 Pa: 8/4 + 1.6/2 N, against the body's way down.
+  // Pressures 8 and 1.6 Pa: 8/4 + 1.6/2 N, against the displacement of the
+  // body.
   BOOST_CHECK_CLOSE(boundary_sum(body, force, 1, 2), -2.8, round_off);
   BOOST_CHECK_SMALL(boundary_sum(body, force, 0, 2), 1e-14);
   auto summary = contact->summary({solution, force, 0.}).at(2);
@@ -1466,8 +1467,9 @@ BOOST_AUTO_TEST_CASE(velocity_without_inertia)
 }
 
 // A block of 4 kg slides over a plane at 5 m/s under its weight, with mu = 0.3:
-// over each step its momentum grows by (-mu N, N - weight) dt, and friction takes
-// about mu N 5 m/s dt. It is stiff, but not rigid, so that N comes and goes.
+// over each step its momentum grows by (-mu N, N - weight) dt, and friction
+// dissipates about mu N 5 m/s dt. It is stiff, but not rigid, so that N comes
+// and goes.
 BOOST_AUTO_TEST_CASE(block_that_slides_down_its_speed)
 {
   for (const std::string treatment : {"Signorini active set",
@@ -1481,7 +1483,7 @@ BOOST_AUTO_TEST_CASE(block_that_slides_down_its_speed)
       parameters.contact.treatment                        = treatment;
       parameters.contact.values["Friction coefficient"]   = friction;
       parameters.contact.values["Compliance coefficient"] = 1e4;
-      // Slip at 5 m/s is far beyond what sticks.
+      // Slip at 5 m/s is far beyond sticking.
       parameters.contact.values["Tangential compliance"] = 1e4;
       parameters.contact.values["Augmentation"]          = 1e4;
       parameters.scheme.name                             = "midpoint";

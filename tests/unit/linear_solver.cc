@@ -39,7 +39,7 @@ namespace
     double       friction  = 0.;
     // Size of the random displacements; two thirds of it are the gap.
     double displacement = .03;
-    // The obstacle is a ball, before which directions turn; it is half as far.
+    // The obstacle is a ball, against which directions turn; it is half as far.
     bool is_round = false;
   };
 

@@ -73,7 +73,7 @@ namespace
         if (node.count(entry->column()) != 0)
           dense(i, node[entry->column()]) = entry->value();
     BOOST_CHECK_SMALL((dense - dense.transpose()).norm(), 1e-12);
-    // On the contact boundary, ones in the place of the zeros.
+    // On the contact boundary, ones in place of the zeros.
     for (const auto i : body.contact_indices())
       if (node.count(i) != 0)
         dense(node[i], node[i]) = 1.;
@@ -188,8 +188,8 @@ BOOST_AUTO_TEST_CASE(too_coarse_meshes_are_refused)
     const BodyMatrix mass = assemble_mass_matrix(body, 1.);
     BOOST_CHECK_THROW(redistribute_mass(body, *mass.entries()), InputError);
   };
-  // One element: a single node is left, which cannot keep three moments. (Two
-  // ranks cannot share one element.)
+  // One element: a single node is left, which cannot keep three moments. (One
+  // element cannot be divided between two ranks.)
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
     check_refused(CubeAbovePlane<1>(false, 1), 1);
   // Enough nodes for the moments, but both matrices are indefinite.

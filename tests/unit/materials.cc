@@ -99,7 +99,7 @@ namespace
           if (dealii::determinant(c) < .05)
             continue;
 
-          // C_33 as the program finds it, to be stationary.
+          // C_33 as computed by the program, to be stationary.
           const double c33 = dim == 3 || state == PlaneState::plane_strain
             ? 1.
             : law.plane_stress_c33(dealii::trace(c), dealii::determinant(c));
@@ -608,7 +608,8 @@ BOOST_AUTO_TEST_CASE(functions_of_several_points)
     }
 }
 
-// The general formulas for what a law does not write itself, against the laws' own.
+// The general formulas for functions that a law does not write itself, against
+// the laws' own.
 BOOST_AUTO_TEST_CASE(what_a_law_leaves_out)
 {
   ThirdDerivatives third{};

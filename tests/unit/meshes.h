@@ -12,8 +12,8 @@
 #include <vector>
 
 /// A unit cube above the plane x_dim = -gap, with the boundary id 1 on the face
-/// that looks at the plane and 2 on the opposite one. In parallel every rank
-/// owns a part.
+/// towards the plane and 2 on the opposite one. In parallel every rank owns a
+/// part.
 template <int dim>
 struct CubeAbovePlane
 {
@@ -52,8 +52,8 @@ struct CubeAbovePlane
   dealii::parallel::shared::Triangulation<dim> triangulation;
 };
 
-/// With assertions every third of @p all, which take several times as long then:
-/// what they are about is in each of a kind. Without, all of them.
+/// With assertions every third of @p all, which take several times as long
+/// then: each kind is covered by any of them. Without, all of them.
 template <typename T>
 std::vector<T>
 fewer_in_debug(const std::vector<T> &all)

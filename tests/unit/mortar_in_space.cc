@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Mortar contact of surfaces in space: triangles that clip each other and the rule on
-// the pieces; rows between two blocks with bumpy faces over random steps, whose product
-// with the change of the positions is the change of the mean gaps and the slip, with sums
-// and moments of zero and derivatives that are quotients of differences; and a uniform
-// pressure between blocks whose meshes do not match (patch test).
+// Mortar contact of surfaces in 3D: triangles that clip each other and the rule
+// on the pieces; rows between two blocks with bumpy faces over random steps,
+// whose product with the change of the positions is the change of the mean gaps
+// and the slip, with sums and moments of zero and derivatives that are
+// quotients of differences; and a uniform pressure between blocks whose meshes
+// do not match (patch test).
 
 #include "equilibrium.h"
 #include "meshes.h"
@@ -67,8 +68,9 @@ namespace
 
 
 
-// Triangles with random corners that tile a square around the reference triangle: what
-// they leave of it are parts whose moments up to the second add up to its own.
+// Triangles with random corners that tile a square around the reference
+// triangle: the clipped parts have moments up to the second that add up to its
+// own.
 BOOST_AUTO_TEST_CASE(clipped_triangles_tile)
 {
   std::mt19937                           random(7);
@@ -498,8 +500,8 @@ namespace
 
 
 // Mortar passes a uniform pressure whatever the meshes are. That includes flat faces with
-// four corners of any shape: the four triangles around their mean have the same shares of a
-// uniform pressure as what is bilinear in the cell.
+// four corners of any shape: the four triangles around their mean have the same
+// nodal forces of a uniform pressure as the cell's bilinear functions.
 BOOST_AUTO_TEST_CASE(blocks_that_do_not_match)
 {
   for (const std::string treatment :

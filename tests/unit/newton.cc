@@ -179,8 +179,8 @@ BOOST_AUTO_TEST_CASE(never_returns_what_is_not_converged)
                     NewtonFailure);
 }
 
-// Forces that are not a number are no forces of size zero: with the scale 1 in
-// their place any residual below the tolerance would pass.
+// Forces that are not a number are no forces of size zero: with the scale 1
+// instead any residual below the tolerance would pass.
 BOOST_AUTO_TEST_CASE(a_force_scale_that_is_not_a_number_never_converges)
 {
   BOOST_CHECK_THROW(solve([](double) { return 1e-20; },

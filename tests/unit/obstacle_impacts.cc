@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Impacts of a hyperelastic cube in space on obstacles of each shape: energy and
+// Impacts of a hyperelastic cube in 3D on obstacles of each shape: energy and
 // angular momentum about the obstacle's axis of symmetry are kept, friction only
 // dissipates, moving obstacles do the work that their resultants say, and Newton's
 // method converges quadratically.
@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(energy_and_angular_momentum_are_kept)
       }
 }
 
-// What loses energy on the plane loses it here too.
+// Treatments that lose energy on the plane lose it here too.
 BOOST_AUTO_TEST_CASE(forces_at_the_end_of_a_step_dissipate)
 {
   for (const std::string treatment :
@@ -220,7 +220,7 @@ BOOST_AUTO_TEST_CASE(friction_only_dissipates)
       }
 }
 
-// A moving obstacle: what it does to the body, from the balance and from its
+// A moving obstacle: its work on the body, from the balance and from its
 // resultants, differs by terms of second order in the step.
 BOOST_AUTO_TEST_CASE(work_of_moving_obstacles)
 {
@@ -263,8 +263,8 @@ BOOST_AUTO_TEST_CASE(work_of_moving_obstacles)
       }
 }
 
-// The contact force of the schemes that look at instants is that at the end of the
-// step, where the obstacle is then: a plate that flies away is not touched.
+// The contact force of schemes with forces at instants is that at the end of
+// the step, where the obstacle is then: a plate that flies away is not touched.
 BOOST_AUTO_TEST_CASE(instants_see_the_obstacle_where_it_is)
 {
   const auto plate =
@@ -296,11 +296,11 @@ BOOST_AUTO_TEST_CASE(instants_see_the_obstacle_where_it_is)
     }
 }
 
-// Persistent contact looks where body and obstacle would be in the middle of the
-// step: with 2 m/s and 4 m/s towards each other over 10 ms they come nearer by
-// 30 mm there, so that a gap of 29 mm closes and one of 31 mm does not. (An obstacle
-// that was looked at at the beginning of the step would be missed at 29 mm.) The
-// second step knows the velocity from the first, which took 60 mm.
+// Persistent contact predicts body and obstacle in the middle of the step: with
+// 2 m/s and 4 m/s towards each other over 10 ms they come nearer by 30 mm
+// there, so that a gap of 29 mm closes and one of 31 mm does not. (With the
+// obstacle at the beginning of the step, contact would be missed at 29 mm.) The
+// second step has the velocity from the first, which took 60 mm.
 BOOST_AUTO_TEST_CASE(predictors_look_half_a_step_ahead)
 {
   const RigidMotion closer({"0", "0", "4*t"},

@@ -80,8 +80,8 @@ namespace
     return list;
   }
 
-  /// The beginning and the end of a way near the surface: random, at rest,
-  /// grazing (along the surface), crossing it.
+  /// The beginning and the end of a displacement near the surface: random, at
+  /// rest, grazing (along the surface), crossing it.
   std::vector<std::pair<Tensor<1, 3>, Tensor<1, 3>>>
   ways(const NamedShape &named)
   {
@@ -126,7 +126,7 @@ namespace
 
 BOOST_AUTO_TEST_CASE(gaps_are_distances)
 {
-  // By hand, in points that lie so that the distance can be told.
+  // By hand, in points with a simple distance.
   BOOST_CHECK_CLOSE(
     HalfSpace({}, Tensor<1, 3>({0., 2., 0.})).gap(Tensor<1, 3>({7., .25, 1.})),
     .25,
@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(gaps_are_distances)
                     1e-12);
 }
 
-// A node in the middle of a bowl, which is as far from all of it, or comes there.
+// A node in the centre of a bowl, equally far from all of it, or moving there.
 BOOST_AUTO_TEST_CASE(the_middle_of_a_circle)
 {
   const SphereShape  bowl({}, 2., true);
@@ -182,9 +182,9 @@ BOOST_AUTO_TEST_CASE(the_middle_of_a_circle)
     }
 }
 
-// direction . way = change of the gap, less the work of the motion, which is here
-// measured in the obstacle's own frame; and gap increments are differences of
-// gaps.
+// direction . displacement = change of the gap, less the work of the motion,
+// which is here measured in the obstacle's own frame; and gap increments are
+// differences of gaps.
 BOOST_AUTO_TEST_CASE(increments_are_differences_of_gaps)
 {
   for (const bool moves : {false, true})
@@ -239,7 +239,7 @@ BOOST_AUTO_TEST_CASE(derivatives_are_derivatives)
           {
             const auto   rows = obstacle.rows(step, old_x, x, x - old_x);
             const double h    = 1e-5;
-            // What the correction of Gonzalez' gradient leaves of round-off.
+            // Round-off of the correction of Gonzalez' gradient.
             const double tolerance =
               named.name == "wave" && (x - old_x).norm() < 1e-4 ? 1e-4 : 1e-7;
             BOOST_TEST_CONTEXT(named.name << (moves ? ", moving" : "")
@@ -292,8 +292,8 @@ BOOST_AUTO_TEST_CASE(no_moment_about_an_axis_of_symmetry)
     }
 }
 
-// A wheel that turns about its axis is as good as one at rest, but drags along
-// what touches it.
+// A wheel that turns about its axis is as good as one at rest, but drags
+// touching points along.
 BOOST_AUTO_TEST_CASE(a_turning_wheel)
 {
   const Tensor<1, 3> axis({0., 0., 1.});

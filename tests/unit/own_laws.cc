@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Laws, a material and a time scheme from outside of the library: those of
-// examples/own_step, registered as a program of one's own does, against their
+// examples/own_step, registered as in a user's own program, against their
 // definitions and in impacts.
 
 #include "meshes.h"
@@ -141,7 +141,7 @@ namespace
          [](const dealii::Point<3> &) { return -2.; }}));
     }
 
-    /// @return what the total energy has gained, and checks of the balance.
+    /// @return the gain of total energy; the balance is checked.
     double
     run(const unsigned int n_steps, const double time_step)
     {
@@ -227,8 +227,8 @@ BOOST_AUTO_TEST_CASE(limited_friction)
   BOOST_CHECK_EQUAL(law.limit(400., 1.).with_pressure, 0.);
 }
 
-// Yeoh's gradient and Hessian against automatic differentiation of the energy, and what
-// CompletedLaw makes of them.
+// Yeoh's gradient and Hessian against automatic differentiation of the energy,
+// and the functions of CompletedLaw from them.
 BOOST_AUTO_TEST_CASE(yeoh_from_its_energy)
 {
   using AD  = Sacado::Fad::DFad<double>;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Impacts of deformable bodies on each other, coarse: two disks, a block on a strip,
-// bars. The balance of energy closes for every treatment, what should be kept is
-// kept, linear and angular momentum of both together too, friction only dissipates;
-// assembled tangents are those of differences; a step is the same on two ranks.
+// bars. The balance of energy closes for every treatment, conserved quantities
+// are kept, including linear and angular momentum of both bodies together,
+// friction only dissipates; assembled tangents are those of differences; a step
+// is the same on two ranks.
 
 #include "on_all_ranks.h"
 #include "meshes.h"
@@ -49,7 +50,7 @@ namespace
                                                "standard normal compliance",
                                                "penalty"};
 
-  /// Treatments with what is behind the comma as coupling.
+  /// Treatments, with the coupling after the comma.
   const std::vector<std::string> with_mortar = {
     "persistent contact, mortar",
     "persistent contact, dual mortar",
@@ -241,8 +242,8 @@ BOOST_AUTO_TEST_CASE(balances_close_and_momenta_are_kept)
       }
 }
 
-// What contact adds to residual and tangent, at states in contact that are moved at
-// random, with everything that turns: the derivative is the quotient of differences.
+// The parts of residual and tangent by contact, at random states in contact
+// with all rotations: the derivative is the quotient of differences.
 BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
 {
   for (const std::string &treatment : all_methods())
@@ -308,10 +309,10 @@ BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
 
 
 
-// What couplings cost, in one and the same collision with Signorini's condition:
-// iterations, entries of the tangent, and its condition when every unknown is scaled so
-// that the largest entry of its column is 1, and then every row. Mortar couples more, and
-// is no worse to solve.
+// Cost of couplings, in the same collision with Signorini's condition:
+// iterations, entries of the tangent, and its condition when every unknown is
+// scaled so that the largest entry of its column is 1, and then every row.
+// Mortar couples more, and is no worse to solve.
 BOOST_AUTO_TEST_CASE(cost_of_couplings)
 {
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
@@ -373,8 +374,8 @@ BOOST_AUTO_TEST_CASE(cost_of_couplings)
 
 
 
-// Newton's method converges quadratically near the solution, and does not need many
-// iterations on the way.
+// Newton's method converges quadratically near the solution, and does not need
+// many iterations before.
 BOOST_AUTO_TEST_CASE(newton_converges_quadratically)
 {
   for (const std::string treatment :
@@ -403,8 +404,8 @@ BOOST_AUTO_TEST_CASE(newton_converges_quadratically)
 
 
 
-// Swapping slave and master is another discretisation of the same: on coarse disks
-// what comes out differs by a few per cent.
+// Swapping slave and master gives another discretisation of the same problem:
+// on coarse disks results differ by a few per cent.
 BOOST_AUTO_TEST_CASE(master_and_slave_may_be_swapped)
 {
   Tensor<1, 2> velocity[2];
@@ -535,7 +536,7 @@ BOOST_AUTO_TEST_CASE(balances_close_with_work_from_outside)
 
 
 
-// The displacement of the boundary is what was asked for, and the roller rolls.
+// The displacement of the boundary is the prescribed one, and the roller rolls.
 BOOST_AUTO_TEST_CASE(conditions_hold)
 {
   Press press(rubber(200.), "persistent contact", .3);
@@ -714,8 +715,9 @@ BOOST_AUTO_TEST_CASE(bars_exchange_their_velocities)
   BOOST_CHECK_SMALL(bars.velocity(1) - 100., 4.);
 }
 
-// Each contact of a cradle takes what its forces do on the faces of its two bars: a spring
-// stores something, first in one contact and then in the other.
+// The energy of each contact of a cradle is the work of its forces on the faces
+// of its two bars: a spring stores something, first in one contact and then in
+// the other.
 BOOST_AUTO_TEST_CASE(each_contact_has_its_work)
 {
   Bars   bars("improved normal compliance", {100., 0., 0.}, 10);
@@ -788,7 +790,7 @@ BOOST_AUTO_TEST_CASE(three_bars_and_a_cradle)
 
 
 
-// Each part is made of what it is made of, by hand: two plates of different stiffness
+// Each part has its own material, by hand: two plates of different stiffness
 // and density under the same uniform strain.
 BOOST_AUTO_TEST_CASE(parts_have_data_of_their_own)
 {
@@ -866,7 +868,7 @@ BOOST_AUTO_TEST_CASE(parts_have_data_of_their_own)
 
 
 
-// What is refused before any time is spent.
+// Input that is refused before any time is spent.
 BOOST_AUTO_TEST_CASE(bad_input)
 {
   const auto throws = [](const std::string           &text,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Meshes of several parts: every number that can be told by hand, that parts
-// share nothing even where they touch, and what is refused.
+// Meshes of several parts: every number that can be computed by hand, no common
+// vertices of parts even where they touch, and refused input.
 
 #include <base/exceptions.h>
 #include <problems/part_meshes.h>
@@ -65,7 +65,7 @@ namespace
     std::set<unsigned int> vertices;
   };
 
-  /// What the cells of each material id have; on the way, that all are
+  /// Data of the cells of each material id; also a check that all are
   /// positively oriented.
   std::map<unsigned int, Part>
   parts_of(const Triangulation<2> &mesh)
@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(ringed_disks_by_hand)
 {
   for (const unsigned int n : {1, 2, 11})
     {
-      // The second is turned, and they overlap: it is nothing to a mesh.
+      // The second is turned, and they overlap: that is allowed in a mesh.
       const RingedDisk first{Point<2>(0., 3.), 2., n, 0.};
       const RingedDisk second{Point<2>(1., 0.), .5, n + 1, .3};
       Triangulation<2> mesh;
@@ -312,7 +312,7 @@ BOOST_AUTO_TEST_CASE(touching_rectangles_stay_apart)
         const auto parts = parts_of(mesh);
         check_parts(mesh, parts, 2);
         BOOST_CHECK_EQUAL(mesh.n_vertices(), 2u * 12u);
-        // The upper side of one in the same places as the lower of the other.
+        // The upper side of one coincides with the lower of the other.
         for (unsigned int i = 0; i < 4; ++i)
           BOOST_CHECK_EQUAL(mesh.get_vertices()[8 + i].distance(
                               mesh.get_vertices()[12 + i]),
@@ -464,8 +464,8 @@ BOOST_AUTO_TEST_CASE(impossible_numbers_are_refused)
                     Tensor<1, 2>({0., infinity})});
   BOOST_CHECK_THROW(rectangle_side(0, 4), InputError);
 
-  // Nothing has been made on the way, and the ends may be flush, also with what
-  // is lost in the sum of decimal fractions.
+  // No mesh was made by the refused calls, and the ends may be flush, also up
+  // to round-off in the sum of decimal fractions.
   BOOST_CHECK_EQUAL(mesh.n_vertices(), 0u);
   Geometry flush;
   flush.artery_length = .3;

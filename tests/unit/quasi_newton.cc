@@ -30,7 +30,7 @@ namespace
     return dealii::complete_index_set(n);
   }
 
-  /// A grid whose unknowns hang together with their neighbours', on one rank; with
+  /// A grid whose unknowns couple to their neighbours', on one rank; with
   /// @p skew, not quite symmetric.
   Matrix
   grid_matrix(const double skew)

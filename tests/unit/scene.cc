@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What a user's scene is made of: names, units, springs, probes.
+// Parts of a user's scene: names, units, springs, probes.
 #include <base/exceptions.h>
 #include <base/units.h>
 #include <discretization/boundary_springs.h>
@@ -124,8 +124,8 @@ BOOST_AUTO_TEST_CASE(names_of_surfaces)
 
 
 
-// The work of springs and dashpots over a step is what they store and take, and the
-// tangent that of the force.
+// The work of springs and dashpots over a step is their stored and dissipated
+// energy, and the tangent that of the force.
 BOOST_AUTO_TEST_CASE(springs)
 {
   dealii::Triangulation<2> mesh;
@@ -231,7 +231,7 @@ check_pressure(const dealii::Triangulation<dim> &mesh)
       {id, [p](const double, const Point<dim> &) { return p; }});
   const FollowerPressure<dim> load(body, pressures);
 
-  // Two ways to deform it, far from each other.
+  // Two deformations, far from each other.
   Vector                                                 begin, end;
   std::vector<std::function<double(const Point<dim> &)>> first, second;
   for (unsigned int c = 0; c < dim; ++c)

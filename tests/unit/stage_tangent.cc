@@ -201,8 +201,8 @@ BOOST_AUTO_TEST_CASE(in_3d)
   check_all<3>(true, 1);
 }
 
-// The same before obstacles that are curved and move, where the direction of the
-// force and the slip follow the point.
+// As above against obstacles that are curved and move, where the direction of
+// the force and the slip follow the point.
 namespace
 {
   template <int dim>
@@ -272,8 +272,9 @@ BOOST_AUTO_TEST_CASE(in_a_moving_tube)
                                            true)));
 }
 
-// The pressure field of a state depends on that state alone, whatever iterates
-// came in between: after a failed step it is still that of the last good one.
+// The pressure field of a state depends on that state alone, whatever the
+// iterates in between: after a failed step it is still that of the last good
+// one.
 BOOST_AUTO_TEST_CASE(pressure_fields_do_not_remember_iterates)
 {
   const CubeAbovePlane<2> cube(false);
@@ -342,8 +343,8 @@ BOOST_AUTO_TEST_CASE(boundary_masses_of_quadratic_tetrahedra)
                     InputError);
 }
 
-// A contact point that needs an unknown which the rank does not know is an error,
-// and not a read from anywhere.
+// A contact point with an unknown that is not on the rank is an error, and not
+// a read of arbitrary memory.
 BOOST_AUTO_TEST_CASE(unknowns_of_contact_points_are_checked)
 {
   const CubeAbovePlane<2> cube(false);
@@ -383,8 +384,8 @@ BOOST_AUTO_TEST_CASE(trace_constant_of_a_square)
   BOOST_CHECK_LT(constant, 4. * 2. * std::sqrt(2.));
 }
 
-// An element that is turned inside out makes the force not a number, also where
-// its mark sits in an unknown that is clamped.
+// An inverted element makes the force not a number, also where its mark sits in
+// an unknown that is clamped.
 BOOST_AUTO_TEST_CASE(inverted_elements_next_to_clamped_unknowns)
 {
   const CubeAbovePlane<2> cube(false);
@@ -442,7 +443,7 @@ BOOST_AUTO_TEST_CASE(inverted_elements_next_to_clamped_unknowns)
 }
 
 // Factorisations are found again by a hash of the branches of all contact
-// points: no two states may share one.
+// points: no two states may have the same one.
 BOOST_AUTO_TEST_CASE(signatures_differ)
 {
   const unsigned int n_points = 6;
@@ -470,7 +471,7 @@ BOOST_AUTO_TEST_CASE(clamped_contact_nodes_are_refused)
     {
       ContactParameters parameters;
       parameters.treatment = treatment;
-      // The sides (id 0) share the corners with the contact boundary (id 1).
+      // The sides (id 0) have common corners with the contact boundary (id 1).
       const Body<2> body(cube.triangulation,
                          1,
                          {0},

@@ -203,7 +203,7 @@ namespace
             peak / exact_peak - 1.};
   }
 
-  /// Errors relative to Hertz's solution for the force that came out.
+  /// Errors relative to Hertz's solution for the computed force.
   struct CylinderErrors
   {
     double radius, peak;
@@ -255,7 +255,7 @@ namespace
     parameters.contact.treatment              = "Signorini active set";
     parameters.contact.coupling               = coupling;
     parameters.contact.values["Augmentation"] = 1.;
-    // At rest there is no large force to measure by.
+    // At rest there is no large force as a scale.
     parameters.newton.tolerance = 1e-11;
     parameters.scheme.name      = "midpoint";
     ImpactSetup<2> setup{Material<2>(material)};
@@ -301,7 +301,7 @@ namespace
       return exact_peak *
         std::sqrt(std::max(0., 1. - x * x / (exact_radius * exact_radius)));
     };
-    // The field has the pressure in the place of the first displacement.
+    // The field has the pressure in place of the first displacement.
     std::map<double, double> pressure_at;
     for (const auto &[i, x] : positions)
       if (x[1] < 0. && std::abs(x[0]) < 1.5 * exact_radius &&
@@ -450,7 +450,7 @@ namespace
           ++n;
         }
     worst = dealii::Utilities::MPI::max(worst, MPI_COMM_WORLD);
-    // Cut faces show what they know on both sides.
+    // Cut faces have output on both sides.
     BOOST_CHECK_EQUAL(dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD),
                       coupling == "cut faces"
                         ? n_lower + n_upper + 2
@@ -459,8 +459,7 @@ namespace
   }
 } // namespace
 
-// Mortar methods pass that whatever the meshes are. The others come nearer only in
-// the mean.
+// Mortar methods pass it on any meshes. The others converge only in the mean.
 BOOST_AUTO_TEST_CASE(blocks_that_do_not_match)
 {
   for (const std::string treatment :

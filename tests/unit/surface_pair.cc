@@ -2,8 +2,8 @@
 
 // Rows of contact between two wavy surfaces over random steps, in which they slide past
 // each other's nodes: D . change is the change of the gap and T . change the slip, forces
-// and moments add up to zero, and derivatives are quotients of differences. Gaps depend
-// on where the surfaces are and on nothing else.
+// and moments add up to zero, and derivatives are quotients of differences.
+// Gaps depend on the positions of the surfaces only.
 
 #include "meshes.h"
 
@@ -203,8 +203,8 @@ BOOST_AUTO_TEST_CASE(rows_are_exact)
     }
 }
 
-// At the beginning of the next step gaps are what they were at the end of the last one,
-// where nothing comes off the end of the other surface.
+// At the beginning of the next step gaps are those at the end of the last one,
+// where no point leaves the end of the other surface.
 BOOST_AUTO_TEST_CASE(no_history_enters)
 {
   for (const std::string &coupling : couplings)
@@ -319,16 +319,16 @@ BOOST_AUTO_TEST_CASE(derivatives_are_quotients_of_differences)
                                   << ", forces " << of_forces);
       BOOST_CHECK_LT(of_gap, 1e-6);
       // Mortar leaves out where the facets are cut, which matters where a point
-      // passes a vertex on the way.
+      // passes a vertex in between.
       const bool is_cut = coupling.find("mortar") != std::string::npos;
       BOOST_CHECK_LT(of_slip, is_cut ? .01 : 1e-6);
       BOOST_CHECK_LT(of_forces, is_cut ? .01 : 1e-5);
     }
 }
 
-// What is thrown along the other surface over several of its nodes, or comes before it only
-// in this step, is before the facets to which it comes: their gaps are those of a look at
-// the end of the step.
+// Points that move along the other surface over several of its nodes, or face
+// it only in this step, are assigned to the facets that they reach: their gaps
+// are those of a search at the end of the step.
 BOOST_AUTO_TEST_CASE(fast_points_are_before_the_facets_they_come_to)
 {
   for (const bool comes_in : {false, true})
@@ -362,8 +362,8 @@ BOOST_AUTO_TEST_CASE(fast_points_are_before_the_facets_they_come_to)
     }
 }
 
-// What a pair announces for the pattern of the tangent has all unknowns of its rows, also in
-// a step over several facets.
+// The unknowns that a pair announces for the pattern of the tangent include all
+// unknowns of its rows, also in a step over several facets.
 BOOST_AUTO_TEST_CASE(patterns_have_the_unknowns_of_fast_points)
 {
   for (const std::string &coupling : couplings)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Threads of a rank: what is done on two of them is what one does, to the last digit.
+// Threads of a rank: the results of two of them are those of one, to the last
+// digit.
 
 #include <base/threads.h>
 #include <solvers/block_matrix.h>
@@ -149,9 +150,9 @@ BOOST_AUTO_TEST_CASE(parts_are_of_equal_work)
   check({0, 9}, {0., 100.}, {0, 9});
 }
 
-// Two chains of unknowns that hang together, each with its neighbours and with a last one:
-// the factors of two bodies, the first of which ends with a row of its own. Solves
-// are those of one thread.
+// Two chains of coupled unknowns, each with its neighbours and with a last one:
+// the factors of two bodies, the first of which ends with a row of its own.
+// Solves are those of one thread.
 BOOST_AUTO_TEST_CASE(factors_of_two_bodies)
 {
   // Of each column the one on the diagonal, then those of L below.
