@@ -23,7 +23,7 @@ if list((DOC / "notebooks").glob("*.ipynb")):
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist"]
 myst_heading_anchors = None
 myst_dmath_double_inline = True
-# It knows of MathJax 3 only.
+# Sphinx supports MathJax 3 only.
 myst_update_mathjax = False
 exclude_patterns = ["extra"]
 nitpicky = True

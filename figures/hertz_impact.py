@@ -84,11 +84,11 @@ def hertz(modulus, radius, mass, speed):
 
 
 def radius_of_contact(force):
-    """Of the two balls of colliding_spheres, pressed by @p force (N)."""
+    """Hertz' values for the two balls of colliding_spheres, pressed by @p force (N)."""
     return (3 * force * 0.5 / (4 * 1e6 / (2 * (1 - 0.09)))) ** (1 / 3)
 
 
-# Of two balls: name, coupling, degree, curved cells, smallest cells (m).
+# Cases of two balls: name, coupling, degree, curved cells, smallest cells (m).
 TWO_BALLS = (
     ("points", "points", 1, "false", 0.016),
     ("points", "points", 1, "false", 0.008),

@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# What Ricochet needs of Debian 12. OpenBLAS replaces the reference BLAS, which
+# Debian 12 packages that Ricochet needs. OpenBLAS replaces the reference BLAS, which
 # is five times slower in factorisations.
 packages="cmake ninja-build g++ ccache libdeal.ii-dev libeigen3-dev libsuitesparse-dev
   libgmsh-dev libboost-dev

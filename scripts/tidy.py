@@ -58,7 +58,7 @@ def changed_files(root):
 
 
 def to_check(root, sources, changed):
-    """Those of @p sources in which everything that has @p changed is seen.
+    """The subset of @p sources that covers everything that has @p changed.
 
     @param sources paths of all sources that are compiled, relative to @p root
     """

@@ -34,7 +34,7 @@ def diameters(mesh, cells):
     result = []
     for cell in cells:
         vertices = mesh.pts_from_cvid(cell)[0]
-        # Of a cell of second order, the vertices are the nodes farthest from each other.
+        # The vertices of a cell of second order are the nodes farthest from each other.
         distances = np.linalg.norm(vertices[:, :, None] - vertices[:, None, :], axis=0)
         result.append(distances.max())
     return np.array(result)

@@ -80,7 +80,7 @@ def persistent(g, v, rate, step):
 
 
 def two_step(g, v, rate, step):
-    # First pass: the mean gap is not negative; second: what touched stays where it is.
+    # First pass: the mean gap is not negative; second: touching nodes stay in place.
     return g if .5 * (g + g + step * v) < 0 else g + step * v
 
 

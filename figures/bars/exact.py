@@ -13,8 +13,8 @@ GAMMA_N = 5 / 0.05  # Pa/m, gamma_0/h
 class End:
     """Exact motion of an end of the bar: piecewise linear and periodic.
 
-    It is written down here from the characteristics, apart from the program's
-    own, so that one checks the other.
+    The motion is written down here from the characteristics, independently of the program's own, so
+    that one checks the other.
     """
 
     name: str

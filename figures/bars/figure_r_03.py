@@ -20,7 +20,7 @@ from shared.runs import QUIET, Run
 
 THETAS = {1: "#000000", 0: "#0072B2", -1: "#D55E00"}
 NAME = {1: "symmetric", 0: "non_symmetric", -1: "skew_symmetric"}
-# Those that are stable; a tenth of the least one is refused. The figures of paper C have 5, and
+# Stable values; a tenth of the least one is refused. The figures of paper C have 5, and
 # 100 mu = 3e6 Pa.
 BAR_GAMMAS = {1: (5.0, 50.0), 0: (0.5, 5.0, 50.0), -1: (0.05, 0.5, 5.0, 50.0)}
 SPHERE_GAMMAS = {1: (3e6, 3e7), 0: (3e5, 3e6, 3e7), -1: (3e4, 3e5, 3e6, 3e7)}

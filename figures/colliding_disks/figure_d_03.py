@@ -49,7 +49,7 @@ RUNS = {
 
 
 def velocity(*key):
-    """Of the left disk's centre at the end (m/s)."""
+    """Velocity of the left disk's centre at the end (m/s)."""
     values = printed(RUNS[key])
     return np.array([values["velocity_x_left"], values["velocity_y_left"]])
 

@@ -23,7 +23,7 @@ from shared.runs import QUIET, Run
 # s
 TIME_STEPS = (2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5)
 METHODS = ("signorini", "emm")
-# Of a longitudinal wave in plane stress (m/s), and of the cells on the circle (m).
+# Speed of a longitudinal wave in plane stress (m/s), and size of the cells on the circle (m).
 WAVE = np.sqrt(1e10 / (1000 * (1 - 0.35**2)))
 CELL = 2 * np.pi * 10 / 128
 

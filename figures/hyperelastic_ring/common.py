@@ -63,7 +63,7 @@ def share_row(name, one, *columns):
 def rigid_loss(mu):
     """Energy that a rigid ring loses that rebounds with the speed it came with.
 
-    It slides with friction mu until it rolls; the two components of its velocity are equal.
+    The ring slides with friction mu until it rolls; the two components of its velocity are equal.
     """
     inertia = (9**2 + 10**2) / (2 * 10**2)  # over mass and outer radius squared
     impulse = min(2 * mu, inertia / (1 + inertia))  # over mass and speed

@@ -7,7 +7,7 @@ from shared.paper_numbers import series
 from .common import run
 
 PAPER = series("A.table_4")
-# Of the paper: 10 s in steps of 10 ms.
+# Steps of the paper: 10 s in steps of 10 ms.
 PAPER_STEPS = 1000
 COST_METHODS = (SIGNORINI, PERSISTENT, INC[3], SNC)
 FAMILY = {32: (32, 3), 64: (64, 3), 128: (128, 7), 256: (256, 9), 512: (512, 15)}

@@ -19,7 +19,7 @@ class Check:
     status: str
     paper: str = "-"
     exact: str = "-"
-    criterion: str = ""  # what was asked of the number
+    criterion: str = ""  # the criterion for the number
     figure: str = ""  # filled in by make.py
     number: str = ""  # its name in figures/numbers
 

@@ -104,7 +104,7 @@ def distances(places, surface):
 
 
 def overlap_of(x, cells):
-    """Of hexahedra with vertices at x."""
+    """Overlap of hexahedra with vertices at x."""
     quads = boundary(cells)
     surface = triangles(x, quads)
     places, weights = inner_points(x, cells)
@@ -141,8 +141,8 @@ def bodies(cells):
 
 
 def overlap_in(path, itself=False):
-    """Of all bodies in a VTU file, or of each with itself alone: then the sum of the volumes and
-    the deepest node."""
+    """Overlap of all bodies in a VTU file, or of each with itself alone: then the sum of the
+    volumes and the deepest node."""
     _, x, cells = read(path)
     if not itself:
         return overlap_of(x, cells)

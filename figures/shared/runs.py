@@ -210,7 +210,7 @@ def ensure(runs, build_dir, jobs, force=False):
             for future in concurrent.futures.as_completed(futures):
                 future.result()
         except BaseException:
-            # Those that have started end by themselves; no other one starts.
+            # Started runs end by themselves; no other one starts.
             for future in futures:
                 future.cancel()
             raise

@@ -25,7 +25,7 @@ namespace Ricochet
     double density;
     /// Mean diameter of the cells at the surface (m).
     double cell_diameter;
-    /// Of the displacement.
+    /// Degree of the displacement.
     unsigned int degree;
   };
 
@@ -103,7 +103,7 @@ namespace Ricochet
   class ParameterValues
   {
   public:
-    /// Of no parameters.
+    /// Values of no parameters.
     ParameterValues() = default;
 
     /// Their default values.

@@ -13,7 +13,7 @@ namespace Ricochet
   class Units
   {
   public:
-    /// Those of the SI.
+    /// The SI units.
     Units() = default;
 
     /// @param text units of length, mass and time, separated by commas: "mm, t, s".

@@ -56,7 +56,7 @@ namespace Ricochet
       dealii::Utilities::MPI::sum(square, vector.get_mpi_communicator()));
   }
 
-  /// The same of all values.
+  /// As above, for all values.
   inline double
   l2_norm(const Vector &vector)
   {

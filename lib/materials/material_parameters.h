@@ -61,7 +61,7 @@ namespace Ricochet
     at_small_strains() const;
 
   private:
-    /// Those of all laws.
+    /// Parameters of all laws.
     static OwnParameters
     all_parameters();
 

@@ -893,7 +893,7 @@ namespace Ricochet
 
 
 
-    // Checking: what the elements form.
+    // Checking: the mesh of the elements.
 
     void
     check_shapes(const MeshFile &file, const Mesh &mesh)

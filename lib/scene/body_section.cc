@@ -74,7 +74,7 @@ namespace Ricochet
                                                 Point<dim>(),
                                                 end,
                                                 /* colorize */ true);
-      // It colours cells, too.
+      // GridGenerator colours cells, too.
       for (const auto &cell : cells.active_cell_iterators())
         cell->set_material_id(0);
     }

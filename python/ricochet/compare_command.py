@@ -7,7 +7,7 @@ that the program does not know ends the command before any run; a combination th
 in the table with the reason. The table is printed, and FOLDER, without -o
 output/compare/CASE, has it as index.html with figures, and as table.csv.
 
-What the columns are:
+The columns:
   energy lost          (first energy + work from outside - last energy) / first energy, or over
                        the largest energy of bodies that begin at rest
   restitution          - (velocity after) / (velocity before), along the normal of contact
@@ -50,7 +50,7 @@ from .programs import (
 from .results import Run
 
 GAP = "Start/Initial gap"
-#: Of the program ricochet: how long its bodies have flown already.
+#: Parameter of the program ricochet: time that its bodies have flown already.
 ADVANCE = "Start/Advance"
 
 # Runs of a comparison need no fields for ParaView and no line per step.

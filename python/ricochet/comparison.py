@@ -42,7 +42,7 @@ class Method:
 
     @property
     def runs(self) -> list[Run]:
-        """Those that ended well."""
+        """Runs that ended well."""
         return [outcome.run for outcome in self.outcomes if outcome.run]
 
     @property

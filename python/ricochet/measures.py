@@ -264,13 +264,13 @@ class Summary:
     energy_lost: float
     #: See `measures.restitution`.
     restitution: float | None
-    #: Of each contact.
+    #: Largest force of each contact.
     largest_force: dict[str, float]
-    #: Of all contacts.
+    #: Largest penetration of all contacts.
     largest_penetration: float
     #: Time with force in any contact, see `measures.duration`.
     contact_duration: float
-    #: Of all steps together.
+    #: Newton iterations of all steps.
     newton_iterations: int
     #: How often a step was halved.
     step_halvings: int

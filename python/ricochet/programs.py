@@ -325,7 +325,7 @@ def run_tasks(
                 if progress:
                     progress(outcome, done, len(tasks))
         except BaseException:
-            # Those that have started end by themselves; no other one starts.
+            # Started runs end by themselves; no other one starts.
             for future in futures:
                 future.cancel()
             raise

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws deformed bodies by VTK, without a window: `python3 -m ricochet.render JOB.json`.
 
-It is a process of its own, since Debian's VTK draws on an X server (a virtual one will do),
+This is a process of its own, since Debian's VTK draws on an X server (a virtual one will do),
 and ends the process if there is none. `pictures` writes the job and uses the images.
 """
 

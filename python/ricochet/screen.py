@@ -27,7 +27,7 @@ def run_with_screen(command: Sequence[str], environment: Mapping[str, str] | Non
                 "virtual one."
             )
         command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1920x24", *command]
-    # Not a pipe: what is left of the server would keep it open.
+    # Not a pipe: a remaining server process would keep it open.
     with tempfile.TemporaryFile("w+", errors="replace") as log:
         result = subprocess.run(
             command,

@@ -76,7 +76,7 @@
 //
 // ## Examples
 //
-// Those in `parameter_files/obstacle_course/` have answers by hand:
+// Examples in `parameter_files/obstacle_course/` have solutions by hand:
 //
 //     block_slides, block_sticks   on an incline of tan(beta) = 1/2, with mu = 0.49
 //                                  and 0.51: a = g (sin beta - mu cos beta), or 0

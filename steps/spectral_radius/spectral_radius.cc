@@ -200,7 +200,8 @@ SpectralRadius::schemes() const
 
 // ## The oscillator
 //
-// It is a bar like the others, with an obstacle that it never reaches.
+// The oscillator is a bar like the others, with an obstacle that it never
+// reaches.
 std::unique_ptr<Impact<1>>
 SpectralRadius::make_oscillator(const Triangulation<1>       &triangulation,
                                 const TimeScheme::Parameters &scheme,

@@ -9,7 +9,7 @@ from programs import BODIES, MESH, RUNS, TIME_STEP, parameters_of, small
 LEFT_ALONE = re.compile(
     r"Output/|Program|Mesh/(?!Degree|Cells)|Time/(Final time|Time step)|"
     r"tolerance|Tolerance|Maximum|/File$|/Folder$|"
-    # Of a scene, whose parts depend on each other; scenes.py changes them.
+    # Parameters of a scene, whose parts depend on each other; scenes.py changes them.
     r"Dimension|Units|^(Obstacle|Condition|Probe) |"
     r"^Body .*/(?!Law|Viscosity|Density|Young|Poisson)|"
     r"^Contact .*/(Surface|Against|Coupling)")

@@ -46,7 +46,7 @@ def settings_for(rng, program):
 
 
 def is_running(pid):
-    """Those that have ended may wait for init to take notice."""
+    """Processes that have ended may wait for init to reap them."""
     try:
         with open(f"/proc/{pid}/stat", encoding="utf-8", errors="replace") as file:
             return file.read().rsplit(")", 1)[1].split()[0] != "Z"
@@ -139,7 +139,7 @@ def strike(case, process, n_ranks, number):
 
 
 def check_polite_end(case, result, number):
-    """Of a signal that asks for an end: a whole table and a checkpoint, or none of them,
+    """After a signal that asks for an end: a complete table and a checkpoint, or none of them,
     if the run had not begun. Returns whether the run was complete all the same."""
     if result.code == 0:
         return True

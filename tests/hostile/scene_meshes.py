@@ -22,7 +22,7 @@ TYPES = {
     "tetrahedron": (4, 11, [(0, 1), (1, 2), (2, 0), (3, 0), (2, 3), (1, 3)]),
     "hexahedron": (5, 12, HEXAHEDRON_EDGES + HEXAHEDRON_FACES + [tuple(range(8))]),
 }
-# Of the surface's kind of a cell.
+# Type of the surface elements of a cell.
 SURFACE = {"triangle": "line", "quadrangle": "line", "tetrahedron": "triangle",
            "hexahedron": "quadrangle"}
 
@@ -267,7 +267,7 @@ COMMANDS = [
 
 
 def damaged_lines(case, lines):
-    """Of a format that knows no sections."""
+    """Damages of a mesh in a format without sections."""
     rng = case.rng
     lines = list(lines)
     name = rng.choice(["none", "byte_flips", "word", "word", "word", "truncated",

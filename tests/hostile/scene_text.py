@@ -9,7 +9,7 @@ from programs import parse_parameters
 KINDS = ["Body", "Material", "Obstacle", "Contact", "Condition", "Probe"]
 NAMES = ["ball", "brick", "lower part"]
 
-# Those that need no other scheme or mass, and take several contacts of a body.
+# Treatments that need no other scheme or mass, and take several contacts of a body.
 LAWS = ["improved normal compliance", "standard normal compliance", "penalty",
         "Hauret-Le Tallec"]
 CONSTRAINTS = ["persistent contact", "Signorini active set"]

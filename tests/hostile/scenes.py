@@ -28,7 +28,7 @@ ODD_EXPRESSIONS = ["log(t)", "1/t", "rand()", "rand_seed(1)", "1e300*x", "-1e-30
                    "if(t<0.001, 0, 1e9)", "sqrt(t-0.001)", "x*y", "1e12", "pi", "_pi",
                    "sin(1e300*t)", "t > 0.002", "abs(t)", "1/(t-0.002)", "0"]
 
-# Of GridGenerator, with all their arguments; the middle is 'o'.
+# Functions of GridGenerator, with all their arguments; the centre is 'o'.
 GENERATORS = {
     2: ["hyper_cube = 0 : 1 : true", "subdivided_hyper_cube = 3 : 0 : 1 : false",
         "hyper_rectangle = o : 1, 2 : true", "cheese = 3, 2", "hyper_ball = o : 1 : true",
@@ -189,7 +189,7 @@ def list_of_wrong_length(scene, rng, parameters):
     n = rng.choice([k for k in (0, 1, scene.dim - 1, scene.dim + 1, 100)
                     if k != scene.dim])
     scene.sections[name][key] = rng.choice([", ", ",", "; ", " "]).join(["1"] * n)
-    # Of a shape that has none, its list is not looked at.
+    # The list of a shape without arguments is not read.
     return key not in ("Size", "Cells along") or \
         scene.sections[name].get("Shape") in ("rectangle", "block")
 
@@ -322,7 +322,7 @@ def choose_laws(scene, rng):
 
 
 def materials(scene, rng, _):
-    """Of parts of a body."""
+    """Materials of parts of a body."""
     name = rng.choice(scene.of_kind("Body"))
     own = scene.sections[name]
     if rng.random() < .7:
@@ -426,7 +426,7 @@ def generator(scene, rng, _):
 
 
 def shape(scene, rng, _):
-    """Of odd sizes."""
+    """Bodies of odd sizes."""
     name = rng.choice(scene.of_kind("Body"))
     own = scene.sections[name]
     key = rng.choice(["Scale", "Radius", "Inner radius", "Nodes around", "Nodes across",

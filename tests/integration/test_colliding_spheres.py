@@ -29,8 +29,8 @@ class CollidingSpheres(ProgramTest):
         momentum = abs(ledger["momentum_x_left"][0])
         for name in MOMENTA:
             drift = largest([p - ledger[name][0] for p in ledger[name]])
-            # Of linear bodies the lever arms are those of the reference, but contact
-            # is where they are.
+            # Lever arms of linear bodies are those of the reference, but contact is in the current
+            # position.
             if not (linear and "angular" in name):
                 self.assertLess(drift / momentum, 1e-10, msg=name)
             # Sum over both.

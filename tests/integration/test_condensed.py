@@ -419,7 +419,7 @@ class Condensed(ProgramTest):
                 break
 
     def test_several_contacts(self):
-        """What contacts act through is one behind the other: linear bodies with at most
+        """Contact dofs of several contacts, one list behind the other: linear bodies with at most
         two solutions a stage, nonlinear ones with one factorisation a step."""
         compliance, persistent = "improved normal compliance", "persistent contact"
         two_step = "Ayyad-Barboteu two-step"

@@ -57,7 +57,7 @@ class Energy(ProgramTest):
                 energy = ledger["modified_energy"]
                 gains = [b - a for a, b in zip(energy, energy[1:])]
                 self.assertLess(max(gains), 1e-13)
-                # It does lose energy at impacts: the test is not empty.
+                # Energy is lost at impacts: the test is not empty.
                 self.assertLess(min(gains), -1e-5)
 
     def test_midpoint_never_gains_with_any_potential(self):

@@ -81,7 +81,7 @@ class Output(ProgramTest):
             "elastic_ball", BALL + NO_FIELDS + ["Time/Final time=0.002"])
         self.assertAlmostEqual(ledger["smallest_gap_foundation"][0], .0155)
         self.assertAlmostEqual(ledger["mean_gap_foundation"][0], 10.0155)
-        # It falls by 10 m/s, free of forces.
+        # The ball falls by 10 m/s, free of forces.
         self.assertAlmostEqual(ledger["smallest_gap_foundation"][1], .0055)
 
     def test_a_method_without_potential_has_no_modified_energy(self):
@@ -92,7 +92,7 @@ class Output(ProgramTest):
             column = [name.split(" [")[0] for name in
                       table[0].split(",")].index("modified_energy")
             self.assertEqual({row.split(",")[column] for row in table[1:]}, {""})
-        # It is resumed all the same.
+        # The run is resumed all the same.
         self.run_program("bar_sd", NO_FIELDS + [
             "Time/Final time=2", "Contact/Nitsche theta=0",
             "Output/Checkpoint every=10"])

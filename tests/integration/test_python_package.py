@@ -185,7 +185,7 @@ class PythonPackage(ProgramTest):
         self.assertGreaterEqual(weights.min(), -1e-14)
         corners = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
         nodes = [*corners, *(.5 * (corners[i] + corners[j]) for i, j in curved.EDGES)]
-        # The middle of an edge is moved along a parabola: what is quadratic is exact.
+        # The middle of an edge is moved along a parabola: quadratic functions are exact.
         moved = numpy.array([[0, 0, x * (1 - x)] for x, _, _ in nodes])
         grid, points = vtk.vtkUnstructuredGrid(), vtk.vtkPoints()
         for node in nodes:

@@ -108,7 +108,7 @@ class Restart(ProgramTest):
                     "Contact/Friction coefficient=0.3",
                     "Contact/Treatment=Signorini multipliers"], .01, .015,
             ((1, 2), (2, 3)))
-        # It is stopped while it slips.
+        # The run is stopped while the body slips.
         self.assertGreater(stopped["contact_force_foundation"][-1], 0.)
         self.assertGreater(increments(stopped["friction_work"])[-1], 0.)
 

@@ -808,7 +808,7 @@ end
         ledger = self.run_program("ricochet", NO_FIELDS, prm=self.write(law))
         self.assertGreater(max(ledger["contact_force_both"]), 1.)
         self.assertLess(largest(ledger["balance_residual"]), 1e-11)
-        # It comes back from both.
+        # The ball comes back from both.
         self.assertGreater(ledger["momentum_x"][-1], 0.)
         self.assertAlmostEqual(ledger["momentum_x"][-1] / ledger["momentum_x"][0],
                                -1., delta=.7)
@@ -847,7 +847,7 @@ end
                           "is included by more than 100 files in each other")
 
     def test_meshes_without_end(self):
-        """Those that never come, and those that no memory holds."""
+        """Meshes that are never finished, and meshes that no memory holds."""
         self.refused_at_once()
         block = "  set Size        = 2, 1\n  set Cells along = 4, 2\n"
         shape = "  set Shape       = rectangle\n"

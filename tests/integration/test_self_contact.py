@@ -97,7 +97,7 @@ class Conservation(SelfContactTest):
                 self.assertGreater(ledger["time"][first], 1.2)
                 self.assertGreater(sum(n > 0 for n in points), 10)
                 self.assertGreater(max(points), 4)
-                # It pushes as hard as the foundation did.
+                # The ring pushes itself as hard as the foundation did.
                 self.assertGreater(max(ledger["contact_force_inner_circle"]), 1e6)
 
     def test_balance(self):

@@ -32,7 +32,7 @@ class ThrownBodies(ProgramTest):
     def body(self, program):
         """Parameters of a small body."""
         if program == "elastic_ball":
-            # It hits in the first step, and has parted again after 0.028 s.
+            # The ball hits in the first step, and has parted again after 0.028 s.
             return BALL + NO_FIELDS + ["Time/Time step=2e-3", "Time/Final time=0.032"]
         # The ring has hit, and rebounds.
         return RING + NO_FIELDS + ["Time/Final time=0.24"]
@@ -105,7 +105,7 @@ class ThrownBodies(ProgramTest):
                 self.check_momenta(ledger, friction)
                 self.check_energy(treatment, ledger, friction, viscosity)
                 if program == "elastic_ball":
-                    # It has come back.
+                    # The body has come back.
                     self.assertEqual(ledger["contact_force_foundation"][-1], 0.)
                 if treatment.startswith("Signorini"):
                     self.assertLess(max(ledger["penetration_foundation"]),

@@ -471,7 +471,7 @@ namespace
     "Signorini active set, dual mortar",
     "standard normal compliance, mortar"};
 
-  /// Of points and mortar.
+  /// Treatments with points and with mortar.
   std::vector<std::string>
   all_treatments()
   {

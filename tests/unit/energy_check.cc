@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(a_gain_breaks_a_promise_once)
       BOOST_TEST(!check.is_open());
       const auto values = check.add(row(4., 1e-7));
       BOOST_TEST(values.breaks_promise);
-      // Of 10 J and 4 J stored, and 4 J of work.
+      // Scale: 10 J and 4 J stored, and 4 J of work.
       BOOST_TEST(std::abs(values.promise_residual - 1e-7 / 14.) < 1e-14);
       BOOST_TEST(!check.add(row(4., 2e-7)).breaks_promise);
       BOOST_TEST(check.is_open());

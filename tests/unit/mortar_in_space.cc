@@ -306,7 +306,7 @@ BOOST_AUTO_TEST_CASE(rows_of_means_are_exact)
                 const auto &rows       = pair->rows(p);
                 double      along      = 0.;
                 double      sliding[2] = {};
-                // Of D, T_1 and T_2.
+                // Sums and moments of the rows D, T_1 and T_2.
                 Tensor<1, 3> sum[3], moment[3];
                 for (unsigned int k = 0; k < rows.unknowns.size(); ++k)
                   {

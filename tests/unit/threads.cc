@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(parts_are_of_equal_work)
 // Solves are those of one thread.
 BOOST_AUTO_TEST_CASE(factors_of_two_bodies)
 {
-  // Of each column the one on the diagonal, then those of L below.
+  // Entries of each column: the one on the diagonal, then those of L below.
   std::vector<int>    order, begin, n_entries, rows;
   std::vector<double> values;
   const auto          add_body = [&](const int n) {

@@ -181,7 +181,7 @@ namespace Ricochet
         return dot<dim>(r, r);
       }
 
-      /// Of either side.
+      /// Distance from the plane of the facet, on either side.
       double
       distance_from_plane(const std::array<double, dim> &y) const
       {
@@ -303,7 +303,7 @@ namespace Ricochet
     };
 
     std::vector<Place<dim>> places;
-    /// Of places, of groups of the level before, and so on up to a single one.
+    /// Groups of facets, groups of these, and so on up to a single one.
     std::vector<std::vector<Group>> levels;
 
     /// Groups of @p n_members of the level before.
