@@ -49,15 +49,16 @@ namespace Ricochet
 
 
   void
-  add_stress_pressure(const Vector                     &solution,
-                      ContactPointEvaluator            &evaluator,
-                      std::vector<ContactPointState<>> &work,
-                      ContactSummaries                 &sums)
+  add_stress_pressure(const Vector             &solution,
+                      ContactPointEvaluator    &evaluator,
+                      std::vector<PointVector> &work,
+                      ContactSummaries         &sums)
   {
     evaluator.evaluate(solution, work);
     for (unsigned int p = 0; p < work.size(); ++p)
       sums[evaluator.contact_points()[p].boundary_id].stress_pressure +=
-        evaluator.contact_points()[p].weight * work[p].stress_pressure;
+        evaluator.contact_points()[p].weight *
+        work[p][PointPlace::stress_pressure];
   }
 
 

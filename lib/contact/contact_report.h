@@ -121,10 +121,10 @@ namespace Ricochet
 
   /// Add the weighted stress pressures of @p evaluator to @p sums.
   void
-  add_stress_pressure(const Vector                     &solution,
-                      ContactPointEvaluator            &evaluator,
-                      std::vector<ContactPointState<>> &work,
-                      ContactSummaries                 &sums);
+  add_stress_pressure(const Vector             &solution,
+                      ContactPointEvaluator    &evaluator,
+                      std::vector<PointVector> &work,
+                      ContactSummaries         &sums);
 } // namespace Ricochet
 
 #endif

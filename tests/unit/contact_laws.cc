@@ -6,6 +6,7 @@
 #include <contact/laws/coulomb_friction.h>
 #include <contact/laws/regularised_friction.h>
 #include <contact/laws/augmented_lagrangian.h>
+#include <contact/laws/frictional_constraint.h>
 #include <contact/laws/nitsche.h>
 #include <contact/laws/nitsche_two_point.h>
 #include <contact/laws/normal_compliance.h>
@@ -15,6 +16,7 @@
 #include <Sacado.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -297,6 +299,102 @@ BOOST_AUTO_TEST_CASE(friction_tangents_are_derivatives)
 {
   compare_friction(CoulombFriction{.3});
   compare_friction(WeakeningFriction());
+}
+
+namespace
+{
+  /// FrictionalConstraint against pressure - [pressure - r closing]_+ and
+  /// traction - P(traction + r slip), differentiated automatically.
+  template <int n>
+  void
+  compare_constraint(const double coefficient)
+  {
+    const double                r = 5.;
+    std::array<unsigned int, 3> n_found{};
+    const std::array<double, 3> pressures = {{.7, -.1, 2.}};
+    const std::array<double, 3> gaps      = {{-.1, .05, .9}};
+    const dealii::Tensor<1, 3>  sliding({.8, -.3, .5});
+    for (const double pressure : pressures)
+      for (const double closing : gaps)
+        for (const double size : {1e-3, .02, .4})
+          {
+            ConstraintState<n> state;
+            state.pressure = pressure;
+            state.closing  = closing;
+            for (unsigned int d = 0; d < n; ++d)
+              {
+                state.slip[d]     = size * sliding[d];
+                state.traction[d] = .02 * sliding[(d + 1) % 3];
+              }
+            FrictionalConstraint<n> constraint;
+            constraint.choose(state, r, coefficient);
+            ++n_found[static_cast<unsigned int>(constraint.status())];
+            const auto equations   = constraint.equations(state);
+            const auto derivatives = constraint.derivatives();
+
+            constexpr unsigned int n_variables = 2 + 2 * n;
+            const AD               p(n_variables, 0, pressure);
+            const AD               trial  = p - r * AD(n_variables, 1, closing);
+            const AD               normal = p - positive_part(trial);
+            BOOST_CHECK_SMALL(normal.val() - equations.normal, 1e-14);
+            BOOST_CHECK_SMALL(normal.dx(0) - derivatives.normal_with_pressure,
+                              1e-14);
+            BOOST_CHECK_SMALL(normal.dx(1) - derivatives.normal_with_closing,
+                              1e-14);
+
+            std::array<AD, n> traction, friction_trial;
+            AD                square = 0.;
+            for (unsigned int d = 0; d < n; ++d)
+              {
+                traction[d] = AD(n_variables, 2 + d, state.traction[d]);
+                friction_trial[d] =
+                  traction[d] + r * AD(n_variables, 2 + n + d, state.slip[d]);
+                square += friction_trial[d] * friction_trial[d];
+              }
+            // The radius of an open point is zero.
+            const AD radius =
+              trial.val() > 0. ? AD(coefficient * positive_part(p)) : AD(0.);
+            const AD size_of_trial = sqrt(square);
+            for (unsigned int d = 0; d < n; ++d)
+              {
+                const AD projection = size_of_trial.val() < radius.val()
+                  ? friction_trial[d]
+                  : AD(radius / size_of_trial * friction_trial[d]);
+                const AD tangential = traction[d] - projection;
+                BOOST_CHECK_SMALL(tangential.val() - equations.tangential[d],
+                                  1e-14);
+                BOOST_CHECK_SMALL(tangential.dx(0) -
+                                    derivatives.tangential_with_pressure[d],
+                                  1e-13);
+                for (unsigned int e = 0; e < n; ++e)
+                  {
+                    BOOST_CHECK_SMALL(
+                      tangential.dx(2 + e) -
+                        derivatives.tangential_with_traction[d][e],
+                      1e-13);
+                    BOOST_CHECK_SMALL(tangential.dx(2 + n + e) -
+                                        derivatives.tangential_with_slip[d][e],
+                                      1e-13);
+                  }
+              }
+          }
+    // All pieces, sticking only with friction.
+    BOOST_CHECK_GT(n_found[0], 0);
+    BOOST_CHECK_GT(n_found[1], 0);
+    BOOST_CHECK_EQUAL(n_found[2] > 0, coefficient > 0.);
+  }
+} // namespace
+
+// The one constraint of active sets and of multipliers between bodies, open, slipping
+// and sticking, in 2D and 3D.
+BOOST_AUTO_TEST_CASE(constraint_is_a_projection)
+{
+  for (const double coefficient : {0., .3})
+    {
+      compare_constraint<1>(coefficient);
+      compare_constraint<2>(coefficient);
+      compare_constraint<3>(coefficient);
+    }
 }
 
 // In the kink itself (grazing contact, q = 0) the tangent must be one of the

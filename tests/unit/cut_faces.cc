@@ -309,8 +309,10 @@ BOOST_AUTO_TEST_CASE(rigid_motions_change_no_gap)
             }
           const unsigned int c = faces.points.component[k];
           const double arm     = c == 0 ? -found->second[1] : found->second[0];
-          sum[c] += faces.points.gap_coefficient[k];
-          moment += arm * faces.points.gap_coefficient[k];
+          const double gap_coefficient =
+            point.obstacle_normal[c] * faces.points.shape_value[k];
+          sum[c] += gap_coefficient;
+          moment += arm * gap_coefficient;
           stress_sum[c] += faces.points.stress_pressure_coefficient[k];
           stress_moment += arm * faces.points.stress_pressure_coefficient[k];
         }

@@ -8,10 +8,11 @@
 
 namespace Ricochet
 {
-  ContactKinematics::ContactKinematics(ContactPointEvaluator evaluator_,
-                                       const Needs          &needs)
+  ContactKinematics::ContactKinematics(ContactPointEvaluator evaluator_)
     : evaluator(std::move(evaluator_))
-    , needs(needs)
+    , current(points().size())
+    , old(points().size())
+    , up_to_date(points().size(), false)
   {
     for (const ContactPoint &point : points())
       {
@@ -25,11 +26,76 @@ namespace Ricochet
 
 
 
+  void
+  ContactKinematics::begin_step(const ContactStart               &start,
+                                std::vector<ContactPointState<>> &old_states)
+  {
+    time_step = start.time_step;
+    end_time  = start.end_time;
+    place_obstacles();
+    evaluator.evaluate(start.solution, old);
+    find_states(old, Instant::begin, old_states);
+  }
+
+
+
+  void
+  ContactKinematics::begin_instant(const double time)
+  {
+    time_step = 0.;
+    end_time  = time;
+    place_obstacles();
+  }
+
+
+
+  void
+  ContactKinematics::predict(const Vector &mean_velocity)
+  {
+    evaluator.evaluate(mean_velocity, rate);
+  }
+
+
+
+  void
+  ContactKinematics::evaluate(const Vector                     &solution,
+                              std::vector<ContactPointState<>> &states)
+  {
+    evaluator.evaluate(solution, current);
+    find_states(current, Instant::end, states);
+    up_to_date.assign(states.size(), false);
+  }
+
+
+
+  void
+  ContactKinematics::evaluate(const std::vector<PointVector>   &values,
+                              std::vector<ContactPointState<>> &states)
+  {
+    current = values;
+    find_states(current, Instant::end, states);
+    up_to_date.assign(states.size(), false);
+  }
+
+
+
+  void
+  ContactKinematics::find_states(const std::vector<PointVector>   &observables,
+                                 const Instant                     instant,
+                                 std::vector<ContactPointState<>> &states) const
+  {
+    states.resize(observables.size());
+    for (unsigned int p = 0; p < states.size(); ++p)
+      states[p] = {gap(p, displacement_of(observables[p]), instant),
+                   observables[p][PointPlace::stress_pressure],
+                   observables[p][PointPlace::multiplier]};
+  }
+
+
+
   template <int dim>
   std::unique_ptr<ContactKinematics>
-  make_kinematics(const Body<dim>                &body,
-                  ContactPoints                   points,
-                  const ContactKinematics::Needs &needs)
+  make_kinematics(const Body<dim> &body, ContactPoints points)
   {
     const bool planes = std::all_of(points.points.begin(),
                                     points.points.end(),
@@ -45,24 +111,17 @@ namespace Ricochet
     using dealii::Utilities::MPI::max;
     ContactPointEvaluator evaluator(body, std::move(points));
     if (max(planes ? 0 : 1, body.communicator) == 0)
-      return std::make_unique<PlanesAtRest>(std::move(evaluator), needs);
+      return std::make_unique<PlanesAtRest>(std::move(evaluator));
     return std::make_unique<RigidObstacles>(std::move(evaluator),
-                                            needs,
                                             max(moves ? 1 : 0,
                                                 body.communicator) == 1);
   }
 
 
   template std::unique_ptr<ContactKinematics>
-  make_kinematics(const Body<1> &,
-                  ContactPoints,
-                  const ContactKinematics::Needs &);
+  make_kinematics(const Body<1> &, ContactPoints);
   template std::unique_ptr<ContactKinematics>
-  make_kinematics(const Body<2> &,
-                  ContactPoints,
-                  const ContactKinematics::Needs &);
+  make_kinematics(const Body<2> &, ContactPoints);
   template std::unique_ptr<ContactKinematics>
-  make_kinematics(const Body<3> &,
-                  ContactPoints,
-                  const ContactKinematics::Needs &);
+  make_kinematics(const Body<3> &, ContactPoints);
 } // namespace Ricochet

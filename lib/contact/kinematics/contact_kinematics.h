@@ -4,6 +4,7 @@
 
 #include <contact/energy_promise.h>
 #include <contact/kinematics/point_evaluator.h>
+#include <contact/laws/contact_law.h>
 
 #include <memory>
 #include <vector>
@@ -86,16 +87,7 @@ namespace Ricochet
   class ContactKinematics
   {
   public:
-    /// What is asked for beside gaps; it costs time.
-    struct Needs
-    {
-      /// Increment of the gap, and slip.
-      bool way = false;
-      /// predicted_gap()
-      bool prediction = false;
-    };
-
-    ContactKinematics(ContactPointEvaluator evaluator, const Needs &needs);
+    explicit ContactKinematics(ContactPointEvaluator evaluator);
 
     virtual ~ContactKinematics() = default;
 
@@ -111,32 +103,34 @@ namespace Ricochet
     /// Begin a step, over which its forces act, and evaluate its beginning. With a
     /// step of no length, @p start is an instant, and forces act along the normals
     /// there.
-    virtual void
+    void
     begin_step(const ContactStart               &start,
-               std::vector<ContactPointState<>> &old_states) = 0;
+               std::vector<ContactPointState<>> &old_states);
+
+    /// Let the @p mean_velocity (m/s) of the step before go on, see predicted_gap();
+    /// after begin_step().
+    void
+    predict(const Vector &mean_velocity);
 
     /// Begin an instant, outside of any step.
-    virtual void
-    begin_instant(const double time) = 0;
+    void
+    begin_instant(const double time);
 
     /// Gap, stress pressure and multiplier of all points at @p solution, the end
-    /// of the step. Speaks of geometry() as well.
-    virtual void
-    evaluate(const Vector                     &solution,
-             std::vector<ContactPointState<>> &states) = 0;
+    /// of the step; geometry() follows.
+    void
+    evaluate(const Vector &solution, std::vector<ContactPointState<>> &states);
 
-    /// The same where points are displaced by @p displacements (m): the gaps, and
-    /// geometry().
-    virtual void
-    displace(const std::vector<dealii::Tensor<1, 3>> &displacements,
-             std::vector<ContactPointState<>>        &states) = 0;
+    /// The same with @p values of the observables of all points.
+    void
+    evaluate(const std::vector<PointVector>   &values,
+             std::vector<ContactPointState<>> &states);
 
-    /// Where evaluate() or displace() put the points (m), if rows are not constant or
-    /// the way is needed.
-    const std::vector<dealii::Tensor<1, 3>> &
-    displacements() const
+    /// The observables of all points in the last evaluate().
+    const std::vector<PointVector> &
+    observables() const
     {
-      return displacement;
+      return current;
     }
 
     /// Count in @p steps the points that go through an obstacle from @p begin to @p end
@@ -151,14 +145,20 @@ namespace Ricochet
     {}
 
     /// The gap in the middle of the step, if the mean velocity of the step
-    /// before goes on (B (3.7)); to be called after begin_step().
+    /// before goes on (B (3.7)); after predict().
     virtual double
     predicted_gap(const unsigned int p) const = 0;
 
-    /// Bring geometry() of the point @p p and its rows in the evaluator to the
-    /// state of the last evaluate(), where they are not always.
-    virtual void
-    update_geometry(const unsigned int p) = 0;
+    /// Bring geometry() of the point @p p to the state of the last evaluate(). That of
+    /// most points is never needed: they are far away.
+    void
+    update_geometry(const unsigned int p)
+    {
+      if (up_to_date[p])
+        return;
+      up_to_date[p] = true;
+      compute_geometry(p);
+    }
 
     /// After update_geometry().
     const PointGeometry &
@@ -192,19 +192,60 @@ namespace Ricochet
     ContactPointEvaluator evaluator;
 
   protected:
-    const Needs                       needs;
-    std::vector<PointGeometry>        geometries;
-    std::vector<dealii::Tensor<1, 3>> displacement, old_displacement;
-    std::vector<dealii::Tensor<1, 3>> mean_velocity;
+    enum class Instant
+    {
+      begin,
+      end
+    };
+
+    /// Put the obstacles where they are from the beginning to the end of the step.
+    virtual void
+    place_obstacles()
+    {}
+
+    /// The gap of point @p p, displaced by @p displacement (m), at one end of the step.
+    virtual double
+    gap(const unsigned int          p,
+        const dealii::Tensor<1, 3> &displacement,
+        const Instant               instant) const = 0;
+
+    /// Bring #geometries of point @p p to #current.
+    virtual void
+    compute_geometry(const unsigned int p) = 0;
+
+    /// Displacement of a point at the end of the step, and at its beginning (m).
+    dealii::Tensor<1, 3>
+    displacement(const unsigned int p) const
+    {
+      return displacement_of(current[p]);
+    }
+    dealii::Tensor<1, 3>
+    old_displacement(const unsigned int p) const
+    {
+      return displacement_of(old[p]);
+    }
+
+    // Of the step (s); no length in an instant.
+    double                     time_step = 0., end_time = 0.;
+    std::vector<PointGeometry> geometries;
+    // Observables at the end and the beginning of the step, and predicted rates.
+    std::vector<PointVector> current, old, rate;
+
+  private:
+    /// The states of points with these @p observables.
+    void
+    find_states(const std::vector<PointVector>   &observables,
+                const Instant                     instant,
+                std::vector<ContactPointState<>> &states) const;
+
+    std::vector<bool> up_to_date;
   };
 
   /// The kinematics that fits the obstacles of the @p points: planes at rest, or
   /// any rigid obstacles.
   template <int dim>
   std::unique_ptr<ContactKinematics>
-  make_kinematics(const Body<dim>                &body,
-                  ContactPoints                   points,
-                  const ContactKinematics::Needs &needs = {});
+  make_kinematics(const Body<dim> &body, ContactPoints points);
 } // namespace Ricochet
 
 #endif

@@ -126,7 +126,6 @@ namespace Ricochet
                       }
                     points.add_displacement(
                       body.system_index(indices[i]),
-                      point.obstacle_normal,
                       element.system_to_component_index(i).first,
                       face_values.shape_value(i, q),
                       stress_pressure);
@@ -268,11 +267,7 @@ namespace Ricochet
         node.point.weight   = std::abs(mass) > 1e-10 * moduli ? mass : 0.;
         node.point.begin    = points.index.size();
         for (unsigned int c = 0; c < dim; ++c)
-          points.add_displacement(node.index[c],
-                                  node.point.obstacle_normal,
-                                  c,
-                                  1.,
-                                  0.);
+          points.add_displacement(node.index[c], c, 1., 0.);
         if (with_multipliers)
           points.add_multiplier(node.index[dim], 1.);
         node.point.end = points.index.size();

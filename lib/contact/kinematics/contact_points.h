@@ -19,7 +19,7 @@ namespace Ricochet
   /**
    * One point of the contact boundary: its displacement, stress pressure and
    * multiplier are linear functions of the unknowns, given by their coefficients
-   * in ContactPoints. So is the gap to a plane at rest, but for the initial gap.
+   * in ContactPoints.
    */
   struct ContactPoint
   {
@@ -39,7 +39,7 @@ namespace Ricochet
     /// Never null.
     std::shared_ptr<const RigidObstacle> obstacle;
 
-    /// Coefficients [begin, end) in ContactPoints::index, gap_coefficient, ...
+    /// Coefficients [begin, end) in ContactPoints::index, shape_value, ...
     unsigned int begin = 0, end = 0;
   };
 
@@ -54,8 +54,7 @@ namespace Ricochet
 
   /**
    * All contact points of this rank, with their coefficients in flat
-   * arrays that the hot loops run through. Made once; where an obstacle is curved
-   * or moves, the coefficients of the gap are made again in each iteration.
+   * arrays that the hot loops run through. Made once.
    */
   struct ContactPoints
   {
@@ -63,7 +62,6 @@ namespace Ricochet
 
     /// System index of each coefficient.
     std::vector<dealii::types::global_dof_index> index;
-    std::vector<double>                          gap_coefficient;
     std::vector<double>                          stress_pressure_coefficient;
     std::vector<double>                          multiplier_coefficient;
     /// Which component of the displacement of the point the unknown belongs to
@@ -74,14 +72,11 @@ namespace Ricochet
     /// Append an unknown of the displacement to the last point.
     void
     add_displacement(const dealii::types::global_dof_index unknown,
-                     const dealii::Tensor<1, 3>           &obstacle_normal,
                      const unsigned int displacement_component,
                      const double       value,
                      const double       stress_pressure)
     {
       index.push_back(unknown);
-      gap_coefficient.push_back(obstacle_normal[displacement_component] *
-                                value);
       stress_pressure_coefficient.push_back(stress_pressure);
       multiplier_coefficient.push_back(0.);
       component.push_back(displacement_component);
@@ -94,7 +89,6 @@ namespace Ricochet
                    const double                          value)
     {
       index.push_back(unknown);
-      gap_coefficient.push_back(0.);
       stress_pressure_coefficient.push_back(0.);
       multiplier_coefficient.push_back(value);
       component.push_back(0);

@@ -321,7 +321,6 @@ namespace Ricochet
                         if (value != 0. || stress_pressure != 0.)
                           points.add_displacement(
                             face.unknowns[i],
-                            point.obstacle_normal,
                             element.system_to_component_index(i).first,
                             value,
                             stress_pressure);

@@ -6,7 +6,7 @@
 
 namespace Ricochet
 {
-  /// Before planes that do not move the gap is an affine function of the unknowns,
+  /// Against planes that do not move the gap is an affine function of the unknowns,
   /// and all directions are those of the start.
   class PlanesAtRest : public ContactKinematics
   {
@@ -25,33 +25,12 @@ namespace Ricochet
       return false;
     }
 
-    void
-    begin_step(const ContactStart               &start,
-               std::vector<ContactPointState<>> &old_states) override;
-
-    void
-    begin_instant(const double /*time*/) override
-    {}
-
-    void
-    evaluate(const Vector                     &solution,
-             std::vector<ContactPointState<>> &states) override;
-
-    void
-    displace(const std::vector<dealii::Tensor<1, 3>> &displacements,
-             std::vector<ContactPointState<>>        &states) override;
-
     double
     predicted_gap(const unsigned int p) const override
     {
-      return old_state[p].gap +
-        .5 * time_step * (geometries[p].normal * mean_velocity[p]);
+      return gap(p, old_displacement(p), Instant::begin) +
+        .5 * time_step * (geometries[p].normal * displacement_of(rate[p]));
     }
-
-    /// Nothing changes.
-    void
-    update_geometry(const unsigned int /*p*/) override
-    {}
 
     double
     gap_round_off(const unsigned int p, const double gap) const override
@@ -62,16 +41,26 @@ namespace Ricochet
     double
     way_round_off(const unsigned int p) const override
     {
-      return gap_round_off(p, displacement[p].norm());
+      return gap_round_off(p, displacement(p).norm());
     }
 
   private:
-    /// Bring the ways of all points to #displacement.
-    void
-    find_ways();
+    double
+    gap(const unsigned int          p,
+        const dealii::Tensor<1, 3> &displacement,
+        const Instant /*instant*/) const override
+    {
+      return points()[p].initial_gap + geometries[p].normal * displacement;
+    }
 
-    double                           time_step = 0.;
-    std::vector<ContactPointState<>> old_state;
+    void
+    compute_geometry(const unsigned int p) override
+    {
+      // From displacements, so that nothing cancels far from the origin.
+      PointGeometry &geometry = geometries[p];
+      geometry.relative_way   = displacement(p) - old_displacement(p);
+      geometry.gap_increment  = geometry.normal * geometry.relative_way;
+    }
   };
 } // namespace Ricochet
 

@@ -69,71 +69,29 @@ namespace Ricochet
 
 
   void
-  ContactPointEvaluator::evaluate(const Vector                     &solution,
-                                  std::vector<ContactPointState<>> &states)
+  ContactPointEvaluator::evaluate(const Vector             &solution,
+                                  std::vector<PointVector> &observables)
   {
     ghosted.import(solution);
     const double *value = ghosted.values();
-    states.resize(points.points.size());
-    for (unsigned int p = 0; p < states.size(); ++p)
+    observables.resize(points.points.size());
+    for (unsigned int p = 0; p < observables.size(); ++p)
       {
         const ContactPoint &point = points.points[p];
-        ContactPointState<> state;
-        state.gap = point.initial_gap;
-        // Memory limits this: what is zero everywhere is not read.
+        PointVector         sum;
+        // Memory limits this: coefficients that are all zero are not read.
+        for (unsigned int k = point.begin; k < point.end; ++k)
+          sum[points.component[k]] +=
+            points.shape_value[k] * value[local_index[k]];
         if (has_stress_pressure)
           for (unsigned int k = point.begin; k < point.end; ++k)
-            {
-              const double unknown = value[local_index[k]];
-              state.gap += points.gap_coefficient[k] * unknown;
-              state.stress_pressure +=
-                points.stress_pressure_coefficient[k] * unknown;
-            }
-        else
-          for (unsigned int k = point.begin; k < point.end; ++k)
-            state.gap += points.gap_coefficient[k] * value[local_index[k]];
+            sum[PointPlace::stress_pressure] +=
+              points.stress_pressure_coefficient[k] * value[local_index[k]];
         if (has_multipliers)
           for (unsigned int k = point.begin; k < point.end; ++k)
-            state.multiplier +=
+            sum[PointPlace::multiplier] +=
               points.multiplier_coefficient[k] * value[local_index[k]];
-        states[p] = state;
-      }
-  }
-
-
-
-  void
-  ContactPointEvaluator::evaluate_displacement(
-    const Vector                      &solution,
-    std::vector<dealii::Tensor<1, 3>> &displacements)
-  {
-    ghosted.import(solution);
-    const double *value = ghosted.values();
-    displacements.resize(points.points.size());
-    for (unsigned int p = 0; p < displacements.size(); ++p)
-      {
-        displacements[p] = 0.;
-        for (unsigned int k = points.points[p].begin; k < points.points[p].end;
-             ++k)
-          displacements[p][points.component[k]] +=
-            points.shape_value[k] * value[local_index[k]];
-      }
-  }
-
-
-
-  void
-  ContactPointEvaluator::set_rows(const unsigned int          p,
-                                  const dealii::Tensor<1, 3> &direction,
-                                  const dealii::Tensor<1, 3> &gradient)
-  {
-    if (gap_gradient.empty())
-      gap_gradient = points.gap_coefficient;
-    for (unsigned int k = points.points[p].begin; k < points.points[p].end; ++k)
-      {
-        const unsigned int c      = points.component[k];
-        points.gap_coefficient[k] = direction[c] * points.shape_value[k];
-        gap_gradient[k]           = gradient[c] * points.shape_value[k];
+        observables[p] = sum;
       }
   }
 
@@ -157,107 +115,57 @@ namespace Ricochet
 
 
   void
-  ContactPointEvaluator::add(const unsigned int         p,
-                             const ContactPointForce<> &force,
-                             Vector                    &vector)
+  ContactPointEvaluator::add(const unsigned int p,
+                             const PointVector &force,
+                             Vector            &vector)
   {
-    const ContactPoint &point = points.points[p];
-    if (force.gap == 0. && force.stress_pressure == 0. &&
-        force.multiplier == 0.)
-      return;
+    const ContactPoint &point    = points.points[p];
+    const PointVector   weighted = point.weight * force;
+    const auto          add      = [&](const auto &value) {
+      add_to_unknowns(point, value, vector);
+    };
+    const auto on_displacement = [&](const unsigned int k) {
+      return weighted[points.component[k]] * points.shape_value[k];
+    };
     if (has_multipliers)
-      add_to_unknowns(
-        point,
-        [&](const unsigned int k) {
-          return point.weight *
-            (force.gap * points.gap_coefficient[k] +
-             force.stress_pressure * points.stress_pressure_coefficient[k] +
-             force.multiplier * points.multiplier_coefficient[k]);
-        },
-        vector);
+      add([&](const unsigned int k) {
+        return on_displacement(k) +
+          weighted[PointPlace::stress_pressure] *
+          points.stress_pressure_coefficient[k] +
+          weighted[PointPlace::multiplier] * points.multiplier_coefficient[k];
+      });
+    else if (has_stress_pressure)
+      add([&](const unsigned int k) {
+        return on_displacement(k) +
+          weighted[PointPlace::stress_pressure] *
+          points.stress_pressure_coefficient[k];
+      });
     else
-      add_to_unknowns(
-        point,
-        [&](const unsigned int k) {
-          return point.weight *
-            (force.gap * points.gap_coefficient[k] +
-             force.stress_pressure * points.stress_pressure_coefficient[k]);
-        },
-        vector);
+      add(on_displacement);
   }
 
 
 
   void
-  ContactPointEvaluator::add(const unsigned int         p,
-                             const double               factor,
-                             const ContactPointTangent &tangent,
-                             Matrix                    &matrix) const
-  {
-    const ContactPoint        &point    = points.points[p];
-    const std::vector<double> &with_gap = gap_derivatives();
-    for (unsigned int i = point.begin; i < point.end; ++i)
-      {
-        const double row[3] = {points.gap_coefficient[i],
-                               points.stress_pressure_coefficient[i],
-                               points.multiplier_coefficient[i]};
-        double       row_times_tangent[3];
-        for (unsigned int c = 0; c < 3; ++c)
-          row_times_tangent[c] = factor * point.weight *
-            (row[0] * tangent[0][c] + row[1] * tangent[1][c] +
-             row[2] * tangent[2][c]);
-        for (unsigned int j = point.begin; j < point.end; ++j)
-          local_matrix[j - point.begin] = row_times_tangent[0] * with_gap[j] +
-            row_times_tangent[1] * points.stress_pressure_coefficient[j] +
-            row_times_tangent[2] * points.multiplier_coefficient[j];
-        matrix.add(points.index[i],
-                   point.end - point.begin,
-                   points.index.data() + point.begin,
-                   local_matrix.data(),
-                   true);
-      }
-  }
-
-
-
-  void
-  ContactPointEvaluator::add(const unsigned int          p,
-                             const dealii::Tensor<1, 3> &traction,
-                             Vector                     &vector)
+  ContactPointEvaluator::add(const unsigned int p,
+                             const double       factor,
+                             const PointMatrix &tangent,
+                             Matrix            &matrix) const
   {
     const ContactPoint &point = points.points[p];
-    add_to_unknowns(
-      point,
-      [&](const unsigned int k) {
-        return point.weight * traction[points.component[k]] *
-          points.shape_value[k];
-      },
-      vector);
-  }
-
-
-
-  void
-  ContactPointEvaluator::add(
-    const unsigned int                         p,
-    const double                               factor,
-    const dealii::Tensor<2, 3>                &with_displacement,
-    const std::array<dealii::Tensor<1, 3>, 3> &with_state,
-    Matrix                                    &matrix) const
-  {
-    const ContactPoint        &point    = points.points[p];
-    const std::vector<double> &with_gap = gap_derivatives();
     for (unsigned int i = point.begin; i < point.end; ++i)
       {
-        const unsigned int row  = points.component[i];
-        const double       test = factor * point.weight * points.shape_value[i];
+        const PointVector row = factor * point.weight *
+          (points.shape_value[i] * tangent[points.component[i]] +
+           points.stress_pressure_coefficient[i] *
+             tangent[PointPlace::stress_pressure] +
+           points.multiplier_coefficient[i] * tangent[PointPlace::multiplier]);
         for (unsigned int j = point.begin; j < point.end; ++j)
-          local_matrix[j - point.begin] = test *
-            (with_displacement[row][points.component[j]] *
-               points.shape_value[j] +
-             with_state[0][row] * with_gap[j] +
-             with_state[1][row] * points.stress_pressure_coefficient[j] +
-             with_state[2][row] * points.multiplier_coefficient[j]);
+          local_matrix[j - point.begin] =
+            row[points.component[j]] * points.shape_value[j] +
+            row[PointPlace::stress_pressure] *
+              points.stress_pressure_coefficient[j] +
+            row[PointPlace::multiplier] * points.multiplier_coefficient[j];
         matrix.add(points.index[i],
                    point.end - point.begin,
                    points.index.data() + point.begin,

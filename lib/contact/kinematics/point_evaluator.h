@@ -4,11 +4,9 @@
 
 #include <base/ghosted_vector.h>
 #include <base/types.h>
-#include <contact/laws/contact_law.h>
 #include <contact/kinematics/contact_points.h>
+#include <contact/kinematics/point_vector.h>
 
-#include <array>
-#include <utility>
 #include <vector>
 
 namespace Ricochet
@@ -33,49 +31,22 @@ namespace Ricochet
                                                 body.communicator) > 0;
     }
 
-    /// Evaluate all points at @p solution into @p states, with the gaps of planes
-    /// at rest.
+    /// Evaluate the @p observables of all points at @p solution.
     void
-    evaluate(const Vector &solution, std::vector<ContactPointState<>> &states);
-
-    /// The displacement of all points at @p solution (m).
-    void
-    evaluate_displacement(const Vector                      &solution,
-                          std::vector<dealii::Tensor<1, 3>> &displacements);
-
-    /// Let the force of point @p p act along @p direction, and its gap have the
-    /// gradient @p gap_gradient: where neither is the same for ever.
-    void
-    set_rows(const unsigned int          p,
-             const dealii::Tensor<1, 3> &direction,
-             const dealii::Tensor<1, 3> &gap_gradient);
+    evaluate(const Vector &solution, std::vector<PointVector> &observables);
 
     /// Add @p force of point @p p, weighted, to @p vector (to be compressed by
     /// the caller).
     void
-    add(const unsigned int p, const ContactPointForce<> &force, Vector &vector);
+    add(const unsigned int p, const PointVector &force, Vector &vector);
 
-    /// The same for a @p traction on the displacement.
+    /// Add @p tangent of point @p p, weighted and times @p factor, to @p matrix (to be
+    /// compressed by the caller).
     void
-    add(const unsigned int          p,
-        const dealii::Tensor<1, 3> &traction,
-        Vector                     &vector);
-
-    /// Add @p tangent of point @p p, times @p factor, to @p matrix.
-    void
-    add(const unsigned int         p,
-        const double               factor,
-        const ContactPointTangent &tangent,
-        Matrix                    &matrix) const;
-
-    /// The same for a traction with the derivatives @p with_displacement, and
-    /// @p with_state with respect to gap, stress pressure and multiplier.
-    void
-    add(const unsigned int                         p,
-        const double                               factor,
-        const dealii::Tensor<2, 3>                &with_displacement,
-        const std::array<dealii::Tensor<1, 3>, 3> &with_state,
-        Matrix                                    &matrix) const;
+    add(const unsigned int p,
+        const double       factor,
+        const PointMatrix &tangent,
+        Matrix            &matrix) const;
 
     /// Averages around each node of @p values in the points, in the place of the
     /// node's first displacement: weighted by the square of the node's shape
@@ -122,17 +93,8 @@ namespace Ricochet
                     const Value        &value,
                     Vector             &vector) const;
 
-    /// Derivatives of the gap with respect to the unknowns.
-    const std::vector<double> &
-    gap_derivatives() const
-    {
-      return gap_gradient.empty() ? points.gap_coefficient : gap_gradient;
-    }
-
     ContactPoints points;
-    // Of the gap; empty where that is the direction of the force.
-    std::vector<double> gap_gradient;
-    GhostedVector       ghosted;
+    GhostedVector ghosted;
     /// Unknowns of this rank.
     const dealii::IndexSet owned;
     std::vector<int>       local_index;

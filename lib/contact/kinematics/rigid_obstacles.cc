@@ -10,9 +10,8 @@ namespace Ricochet
   using dealii::Tensor;
 
   RigidObstacles::RigidObstacles(ContactPointEvaluator evaluator_,
-                                 const Needs          &needs,
                                  const bool            some_move)
-    : ContactKinematics(std::move(evaluator_), needs)
+    : ContactKinematics(std::move(evaluator_))
     , some_move(some_move)
   {
     for (const ContactPoint &point : points())
@@ -25,88 +24,41 @@ namespace Ricochet
           obstacles.push_back(obstacle);
       }
     steps.resize(obstacles.size());
-    up_to_date.resize(points().size());
   }
 
 
 
   void
-  RigidObstacles::begin_step(const ContactStart               &start,
-                             std::vector<ContactPointState<>> &old_states)
+  RigidObstacles::place_obstacles()
   {
-    time_step = start.time_step;
-    end_time  = start.end_time;
-    instant   = time_step == 0.;
     for (unsigned int i = 0; i < obstacles.size(); ++i)
       steps[i] = obstacles[i]->step(end_time - time_step, end_time);
-    evaluator.evaluate(start.solution, old_states);
-    evaluator.evaluate_displacement(start.solution, old_displacement);
-    for (unsigned int p = 0; p < old_states.size(); ++p)
-      old_states[p].gap =
-        gap(p, steps[obstacle_of_point[p]].begin, old_displacement[p]);
-    if (needs.prediction)
-      evaluator.evaluate_displacement(start.mean_velocity, mean_velocity);
-  }
-
-
-
-  void
-  RigidObstacles::begin_instant(const double time)
-  {
-    time_step = 0.;
-    end_time  = time;
-    instant   = true;
-    for (unsigned int i = 0; i < obstacles.size(); ++i)
-      steps[i] = obstacles[i]->step(time, time);
   }
 
 
 
   double
   RigidObstacles::gap(const unsigned int  p,
-                      const Placement    &placement,
-                      const Tensor<1, 3> &point_displacement) const
+                      const Tensor<1, 3> &displacement,
+                      const Instant       instant) const
   {
-    return obstacles[obstacle_of_point[p]]->shape().gap(
-      placement.pull_back(points()[p].reference_position + point_displacement));
+    const unsigned int         i    = obstacle_of_point[p];
+    const RigidObstacle::Step &step = steps[i];
+    return obstacles[i]->shape().gap(
+      (instant == Instant::begin ? step.begin : step.end)
+        .pull_back(points()[p].reference_position + displacement));
   }
 
 
 
   void
-  RigidObstacles::evaluate(const Vector                     &solution,
-                           std::vector<ContactPointState<>> &states)
+  RigidObstacles::compute_geometry(const unsigned int p)
   {
-    evaluator.evaluate(solution, states);
-    evaluator.evaluate_displacement(solution, displacement);
-    displace(displacement, states);
-  }
-
-
-
-  void
-  RigidObstacles::displace(const std::vector<Tensor<1, 3>>  &displacements,
-                           std::vector<ContactPointState<>> &states)
-  {
-    displacement = displacements;
-    for (unsigned int p = 0; p < states.size(); ++p)
-      states[p].gap = gap(p, steps[obstacle_of_point[p]].end, displacement[p]);
-    up_to_date.assign(states.size(), false);
-  }
-
-
-
-  void
-  RigidObstacles::update_geometry(const unsigned int p)
-  {
-    if (up_to_date[p])
-      return;
-    up_to_date[p]         = true;
     const unsigned int  i = obstacle_of_point[p];
-    const Tensor<1, 3>  x = points()[p].reference_position + displacement[p];
+    const Tensor<1, 3>  x = points()[p].reference_position + displacement(p);
     PointGeometry      &geometry = geometries[p];
     RigidObstacle::Rows rows;
-    if (instant)
+    if (time_step == 0.)
       {
         // Both ends of the step are one point, which moves as such.
         rows = obstacles[i]->rows(steps[i], x, x, Tensor<1, 3>());
@@ -115,9 +67,9 @@ namespace Ricochet
     else
       rows =
         obstacles[i]->rows(steps[i],
-                           points()[p].reference_position + old_displacement[p],
+                           points()[p].reference_position + old_displacement(p),
                            x,
-                           displacement[p] - old_displacement[p]);
+                           displacement(p) - old_displacement(p));
     geometry.direction_length     = rows.direction.norm();
     geometry.normal               = rows.direction / geometry.direction_length;
     geometry.direction_derivative = rows.direction_derivative;
@@ -125,7 +77,6 @@ namespace Ricochet
     geometry.gap_increment        = rows.gap_increment;
     geometry.relative_way         = rows.relative_way;
     geometry.relative_way_derivative = rows.relative_way_derivative;
-    evaluator.set_rows(p, rows.direction, rows.gap_gradient);
   }
 
 
@@ -181,9 +132,9 @@ namespace Ricochet
         begin_placements.push_back(step.begin);
         end_placements.push_back(step.end);
       }
-    std::vector<Tensor<1, 3>> from, to;
-    evaluator.evaluate_displacement(begin, from);
-    evaluator.evaluate_displacement(end, to);
+    std::vector<PointVector> from, to;
+    evaluator.evaluate(begin, from);
+    evaluator.evaluate(end, to);
     for (unsigned int p = 0; p < points().size(); ++p)
       {
         const ContactPoint &point = points()[p];
@@ -192,9 +143,10 @@ namespace Ricochet
           continue;
         // As the obstacle sees it.
         const Tensor<1, 3> old_x = begin_placements[i].pull_back(
-                             point.reference_position + from[p]),
+                             point.reference_position +
+                             displacement_of(from[p])),
                            new_x = end_placements[i].pull_back(
-                             point.reference_position + to[p]);
+                             point.reference_position + displacement_of(to[p]));
         // What moves less than a part of its cell does not pass.
         if ((new_x - old_x).norm() < .05 * point.cell_diameter ||
             !leads_through(obstacles[i]->shape(), old_x, new_x))
@@ -211,8 +163,8 @@ namespace Ricochet
   RigidObstacles::predicted_gap(const unsigned int p) const
   {
     const RigidObstacle &obstacle = *obstacles[obstacle_of_point[p]];
-    return obstacle.gap(points()[p].reference_position + old_displacement[p] +
-                          .5 * time_step * mean_velocity[p],
+    return obstacle.gap(points()[p].reference_position + old_displacement(p) +
+                          .5 * time_step * displacement_of(rate[p]),
                         end_time - .5 * time_step);
   }
 
@@ -224,11 +176,11 @@ namespace Ricochet
     // A difference of two distances from the centre of the obstacle.
     const unsigned int i = obstacle_of_point[p];
     const double       distance =
-      (points()[p].reference_position + displacement[p] -
+      (points()[p].reference_position + displacement(p) -
        steps[i].end.push_forward(obstacles[i]->shape().centre()))
         .norm();
     return 4. * std::numeric_limits<double>::epsilon() *
-      (points()[p].reference_position.norm() + displacement[p].norm() +
+      (points()[p].reference_position.norm() + displacement(p).norm() +
        distance + std::abs(gap));
   }
 } // namespace Ricochet

@@ -13,9 +13,7 @@ namespace Ricochet
   class RigidObstacles : public ContactKinematics
   {
   public:
-    RigidObstacles(ContactPointEvaluator evaluator,
-                   const Needs          &needs,
-                   const bool            some_move);
+    RigidObstacles(ContactPointEvaluator evaluator, const bool some_move);
 
     bool
     has_constant_rows() const override
@@ -30,21 +28,6 @@ namespace Ricochet
     }
 
     void
-    begin_step(const ContactStart               &start,
-               std::vector<ContactPointState<>> &old_states) override;
-
-    void
-    begin_instant(const double time) override;
-
-    void
-    evaluate(const Vector                     &solution,
-             std::vector<ContactPointState<>> &states) override;
-
-    void
-    displace(const std::vector<dealii::Tensor<1, 3>> &displacements,
-             std::vector<ContactPointState<>>        &states) override;
-
-    void
     add_passing(const Vector &begin,
                 const Vector &end,
                 const double  begin_time,
@@ -53,10 +36,6 @@ namespace Ricochet
 
     double
     predicted_gap(const unsigned int p) const override;
-
-    /// The rows of most points are never needed: they are far away.
-    void
-    update_geometry(const unsigned int p) override;
 
     double
     gap_round_off(const unsigned int p, const double gap) const override;
@@ -68,20 +47,22 @@ namespace Ricochet
     }
 
   private:
+    void
+    place_obstacles() override;
+
     double
     gap(const unsigned int          p,
-        const Placement            &placement,
-        const dealii::Tensor<1, 3> &point_displacement) const;
+        const dealii::Tensor<1, 3> &displacement,
+        const Instant               instant) const override;
+
+    void
+    compute_geometry(const unsigned int p) override;
 
     const bool some_move;
-    double     time_step = 0., end_time = 0.;
-    // Forces are those of an instant.
-    bool instant = true;
     // Each obstacle once, and where it is during the step.
     std::vector<const RigidObstacle *> obstacles;
     std::vector<RigidObstacle::Step>   steps;
     std::vector<unsigned int>          obstacle_of_point;
-    std::vector<bool>                  up_to_date;
   };
 } // namespace Ricochet
 

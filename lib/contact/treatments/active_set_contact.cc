@@ -56,6 +56,8 @@ namespace Ricochet
     first_in_stage = true;
     pass           = 0;
     kinematics->begin_step(start, old_state);
+    if (condition == Condition::persistent)
+      kinematics->predict(start.mean_velocity);
     for (unsigned int p = 0; p < nodes.size(); ++p)
       {
         Node &node            = nodes[p];
@@ -87,9 +89,8 @@ namespace Ricochet
         // The reaction is pressure times the direction, whose product with the
         // displacement increment is that of the gap.
         steps[point.boundary_id].add_point(
-          nodes[p].status == Status::open
-            ? 0.
-            : (nodes[p].reaction * geometry.normal) /
+          !is_active(p) ? 0.
+                        : (nodes[p].reaction * geometry.normal) /
               geometry.direction_length * (state[p].gap - old_state[p].gap),
           dealii::Point<3>(point.reference_position));
       }
@@ -102,7 +103,7 @@ namespace Ricochet
   ActiveSetContact::accept_iterate()
   {
     for (Node &node : nodes)
-      node.accepted_status = node.status;
+      node.accepted_status = node.constraint.status();
     first_in_stage = false;
   }
 
@@ -117,7 +118,7 @@ namespace Ricochet
     first_in_stage = true;
     for (Node &node : nodes)
       {
-        node.candidate        = node.status != Status::open;
+        node.candidate        = node.constraint.status() != Status::open;
         node.initial_reaction = node.reaction;
       }
     return true;
@@ -126,50 +127,26 @@ namespace Ricochet
 
 
   void
-  ActiveSetContact::make_functionals()
+  ActiveSetContact::make_rows()
   {
-    const ContactPoints &coefficients = evaluator.coefficients();
-    for (const ContactPoint &point : coefficients.points)
+    const std::vector<ContactPoint> &points = evaluator.contact_points();
+    for (unsigned int p = 0; p < points.size(); ++p)
       {
-        const unsigned int         n_axes = point.end - point.begin;
-        std::vector<Tensor<1, 3>> &own    = directions.emplace_back();
-        if (kinematics->has_constant_rows())
+        if (!kinematics->has_constant_rows())
           {
-            own.push_back(point.obstacle_normal);
-            if (friction_coefficient > 0.)
-              for (const Tensor<1, 3> &direction :
-                   directions_along_plane(point.obstacle_normal, n_axes))
-                own.push_back(direction);
+            jacobian.add_observables(p);
+            continue;
           }
-        else
-          for (unsigned int axis = 0; axis < n_axes; ++axis)
-            {
-              own.emplace_back();
-              own.back()[axis] = 1.;
-            }
-        for (const Tensor<1, 3> &direction : own)
-          {
-            for (unsigned int k = point.begin; k < point.end; ++k)
-              if (const double value = direction[coefficients.component[k]];
-                  value != 0.)
-                functionals.functionals.add(coefficients.index[k], value);
-            functionals.functionals.end_functional();
-            functionals.order.push_back(point.initial_gap);
-          }
-      }
-  }
-
-
-
-  template <typename Use>
-  void
-  ActiveSetContact::for_each_node(const Use &use) const
-  {
-    unsigned int functional = 0;
-    for (unsigned int p = 0; p < nodes.size(); ++p)
-      {
-        use(p, functional, directions[p]);
-        functional += directions[p].size();
+        const auto add = [&](const Tensor<1, 3> &vector) {
+          const PointVector direction = on_displacement(vector);
+          jacobian.add_direction(p, direction, direction, direction);
+        };
+        add(points[p].obstacle_normal);
+        if (friction_coefficient > 0.)
+          for (const Tensor<1, 3> &direction :
+               tangent_directions(points[p].obstacle_normal,
+                                  points[p].end - points[p].begin))
+            add(direction);
       }
   }
 
@@ -178,12 +155,11 @@ namespace Ricochet
   void
   ActiveSetContact::choose_status(const unsigned int p)
   {
-    Node &node  = nodes[p];
-    node.status = Status::open;
+    Node &node = nodes[p];
+    node.constraint.set_status(Status::open);
     if (!node.candidate)
       return;
     const Tensor<1, 3> &normal = kinematics->geometry(p).normal;
-    const double        scale  = constraint_scale(p);
 
     // The reaction of the last iterate: what the equation of motion leaves
     // over in the nodes that were active. In the first iteration it is the
@@ -198,37 +174,32 @@ namespace Ricochet
     if (friction_coefficient == 0.)
       node.reaction = normal_reaction * normal;
 
-    if (!(normal_reaction - scale * node.closing > 0.))
+    node.constraint.choose(constraint_state(p, node.reaction),
+                           constraint_scale(p),
+                           friction_coefficient);
+    if (!is_active(p))
       return;
 
-    node.status             = Status::slip;
-    node.friction_direction = 0.;
-    node.friction_ratio     = 0.;
-    if (friction_coefficient > 0.)
-      {
-        const Tensor<1, 3> friction_trial =
-          node.reaction - normal_reaction * normal - scale * node.slip;
-        const double size = friction_trial.norm();
-        if (size < friction_coefficient * normal_reaction)
-          node.status = Status::stick;
-        else if (size > 0. && normal_reaction >= 0.)
-          {
-            // A node that just became active has no reaction yet, and
-            // already the direction of its friction.
-            node.friction_direction = friction_trial / size;
-            node.friction_ratio = friction_coefficient * normal_reaction / size;
-          }
-      }
+    // The reaction is what the equation of motion leaves over: with it, the equations of
+    // the constraint take the place of the rows of the node.
+    const auto equations =
+      node.constraint.equations(constraint_state(p, node.excess / weight));
+    node.exchange =
+      weight * (equations.normal * normal - equations.tangential) - node.excess;
+  }
 
-    // Replace the normal component, and the tangential ones as well.
-    const double normal_excess = normal * node.excess;
-    node.exchange = (scale * node.closing - normal_excess) * normal;
-    if (node.status == Status::stick)
-      node.exchange +=
-        scale * node.slip - (node.excess - normal_excess * normal);
-    else
-      node.exchange -=
-        friction_coefficient * normal_excess * node.friction_direction;
+
+
+  ConstraintState<3>
+  ActiveSetContact::constraint_state(const unsigned int  p,
+                                     const Tensor<1, 3> &reaction) const
+  {
+    const Tensor<1, 3> &normal   = kinematics->geometry(p).normal;
+    const double        pressure = normal * reaction;
+    return {pressure,
+            nodes[p].closing,
+            pressure * normal - reaction,
+            nodes[p].slip};
   }
 
 
@@ -251,7 +222,7 @@ namespace Ricochet
             node.excess = evaluator.at_node(p, residual);
           }
         choose_status(p);
-        if (node.status == Status::open)
+        if (!is_active(p))
           continue;
         const ContactPoint &point = coefficients.points[p];
         const Tensor<1, 3>  tangential_reaction =
@@ -273,71 +244,38 @@ namespace Ricochet
 
 
   ActiveSetContact::ExchangeDerivatives
-  ActiveSetContact::exchange_derivatives(
-    const unsigned int  p,
-    const Tensor<1, 3> &normal,
-    const Tensor<1, 3> &friction_direction) const
+  ActiveSetContact::exchange_derivatives(const unsigned int p) const
   {
-    // The normal component n.e of the excess e is taken out and replaced by the
-    // constraint. The tangential ones stay (no friction), are replaced too (stick),
-    // or lose
-    //   ratio (P - d d^T) (e - scale weight way) + mu d n.e
-    // (slip, d being the direction of friction, P the projection on the tangent
-    // plane).
-    const Node         &node  = nodes[p];
-    const double        scale = constraint_scale(p);
-    const Tensor<2, 3>  plane = tangent_plane(normal);
+    const Node          &node     = nodes[p];
+    const PointGeometry &geometry = kinematics->geometry(p);
+    const Tensor<1, 3>  &normal   = geometry.normal;
+    const Tensor<2, 3>   one(dealii::unit_symmetric_tensor<3>()),
+      plane                  = tangent_plane(normal);
+    const auto of_constraint = node.constraint.derivatives();
+    // Pressure n.e and traction -P e of the excess e, over the weight.
     ExchangeDerivatives derivatives;
-    const Tensor<2, 3>  along_normal = outer_product(normal, normal);
-    derivatives.with_excess          = -along_normal;
-    derivatives.with_displacement = closing_derivative() * scale * along_normal;
-    if (node.status == Status::stick)
-      {
-        derivatives.with_excess -= plane;
-        derivatives.with_displacement += scale * plane;
-      }
-    else if (friction_coefficient > 0.)
-      {
-        const Tensor<1, 3> &d = friction_direction;
-        const Tensor<2, 3>  across =
-          node.friction_ratio * (plane - outer_product(d, d));
-        derivatives.with_excess -=
-          across + friction_coefficient * outer_product(d, normal);
-        derivatives.with_displacement += scale * weight * across;
-      }
+    derivatives.with_excess = of_constraint.tangential_with_traction * plane -
+      one +
+      outer_product(of_constraint.normal_with_pressure * normal -
+                      of_constraint.tangential_with_pressure,
+                    normal);
+
+    // Gap and slip, and how the normal and the plane of the slip turn.
+    const Tensor<2, 3> turning = geometry.normal_derivative(),
+                       slip_derivative =
+                         plane * geometry.relative_way_derivative +
+      geometry.projection_derivative(geometry.relative_way);
+    derivatives.with_displacement = weight *
+        (outer_product(closing_derivative() *
+                         of_constraint.normal_with_closing * normal,
+                       geometry.gap_gradient) +
+         of_constraint.normal_with_closing * node.closing * turning -
+         of_constraint.tangential_with_slip * slip_derivative) +
+      of_constraint.tangential_with_traction *
+        geometry.projection_derivative(node.excess) -
+      outer_product(of_constraint.tangential_with_pressure,
+                    node.excess * turning);
     return derivatives;
-  }
-
-
-
-  template <typename Entries>
-  void
-  ActiveSetContact::change_of_functionals(
-    const Entries              &entries_of,
-    std::vector<FunctionalRow> &change) const
-  {
-    for_each_node(
-      [&](const unsigned int p, const unsigned int first, const auto &own) {
-        if (nodes[p].status == Status::open)
-          return;
-        Tensor<1, 3> normal             = kinematics->geometry(p).normal,
-                     friction_direction = nodes[p].friction_direction;
-        if (kinematics->has_constant_rows())
-          {
-            // In the frame of the directions, where ones and zeros are exact.
-            normal    = 0.;
-            normal[0] = 1.;
-            for (unsigned int t = 1; t < own.size(); ++t)
-              friction_direction[t] = nodes[p].friction_direction * own[t];
-            friction_direction[0] = 0.;
-          }
-        const Tensor<2, 3> entries =
-          entries_of(p, exchange_derivatives(p, normal, friction_direction));
-        for (unsigned int a = 0; a < own.size(); ++a)
-          for (unsigned int b = 0; b < own.size(); ++b)
-            if (entries[a][b] != 0.)
-              change[first + a].emplace_back(first + b, entries[a][b]);
-      });
   }
 
 
@@ -345,14 +283,15 @@ namespace Ricochet
   void
   ActiveSetContact::tangent_change(std::vector<FunctionalRow> &change) const
   {
-    change_of_functionals(
-      [&](const unsigned int p, const ExchangeDerivatives &derivatives) {
-        Tensor<2, 3> entries = derivatives.with_displacement;
-        if (!kinematics->has_constant_rows())
-          add_turning(p, entries);
-        return entries;
-      },
-      change);
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      if (is_active(p))
+        {
+          jacobian.add(p,
+                       on_displacement(
+                         exchange_derivatives(p).with_displacement),
+                       change);
+        }
+    sum_columns(change);
   }
 
 
@@ -360,11 +299,12 @@ namespace Ricochet
   void
   ActiveSetContact::excess_change(std::vector<FunctionalRow> &change) const
   {
-    change_of_functionals(
-      [&](const unsigned int /*p*/, const ExchangeDerivatives &derivatives) {
-        return derivatives.with_excess;
-      },
-      change);
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      if (is_active(p))
+        jacobian.add(p,
+                     on_displacement(exchange_derivatives(p).with_excess),
+                     change);
+    sum_columns(change);
   }
 
 
@@ -373,45 +313,18 @@ namespace Ricochet
   ActiveSetContact::look_at_change(const std::vector<double> &change,
                                    const std::vector<double> &excess)
   {
-    const bool turns = !kinematics->has_constant_rows();
     if (!looks_at_change)
-      {
-        for (unsigned int p = 0; p < nodes.size(); ++p)
-          {
-            nodes[p].gap_before     = state[p].gap;
-            nodes[p].closing_before = nodes[p].closing;
-            nodes[p].slip_before    = nodes[p].slip;
-          }
-        if (turns)
-          displacements_before = kinematics->displacements();
-      }
+      observables_before = kinematics->observables();
     looks_at_change = true;
-    if (turns)
-      displaced = displacements_before;
-    for_each_node(
-      [&](const unsigned int p, const unsigned int first, const auto &own) {
-        Node &node  = nodes[p];
-        node.excess = 0.;
-        for (unsigned int a = 0; a < own.size(); ++a)
-          node.excess += excess[first + a] * own[a];
-        if (turns)
-          {
-            for (unsigned int a = 0; a < own.size(); ++a)
-              displaced[p] += change[first + a] * own[a];
-            return;
-          }
-        state[p].gap = node.gap_before + change[first];
-        node.closing =
-          node.closing_before + closing_derivative() * change[first];
-        node.slip = node.slip_before;
-        for (unsigned int t = 1; t < own.size(); ++t)
-          node.slip += change[first + t] * own[t];
-      });
-    if (turns)
-      kinematics->displace(displaced, state);
+    observables.resize(nodes.size());
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      observables[p] = observables_before[p] + jacobian.in_point(p, change);
+    kinematics->evaluate(observables, state);
     for (unsigned int p = 0; p < nodes.size(); ++p)
       {
-        if (turns && nodes[p].candidate)
+        // Rows are orthonormal.
+        nodes[p].excess = displacement_of(jacobian.in_point(p, excess));
+        if (nodes[p].candidate)
           look_at_geometry(p);
         choose_status(p);
       }
@@ -433,13 +346,10 @@ namespace Ricochet
   void
   ActiveSetContact::force_change(std::vector<double> &coefficients) const
   {
-    coefficients.assign(functionals.order.size(), 0.);
-    for_each_node(
-      [&](const unsigned int p, const unsigned int first, const auto &own) {
-        if (nodes[p].status != Status::open)
-          for (unsigned int a = 0; a < own.size(); ++a)
-            coefficients[first + a] = nodes[p].exchange * own[a];
-      });
+    coefficients.assign(jacobian.all().functionals.size(), 0.);
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      if (is_active(p))
+        jacobian.add(p, on_displacement(nodes[p].exchange), coefficients);
   }
 
 
@@ -453,8 +363,7 @@ namespace Ricochet
     const auto          &epetra       = tangent.trilinos_matrix();
     for (unsigned int p = 0; p < nodes.size(); ++p)
       {
-        const Node &node = nodes[p];
-        if (node.status == Status::open)
+        if (!is_active(p))
           continue;
         const ContactPoint     &point  = coefficients.points[p];
         const unsigned int      n_rows = point.end - point.begin;
@@ -477,16 +386,11 @@ namespace Ricochet
 
         // What multiplies the old rows in the new ones, and what stands in the
         // columns of the node itself.
-        const ExchangeDerivatives derivatives =
-          exchange_derivatives(p,
-                               kinematics->geometry(p).normal,
-                               node.friction_direction);
-        const Tensor<2, 3> from_rows =
+        const ExchangeDerivatives derivatives = exchange_derivatives(p);
+        const Tensor<2, 3>        from_rows =
           Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) +
           derivatives.with_excess;
-        Tensor<2, 3> own = derivatives.with_displacement;
-        if (!kinematics->has_constant_rows())
-          add_turning(p, own);
+        const Tensor<2, 3> &own = derivatives.with_displacement;
         new_rows.assign(n_rows * n_entries, 0.);
         for (unsigned int a = 0; a < n_rows; ++a)
           for (unsigned int b = 0; b < n_rows; ++b)
@@ -506,57 +410,17 @@ namespace Ricochet
 
 
 
-  void
-  ActiveSetContact::add_turning(const unsigned int p, Tensor<2, 3> &own) const
-  {
-    const Node          &node     = nodes[p];
-    const PointGeometry &geometry = kinematics->geometry(p);
-    const Tensor<1, 3>  &normal   = geometry.normal;
-    const double         scale    = constraint_scale(p);
-
-    // scale closing n: the gap has a gradient of its own, and n turns.
-    const Tensor<2, 3> turning = geometry.normal_derivative();
-    own += closing_derivative() * scale *
-        outer_product(normal, geometry.gap_gradient - normal) +
-      scale * node.closing * turning;
-
-    // The slip instead of the way of the node alone.
-    const Tensor<2, 3> plane = tangent_plane(normal);
-    const Tensor<2, 3> slip_derivative =
-      plane * geometry.relative_way_derivative +
-      geometry.projection_derivative(geometry.relative_way);
-    if (node.status == Status::stick)
-      {
-        own += scale * (slip_derivative - plane);
-        return;
-      }
-    // P excess - mu (n . excess) d, with the direction of friction d.
-    const Tensor<1, 3> &direction = node.friction_direction;
-    own += geometry.projection_derivative(node.excess) -
-      friction_coefficient * outer_product(direction, node.excess * turning);
-    // d is the unit vector of P reaction - scale slip.
-    const Tensor<2, 3> across = weight * node.friction_ratio *
-      (Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) -
-       outer_product(direction, direction));
-    own += across *
-        (scale * slip_derivative -
-         geometry.projection_derivative(node.reaction)) -
-      across * plane * scale;
-  }
-
-
-
   double
   ActiveSetContact::round_off() const
   {
     double square = 0.;
     for (unsigned int p = 0; p < nodes.size(); ++p)
-      if (nodes[p].status != Status::open)
+      if (is_active(p))
         {
           const double force =
             constraint_scale(p) * kinematics->gap_round_off(p, state[p].gap);
           square += force * force;
-          if (nodes[p].status == Status::stick)
+          if (nodes[p].constraint.status() == Status::stick)
             {
               const double stick =
                 constraint_scale(p) * kinematics->way_round_off(p);
@@ -574,7 +438,7 @@ namespace Ricochet
   {
     std::vector<int> values(nodes.size());
     for (unsigned int p = 0; p < nodes.size(); ++p)
-      values[p] = static_cast<int>(nodes[p].status);
+      values[p] = static_cast<int>(nodes[p].constraint.status());
     return values;
   }
 
@@ -589,8 +453,8 @@ namespace Ricochet
       {
         const bool has_directions =
           std::any_of(nodes.begin(), nodes.end(), [&](const Node &node) {
-            return turns ? node.status != Status::open
-                         : node.status == Status::slip;
+            return turns ? node.constraint.status() != Status::open
+                         : node.constraint.status() == Status::slip;
           });
         if (dealii::Utilities::MPI::max(has_directions ? 1 : 0,
                                         evaluator.communicator) == 1)
@@ -618,12 +482,12 @@ namespace Ricochet
     if (friction_coefficient > 0.)
       text += ", " +
         std::to_string(dealii::Utilities::MPI::sum(
-          static_cast<unsigned int>(std::count_if(nodes.begin(),
-                                                  nodes.end(),
-                                                  [](const Node &node) {
-                                                    return node.status ==
-                                                      Status::stick;
-                                                  })),
+          static_cast<unsigned int>(
+            std::count_if(nodes.begin(),
+                          nodes.end(),
+                          [](const Node &node) {
+                            return node.constraint.status() == Status::stick;
+                          })),
           evaluator.communicator)) +
         " stick";
     return text;
@@ -638,7 +502,7 @@ namespace Ricochet
       return 0.;
     double sum = 0.;
     for (unsigned int p = 0; p < nodes.size(); ++p)
-      if (nodes[p].status != Status::open)
+      if (is_active(p))
         sum -= nodes[p].reaction * nodes[p].slip;
     return dealii::Utilities::MPI::sum(sum, evaluator.communicator);
   }
@@ -680,7 +544,10 @@ namespace Ricochet
                                     node_reaction,
                                     node_reaction > 0.);
       }
-    add_stress_pressure(instant.solution, stress_evaluator, stress_state, sums);
+    add_stress_pressure(instant.solution,
+                        stress_evaluator,
+                        stress_observables,
+                        sums);
     return reduce_summaries(sums, evaluator.communicator);
   }
 } // namespace Ricochet

@@ -3,8 +3,9 @@
 #define ricochet_contact_treatments_active_set_contact_h
 
 #include <contact/contact_operator.h>
+#include <contact/laws/frictional_constraint.h>
 #include <contact/treatments/closing_condition.h>
-#include <contact/treatments/closing_functionals.h>
+#include <contact/treatments/contact_rows.h>
 
 #include <memory>
 
@@ -47,12 +48,9 @@ namespace Ricochet
                      const Condition  condition,
                      const double     augmentation,
                      const double     friction_coefficient)
-      : kinematics(make_kinematics(body,
-                                   std::move(nodes),
-                                   {/* way */ true,
-                                    /* prediction */ condition ==
-                                      Condition::persistent}))
+      : kinematics(make_kinematics(body, std::move(nodes)))
       , evaluator(kinematics->evaluator)
+      , jacobian(evaluator.coefficients())
       , stress_evaluator(body, std::move(stress_points))
       , condition(condition)
       , augmentation(augmentation)
@@ -63,7 +61,7 @@ namespace Ricochet
       , nodes(evaluator.contact_points().size())
     {
       scaling = 1.;
-      make_functionals();
+      make_rows();
     }
 
     void
@@ -92,7 +90,7 @@ namespace Ricochet
     {
       ContactStructure structure;
       structure.rows        = evaluator.unknowns();
-      structure.functionals = functionals;
+      structure.functionals = jacobian.all();
       structure.takes_rows  = true;
       return structure;
     }
@@ -184,18 +182,12 @@ namespace Ricochet
     pressure_field(const ContactInstant &instant) override;
 
   private:
-    enum class Status
-    {
-      open,
-      /// Active, without friction or slipping.
-      slip,
-      stick
-    };
+    using Status = ContactStatus;
 
     /// What is known of a node in the current iteration.
     struct Node
     {
-      Status status = Status::open;
+      FrictionalConstraint<3> constraint;
       /// The node may become active at all in this pass.
       bool candidate = true;
       /// Reaction (N) on the body with which the sets were chosen.
@@ -208,20 +200,23 @@ namespace Ricochet
       dealii::Tensor<1, 3> excess;
       /// What an active node has in its residual instead, less that (N).
       dealii::Tensor<1, 3> exchange;
-      /// Unit vector of tangential reaction - r slip; zero without friction.
-      dealii::Tensor<1, 3> friction_direction;
-      /// mu times the normal reaction over |tangential reaction - r slip|, at
-      /// most 1.
-      double friction_ratio = 0.;
-
-      // Where look_at_change() begins.
-      double               gap_before = 0., closing_before = 0.;
-      dealii::Tensor<1, 3> slip_before;
 
       // At the last accepted iterate, or the beginning of the stage.
       Status               accepted_status = Status::open;
       dealii::Tensor<1, 3> initial_reaction;
     };
+
+    /// Whether node @p p is active.
+    bool
+    is_active(const unsigned int p) const
+    {
+      return nodes[p].constraint.status() != Status::open;
+    }
+
+    /// Arguments of the constraint of node @p p with this @p reaction (N).
+    ConstraintState<3>
+    constraint_state(const unsigned int          p,
+                     const dealii::Tensor<1, 3> &reaction) const;
 
     /// Stiffness (N/m) with which closing and slip of node @p p enter the
     /// residual.
@@ -245,16 +240,10 @@ namespace Ricochet
       return closing_kind() == Closing::mean_gap ? .5 : 1.;
     }
 
-    /// The functionals: displacement of each node along the normal, and with friction
-    /// along the plane. Where normals turn, along the axes.
+    /// Rows along the normal of each node, and with friction along the plane; where
+    /// normals turn, along the axes.
     void
-    make_functionals();
-
-    /// Call @p use with node, number of its first functional, and the directions along
-    /// which this and the next ones are.
-    template <typename Use>
-    void
-    for_each_node(const Use &use) const;
+    make_rows();
 
     /// Choose the status of node @p p from what the node has of closing, slip and
     /// excess, and make what it has in the residual.
@@ -262,35 +251,19 @@ namespace Ricochet
     choose_status(const unsigned int p);
 
     /// Derivatives of Node::exchange with respect to the excess, and to the
-    /// displacement as far as planes at rest go (N/m).
+    /// displacement of the node (N/m).
     struct ExchangeDerivatives
     {
       dealii::Tensor<2, 3> with_excess, with_displacement;
     };
 
-    /// Those of the active node @p p, in a frame in which normal and direction of
-    /// friction are these.
+    /// Those of the active node @p p.
     ExchangeDerivatives
-    exchange_derivatives(const unsigned int          p,
-                         const dealii::Tensor<1, 3> &normal,
-                         const dealii::Tensor<1, 3> &friction_direction) const;
-
-    /// Rows between functionals of what @p entries_of makes of an active node and these
-    /// derivatives: a matrix between their directions.
-    template <typename Entries>
-    void
-    change_of_functionals(const Entries              &entries_of,
-                          std::vector<FunctionalRow> &change) const;
+    exchange_derivatives(const unsigned int p) const;
 
     /// Bring closing and slip of node @p p to the state of #kinematics.
     void
     look_at_geometry(const unsigned int p);
-
-    /// What curved or moving obstacles add to the rows of an active node in the
-    /// columns of the node, beside what planes have: normal and gap depend on
-    /// where the node is.
-    void
-    add_turning(const unsigned int p, dealii::Tensor<2, 3> &own) const;
 
     /// @return what the condition keeps at zero, at the last complete_residual() (m).
     double
@@ -303,23 +276,23 @@ namespace Ricochet
     const std::unique_ptr<ContactKinematics> kinematics;
     // That of the kinematics.
     ContactPointEvaluator &evaluator;
-    ContactPointEvaluator  stress_evaluator;
-    const Condition        condition;
-    const double           augmentation;
-    const double           friction_coefficient;
-    double                 weight         = 1.;
-    bool                   first_in_stage = true;
-    unsigned int           pass           = 0;
+    // Through which contact acts.
+    ContactRows           jacobian;
+    ContactPointEvaluator stress_evaluator;
+    const Condition       condition;
+    const double          augmentation;
+    const double          friction_coefficient;
+    double                weight         = 1.;
+    bool                  first_in_stage = true;
+    unsigned int          pass           = 0;
 
-    std::vector<ContactPointState<>> state, old_state, stress_state;
+    std::vector<ContactPointState<>> state, old_state;
+    std::vector<PointVector>         stress_observables;
     Vector                           force, friction_part, scaling;
     std::vector<Node>                nodes;
-    // The functionals, and the directions of those of each node.
-    ContactStructure::ActsThrough                  functionals;
-    std::vector<std::vector<dealii::Tensor<1, 3>>> directions;
-    bool                                           looks_at_change = false;
-    // Where look_at_change() begins and what it looks at, where directions turn (m).
-    std::vector<dealii::Tensor<1, 3>> displacements_before, displaced;
+    // Observables from which look_at_change() begins, and at which it looks.
+    bool                     looks_at_change = false;
+    std::vector<PointVector> observables_before, observables;
     // Work space of complete_tangent(): the rows of a node.
     mutable std::vector<double> normal_row, new_rows;
   };

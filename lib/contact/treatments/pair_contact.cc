@@ -391,42 +391,20 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  PairContact<dim>::choose_status(PointState &state) const
+  ConstraintState<PairContact<dim>::n_tangents>
+  PairContact<dim>::constraint_state(const PointState &state) const
   {
-    const Pair        &pair     = pair_of(state);
-    const unsigned int p        = state.point;
-    const double       r        = stiffness(state);
-    const double       pressure = pair.multipliers(p)[0];
-    const double       trial    = pressure - r * closing(state);
-    // Round-off neither opens nor closes a point.
-    const double round_off = r * pair.round_off(p);
-    const bool   closed    = state.accepted_status == Status::open
-           ? trial > round_off
-           : trial > -round_off;
-    if (!closed)
-      return;
-    state.status = Status::slip;
-    if (!has_exact_friction())
-      return;
-    const Tangential slip           = pair.rows(p).slip;
-    const Tangential friction_trial = state.traction + r * slip;
-    const double     trial_size     = friction_trial.norm();
-    const double     limit = method.exact_coefficient * positive_part(pressure);
-    state.direction        = 0.;
-    if (trial_size > 0.)
-      state.direction = friction_trial / trial_size;
-    else
-      state.direction[0] = 1.;
-    state.ratio = n_tangents == 1 || trial_size == 0. ? 0. : limit / trial_size;
-    // What only just closes has no pressure yet. It sticks if the way there was
-    // within the cone of friction, unless that has led back to an open point.
-    const bool sticks = pressure > 0. ? trial_size < limit
-                                      : !sets_recur &&
-        slip.norm() <=
-          method.exact_coefficient * std::abs(pair.rows(p).gap_increment);
-    if (sticks)
-      state.status = Status::stick;
+    const Pair                 &pair = pair_of(state);
+    ConstraintState<n_tangents> result;
+    result.pressure = pair.multipliers(state.point)[0];
+    for (unsigned int d = 0; has_exact_friction() && d < n_tangents; ++d)
+      result.traction[d] = pair.multipliers(state.point)[d + 1];
+    if (state.status == Status::open)
+      return result;
+    result.closing = closing(state);
+    if (has_exact_friction())
+      result.slip = pair.rows(state.point).slip;
+    return result;
   }
 
 
@@ -436,12 +414,38 @@ namespace Ricochet
   PairContact<dim>::set_constraint(PointState &state) const
   {
     // The forces are the multipliers, whatever the sets.
-    const Pair &pair = pair_of(state);
-    state.pressure   = pair.multipliers(state.point)[0];
+    const Pair                 &pair    = pair_of(state);
+    ConstraintState<n_tangents> current = constraint_state(state);
+    state.pressure                      = current.pressure;
+    state.traction                      = current.traction;
+
+    // Round-off neither opens nor closes a point.
+    const double r         = stiffness(state);
+    const double round_off = r * pair.round_off(state.point);
+    const double margin =
+      state.accepted_status == Status::open ? round_off : -round_off;
+    current.closing = closing(state);
+    if (!(current.pressure - r * current.closing > margin))
+      return;
+    bool new_sticks = false;
     if (has_exact_friction())
-      for (unsigned int d = 0; d < n_tangents; ++d)
-        state.traction[d] = pair.multipliers(state.point)[d + 1];
-    choose_status(state);
+      {
+        const auto &rows = pair.rows(state.point);
+        current.slip     = rows.slip;
+        // A point that only just closes has no pressure yet. It sticks if the
+        // displacement to there was within the cone of friction, unless that has led
+        // back to an open point.
+        new_sticks = !sets_recur &&
+          rows.slip.norm() <=
+            method.exact_coefficient * std::abs(rows.gap_increment);
+      }
+    state.constraint.choose(current,
+                            r,
+                            has_exact_friction() ? method.exact_coefficient
+                                                 : 0.,
+                            margin,
+                            new_sticks);
+    state.status = state.constraint.status();
   }
 
 
@@ -454,6 +458,7 @@ namespace Ricochet
     const Pair        &pair  = pair_of(state);
     const unsigned int p     = state.point;
     state.status             = Status::open;
+    state.constraint.set_status(Status::open);
     state.pressure = state.with_gap = state.error = 0.;
     state.traction                                = 0.;
     if (!state.candidate)
@@ -524,6 +529,7 @@ namespace Ricochet
           else
             {
               state.status = state.accepted_status;
+              state.constraint.set_status(state.status);
               state.error /= point_of(state).weight;
             }
         }
@@ -645,21 +651,15 @@ namespace Ricochet
       return;
 
     // The equations of the multipliers.
-    const double r = stiffness(state);
+    const auto equations = state.constraint.equations(constraint_state(state));
     for (unsigned int c = 0; c < dim; ++c)
       if (point.multipliers[c] != no_index)
         {
-          const double multiplier = pair.multipliers(p)[c];
-          double       equation   = -multiplier / r;
-          if (c == 0 && state.status != Status::open)
-            equation = -closing(state) - softness(state) * multiplier;
-          if (c > 0 && state.status == Status::stick)
-            equation = softness(state) * multiplier - pair.rows(p).slip[c - 1];
-          if (c > 0 && state.status == Status::slip)
-            equation = (method.exact_coefficient * state.pressure *
-                          state.direction[c - 1] -
-                        multiplier) /
-              r;
+          double equation =
+            -(c == 0 ? equations.normal : equations.tangential[c - 1]) /
+            stiffness(state);
+          if (is_soft(state, c))
+            equation -= softness(state) * pair.multipliers(p)[c];
           force(point.multipliers[c]) += point.weight * equation;
         }
   }
@@ -981,38 +981,46 @@ namespace Ricochet
     const auto add_entry = [&](const types::global_dof_index row,
                                const types::global_dof_index column,
                                const double                  entry) {
-      add(row, 1, &column, &entry);
+      if (entry != 0.)
+        add(row, 1, &column, &entry);
     };
     const Point       &point = point_of(state);
     const Pair        &pair  = pair_of(state);
     const unsigned int p     = state.point;
     const double       r     = stiffness(state);
 
+    const auto  of_constraint = state.constraint.derivatives();
+    const auto &multipliers   = point.multipliers;
     // Rows of the multipliers, on multipliers.
     if (!method.law)
-      for (unsigned int c = 0; c < dim; ++c)
-        if (point.multipliers[c] != no_index)
+      {
+        const double on_multipliers = -weight * point.weight / r;
+        for (unsigned int c = 0; c < dim; ++c)
           {
-            const bool is_prescribed = c == 0 ? state.status == Status::open
-                                              : state.status != Status::stick;
-            if (is_prescribed)
-              add_entry(point.multipliers[c],
-                        point.multipliers[c],
-                        -weight * point.weight / r);
-            if (c > 0 && state.status == Status::slip)
+            if (multipliers[c] == no_index)
+              continue;
+            if (is_soft(state, c))
+              add_entry(multipliers[c],
+                        multipliers[c],
+                        -weight * point.weight * softness(state));
+            if (c == 0)
+              add_entry(multipliers[0],
+                        multipliers[0],
+                        on_multipliers * of_constraint.normal_with_pressure);
+            else
               {
-                add_entry(point.multipliers[c],
-                          point.multipliers[0],
-                          weight * point.weight * method.exact_coefficient *
-                            state.direction[c - 1] / r);
-                // How the direction turns with the multipliers.
-                for (unsigned int d = 0; n_tangents > 1 && d < n_tangents; ++d)
-                  add_entry(point.multipliers[c],
-                            point.multipliers[d + 1],
-                            weight * point.weight * state.ratio / r *
-                              across(state, c - 1, d));
+                add_entry(multipliers[c],
+                          multipliers[0],
+                          on_multipliers *
+                            of_constraint.tangential_with_pressure[c - 1]);
+                for (unsigned int d = 0; d < n_tangents; ++d)
+                  add_entry(multipliers[c],
+                            multipliers[d + 1],
+                            on_multipliers *
+                              of_constraint.tangential_with_traction[c - 1][d]);
               }
           }
+      }
     if (!is_in_contact(state))
       return;
 
@@ -1032,11 +1040,7 @@ namespace Ricochet
     Tangential            with_pressure;
     if (method.law && has_friction && state.pressure > 0.)
       {
-        Tensor<2, 3> plane;
-        for (unsigned int d = 0; d < n_tangents; ++d)
-          plane[d][d] = 1.;
-        const auto of_friction =
-          friction.derivatives(&state - states.data(), plane);
+        const auto of_friction = friction.derivatives(&state - states.data());
         for (unsigned int d = 0; d < n_tangents; ++d)
           {
             with_pressure[d] = of_friction.with_pressure[d];
@@ -1074,42 +1078,24 @@ namespace Ricochet
       return;
 
     // Columns and rows of the multipliers.
-    const bool closes = state.status != Status::open;
-    if (softness(state) > 0.)
-      for (unsigned int c = 0; c < dim; ++c)
-        if (point.multipliers[c] != no_index &&
-            (c == 0 ? closes : state.status == Status::stick))
-          add_entry(point.multipliers[c],
-                    point.multipliers[c],
-                    (c == 0 ? -factor : factor) * softness(state));
     const double half =
       method.condition == ClosingCondition::two_step && pass == 0 ? .5 : 1.;
     for (unsigned int a = 0; a < m; ++a)
       {
         const auto i = rows.unknowns[a];
-        add_entry(i, point.multipliers[0], -factor * rows.normal[a]);
-        if (closes)
-          add_entry(point.multipliers[0],
-                    i,
-                    -factor * half * derivatives.gap[a]);
-        if (has_exact_friction())
+        add_entry(i, multipliers[0], -factor * rows.normal[a]);
+        add_entry(multipliers[0],
+                  i,
+                  -factor / r * of_constraint.normal_with_closing * half *
+                    derivatives.gap[a]);
+        for (unsigned int d = 0; has_exact_friction() && d < n_tangents; ++d)
           {
-            for (unsigned int d = 0; d < n_tangents; ++d)
-              {
-                const auto j = point.multipliers[d + 1];
-                add_entry(i, j, factor * rows.tangential[d][a]);
-                if (state.status == Status::stick)
-                  add_entry(j, i, -factor * derivatives.slip[d][a]);
-                // How the direction turns with the slip.
-                if (n_tangents > 1 && state.status == Status::slip)
-                  {
-                    double with_slip_of_a = 0.;
-                    for (unsigned int e = 0; e < n_tangents; ++e)
-                      with_slip_of_a +=
-                        across(state, d, e) * derivatives.slip[e][a];
-                    add_entry(j, i, factor * state.ratio * with_slip_of_a);
-                  }
-              }
+            add_entry(i, multipliers[d + 1], factor * rows.tangential[d][a]);
+            double with_slip_of_a = 0.;
+            for (unsigned int e = 0; e < n_tangents; ++e)
+              with_slip_of_a += of_constraint.tangential_with_slip[d][e] *
+                derivatives.slip[e][a];
+            add_entry(multipliers[d + 1], i, -factor / r * with_slip_of_a);
           }
       }
   }

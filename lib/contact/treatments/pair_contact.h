@@ -4,6 +4,7 @@
 
 #include <contact/contact_operator.h>
 #include <contact/kinematics/surface_pair.h>
+#include <contact/laws/frictional_constraint.h>
 #include <contact/treatments/closing_condition.h>
 #include <contact/treatments/pointwise_friction.h>
 
@@ -192,13 +193,7 @@ namespace Ricochet
     summary(const ContactInstant &instant) override;
 
   private:
-    enum class Status
-    {
-      open,
-      /// Pressed, without friction or slipping.
-      slip,
-      stick
-    };
+    using Status = ContactStatus;
 
     using Tangential = typename SurfacePair<dim>::Tangential;
     static constexpr unsigned int n_tangents = SurfacePair<dim>::n_tangents;
@@ -216,9 +211,8 @@ namespace Ricochet
       double pressure = 0., with_gap = 0.;
       /// Traction (Pa) along T.
       Tangential traction;
-      /// Direction of the slip, and by how much of its change the traction changes (1).
-      Tangential direction;
-      double     ratio = 0.;
+      /// Where there is no law.
+      FrictionalConstraint<n_tangents> constraint;
       /// By how much the equations in use are not those of the state (Pa).
       double              error = 0.;
       ContactPointState<> old_state, state;
@@ -276,11 +270,12 @@ namespace Ricochet
       return pair_of(state).softness(state.point) / stiffness(state);
     }
 
-    /// Entry of the projection on what is across the direction of slip.
-    static double
-    across(const PointState &state, const unsigned int d, const unsigned int e)
+    /// Whether the equation of multiplier @p c of a point has the softness().
+    bool
+    is_soft(const PointState &state, const unsigned int c) const
     {
-      return (d == e ? 1. : 0.) - state.direction[d] * state.direction[e];
+      return softness(state) > 0. &&
+        (c == 0 ? state.status != Status::open : state.status == Status::stick);
     }
 
     /// What the condition keeps at zero in the current pass (m).
@@ -310,8 +305,10 @@ namespace Ricochet
     void
     add_change_of_law(std::vector<FunctionalRow> &change) const;
 
-    void
-    choose_status(PointState &state) const;
+    /// Arguments of the constraint of a point: its multipliers, and if it is not open
+    /// what it closes, and its slip.
+    ConstraintState<n_tangents>
+    constraint_state(const PointState &state) const;
 
     void
     set_constraint(PointState &state) const;

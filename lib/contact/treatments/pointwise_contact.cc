@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <contact/laws/closing.h>
 #include <contact/treatments/active_set_signature.h>
 #include <contact/treatments/pointwise_contact.h>
 #include <contact/treatments/power_law_linearisation.h>
@@ -9,6 +10,7 @@
 
 namespace Ricochet
 {
+  using dealii::Tensor;
   using dealii::VectorOperation;
 
   void
@@ -152,18 +154,21 @@ namespace Ricochet
   {
     looks_at_change = false;
     kinematics->evaluate(solution, state);
-    find_slips();
     evaluate_laws();
     force = 0.;
     for (unsigned int p = 0; p < state.size(); ++p)
-      evaluator.add(p, point_force[p], force);
+      if (const PointVector on_point = along_direction(p, point_force[p]);
+          on_point.norm_square() != 0.)
+        evaluator.add(p, on_point, force);
     force.compress(VectorOperation::add);
     if (friction.exists())
       {
         friction_part = 0.;
         for (unsigned int p = 0; p < state.size(); ++p)
           if (friction_acts(p))
-            evaluator.add(p, friction.traction(p), friction_part);
+            evaluator.add(p,
+                          on_displacement(friction.traction(p)),
+                          friction_part);
         friction_part.compress(VectorOperation::add);
         force += friction_part;
       }
@@ -174,14 +179,21 @@ namespace Ricochet
 
 
 
-  void
-  PointwiseContact::find_slips()
+  PointVector
+  PointwiseContact::along_direction(const unsigned int         p,
+                                    const ContactPointForce<> &law_force) const
   {
-    if (!friction.exists() || !kinematics->has_constant_rows())
-      return;
-    slips.resize(state.size());
-    for (unsigned int p = 0; p < state.size(); ++p)
-      slips[p] = kinematics->geometry(p).slip();
+    PointVector result;
+    if (law_force.gap != 0.)
+      {
+        kinematics->update_geometry(p);
+        const PointGeometry &geometry = kinematics->geometry(p);
+        result = on_displacement(law_force.gap * geometry.direction_length *
+                                 geometry.normal);
+      }
+    result[PointPlace::stress_pressure] = law_force.stress_pressure;
+    result[PointPlace::multiplier]      = law_force.multiplier;
+    return result;
   }
 
 
@@ -192,24 +204,108 @@ namespace Ricochet
     choose_linearisation();
     point_force.resize(state.size());
     for (unsigned int p = 0; p < state.size(); ++p)
-      {
-        point_force[p] = linearised_force(p);
-        if (point_force[p].gap != 0.)
-          kinematics->update_geometry(p);
-      }
+      point_force[p] = linearised_force(p);
     if (!friction.exists())
       return;
     friction.begin_evaluation(state.size());
     for (unsigned int p = 0; p < state.size(); ++p)
       {
+        // Geometry is costly where nothing presses, unless directions stay the same.
         const double pressure = positive_part(-point_force[p].gap);
-        // Where nothing presses, geometry may be that of another state.
+        Tensor<1, 3> slip;
+        if (pressure > 0. || kinematics->has_constant_rows())
+          {
+            kinematics->update_geometry(p);
+            slip = kinematics->geometry(p).slip();
+          }
         friction.evaluate(p,
                           pressure,
-                          kinematics->has_constant_rows() ? slips[p]
-                            : pressure > 0. ? kinematics->geometry(p).slip()
-                                            : dealii::Tensor<1, 3>(),
+                          slip,
                           evaluator.contact_points()[p].cell_diameter);
+      }
+  }
+
+
+
+  void
+  PointwiseContact::make_rows()
+  {
+    // Whether closing changes one direction does not depend on h_T.
+    const auto closing = closing_directions(*law, 1.);
+    if (!closing)
+      return;
+    // Of directions there are fewer than of unknowns; but not with friction in points
+    // of faces, each of which has three. Directions of closing leave the forces of a
+    // multiplier to the matrix of the body, in which they stand on one side only, so
+    // that its symmetric part is far from it.
+    const ContactLawTraits traits              = law->traits();
+    const bool             prefers_observables = friction.exists()
+                  ? traits.needs_multiplier || !traits.nodal
+                  : traits.needs_multiplier && closing->test != closing->trial;
+    rows_have_directions =
+      kinematics->has_constant_rows() && !prefers_observables;
+
+    if (rows_have_directions)
+      {
+        rows.emplace(evaluator.coefficients());
+        for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
+          add_directions(p);
+        return;
+      }
+    // Either the force on the gap, whose direction may turn, is that of closed points
+    // alone; or closing replaces the equation of their multiplier.
+    const bool presses_if_closed = closing->row == 0 &&
+      open_tangent(*law, 1.)[0].norm_square() == 0.,
+               replaces_equation =
+                 closing->row == 2 && closing->test.norm_square() == 1.;
+    if (!presses_if_closed && !replaces_equation)
+      return;
+    rows.emplace(evaluator.coefficients());
+    for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
+      rows->add_observables(p);
+  }
+
+
+
+  void
+  PointwiseContact::add_directions(const unsigned int p)
+  {
+    const ContactPoint &point = evaluator.contact_points()[p];
+    const Closing closing     = *closing_directions(*law, point.cell_diameter);
+    // Gap, stress pressure and multiplier as directions of the observables.
+    const auto of_law = [&](const Tensor<1, 3> &law_direction) {
+      PointVector direction =
+        on_displacement(law_direction[0] * point.obstacle_normal);
+      direction[PointPlace::stress_pressure] = law_direction[1];
+      direction[PointPlace::multiplier]      = law_direction[2];
+      return direction;
+    };
+    const auto of_axis = [&](const unsigned int axis) {
+      Tensor<1, 3> direction;
+      direction[axis] = 1.;
+      return of_law(direction);
+    };
+    // The law depends on the product with trial alone, and its force is along test: one
+    // entry of each stands for all.
+    const PointVector trial = of_axis(closing.column),
+                      test  = of_axis(closing.row);
+    if (closing.trial == closing.test)
+      rows->add_direction(p, of_law(closing.test), trial, test);
+    else
+      {
+        rows->add_direction(p, of_law(closing.test), PointVector(), test);
+        rows->add_direction(p, of_law(closing.trial), trial, PointVector());
+      }
+    if (!friction.exists())
+      return;
+    unsigned int n_axes = 0;
+    for (unsigned int k = point.begin; k < point.end; ++k)
+      n_axes = std::max(n_axes, evaluator.coefficients().component[k] + 1);
+    for (const Tensor<1, 3> &tangential :
+         tangent_directions(point.obstacle_normal, n_axes))
+      {
+        const PointVector direction = on_displacement(tangential);
+        rows->add_direction(p, direction, direction, direction);
       }
   }
 
@@ -219,101 +315,14 @@ namespace Ricochet
   PointwiseContact::look_at_change(const std::vector<double> &change,
                                    const std::vector<double> & /*excess*/)
   {
-    if (displacement_functionals)
-      {
-        displace_points(change);
-        evaluate_laws();
-        return;
-      }
     if (!looks_at_change)
-      {
-        state_before    = state;
-        slips_before    = slips;
-        looks_at_change = true;
-      }
-    for (unsigned int p = 0; p < state.size(); ++p)
-      {
-        // Laws know of a change what its product with the direction of trial is,
-        // but for what they do to open points.
-        const ClosingFunctionals::Point &own = (*functionals)[p];
-        state[p]                             = state_before[p];
-        double *const components[]           = {&state[p].gap,
-                                                &state[p].stress_pressure,
-                                                &state[p].multiplier};
-        *components[own.closing.column] += change[own.trial];
-        if (own.tangential.empty())
-          continue;
-        slips[p] = slips_before[p];
-        for (unsigned int t = 0; t < own.tangential.size(); ++t)
-          slips[p] += change[own.first_tangential + t] * own.tangential[t];
-      }
+      observables_before = kinematics->observables();
+    looks_at_change = true;
+    observables.resize(observables_before.size());
+    for (unsigned int p = 0; p < observables.size(); ++p)
+      observables[p] = observables_before[p] + rows->in_point(p, change);
+    kinematics->evaluate(observables, state);
     evaluate_laws();
-  }
-
-
-
-  void
-  PointwiseContact::displace_points(const std::vector<double> &change)
-  {
-    if (!looks_at_change)
-      {
-        state_before         = state;
-        displacements_before = kinematics->displacements();
-        looks_at_change      = true;
-      }
-    displaced.resize(state.size());
-    for (unsigned int p = 0; p < state.size(); ++p)
-      {
-        const auto of_point = displacement_functionals->in_point(p, change);
-        state[p]            = state_before[p];
-        displaced[p]        = displacements_before[p];
-        for (unsigned int c = 0; c < 3; ++c)
-          displaced[p][c] += of_point[c];
-        state[p].stress_pressure +=
-          of_point[DisplacementFunctionals::stress_pressure];
-        state[p].multiplier += of_point[DisplacementFunctionals::multiplier];
-      }
-    kinematics->displace(displaced, state);
-    find_slips();
-  }
-
-
-
-  bool
-  PointwiseContact::prefers_displacements() const
-  {
-    // Of directions there are fewer; but not with friction in points of faces, each of
-    // which has three.
-    const ContactLawTraits traits = law->traits();
-    if (friction.exists())
-      return traits.needs_multiplier || !traits.nodal;
-    // Directions of closing leave the forces of a multiplier to the matrix of the body,
-    // in which they stand on one side only, so that there are no half solutions, and
-    // the symmetric part is far from it.
-    const auto closing = closing_directions(*law, 1.);
-    return traits.needs_multiplier && closing &&
-      closing->test != closing->trial;
-  }
-
-
-
-  void
-  PointwiseContact::make_displacement_functionals()
-  {
-    // Either the force on the gap, which turns, is that of closed points alone; or they
-    // have but another equation of their multiplier.
-    const auto closing = closing_directions(*law, 1.);
-    if (!closing)
-      return;
-    const bool presses_if_closed = closing->row == 0 &&
-      open_tangent(*law, 1.)[0].norm_square() == 0.,
-               keeps_equation =
-                 closing->row == 2 && closing->test.norm_square() == 1.;
-    if (!presses_if_closed && !keeps_equation)
-      return;
-    displacement_functionals.emplace(evaluator.coefficients());
-    for (const ContactPoint &point : evaluator.contact_points())
-      closings.push_back(*closing_directions(*law, point.cell_diameter));
   }
 
 
@@ -334,77 +343,10 @@ namespace Ricochet
   {
     ContactPointTangent open =
       open_tangent(*law, evaluator.contact_points()[p].cell_diameter);
-    for (unsigned int c = 0; c < 3; ++c)
-      open[0][c] = open[c][0] = 0.;
+    if (!rows_have_directions)
+      for (unsigned int c = 0; c < 3; ++c)
+        open[0][c] = open[c][0] = 0.;
     return open;
-  }
-
-
-
-  DisplacementFunctionals::OfPoint
-  PointwiseContact::closing_force(const unsigned int p) const
-  {
-    DisplacementFunctionals::OfPoint result;
-    if (point_force[p].gap != 0.)
-      {
-        const PointGeometry &geometry = kinematics->geometry(p);
-        for (unsigned int c = 0; c < 3; ++c)
-          result[c] =
-            point_force[p].gap * geometry.direction_length * geometry.normal[c];
-      }
-    if (friction_acts(p))
-      for (unsigned int c = 0; c < 3; ++c)
-        result[c] += friction.traction(p)[c];
-    result[DisplacementFunctionals::stress_pressure] =
-      point_force[p].gap * closings[p].test[1];
-    result[DisplacementFunctionals::multiplier] = closings[p].row == 0
-      ? point_force[p].gap * closings[p].test[2]
-      : point_force[p].multiplier -
-        constant_tangent(p)[2][2] * state[p].multiplier;
-    return result;
-  }
-
-
-
-  DisplacementFunctionals::TangentOfPoint
-  PointwiseContact::closing_tangent(const unsigned int p) const
-  {
-    const double              h = evaluator.contact_points()[p].cell_diameter;
-    const ContactPointTangent closing =
-      law->tangent(linearisation[p], old_state[p], h) - constant_tangent(p);
-    DisplacementFunctionals::TangentOfPoint result;
-    for (unsigned int s = 1; s < 3; ++s)
-      for (unsigned int t = 1; t < 3; ++t)
-        result[s + 2][t + 2] = closing[s][t];
-    const double pressure = -point_force[p].gap;
-    if (pressure == 0. && closing[0].norm_square() == 0.)
-      return result;
-
-    kinematics->update_geometry(p);
-    const PointGeometry &geometry = kinematics->geometry(p);
-    // The force along its direction, which turns, and friction.
-    dealii::Tensor<1, 3> with_pressure =
-      -geometry.direction_length * geometry.normal;
-    dealii::Tensor<2, 3> with_displacement =
-      -pressure * geometry.direction_derivative;
-    if (friction_acts(p))
-      {
-        const auto derivatives = friction_derivatives(p);
-        with_pressure += derivatives.with_pressure;
-        with_displacement += derivatives.with_slip;
-      }
-    with_displacement +=
-      outer_product(-closing[0][0] * with_pressure, geometry.gap_gradient);
-    for (unsigned int c = 0; c < 3; ++c)
-      for (unsigned int d = 0; d < 3; ++d)
-        result[c][d] = with_displacement[c][d];
-    for (unsigned int s = 1; s < 3; ++s)
-      for (unsigned int c = 0; c < 3; ++c)
-        {
-          result[c][s + 2] = -closing[0][s] * with_pressure[c];
-          result[s + 2][c] = closing[s][0] * geometry.gap_gradient[c];
-        }
-    return result;
   }
 
 
@@ -412,41 +354,25 @@ namespace Ricochet
   void
   PointwiseContact::force_change(std::vector<double> &coefficients) const
   {
-    if (displacement_functionals)
-      {
-        coefficients.assign(displacement_functionals->all().functionals.size(),
-                            0.);
-        for (unsigned int p = 0; p < state.size(); ++p)
-          if (acts(p))
-            displacement_functionals->add(
-              p,
-              weight * evaluator.contact_points()[p].weight * closing_force(p),
-              coefficients);
-        return;
-      }
-    coefficients.assign(functionals->all().functionals.size(), 0.);
+    coefficients.assign(rows->all().functionals.size(), 0.);
     for (unsigned int p = 0; p < state.size(); ++p)
       {
-        const ContactPoint              &point  = evaluator.contact_points()[p];
-        const ClosingFunctionals::Point &own    = (*functionals)[p];
-        const double                     factor = weight * point.weight;
-        if (law->branch(linearisation[p], old_state[p], point.cell_diameter) !=
-            0)
-          {
-            const dealii::Tensor<1, 3> &open =
-              own.open_tangent[own.closing.row];
-            const double forces[]  = {point_force[p].gap,
-                                      point_force[p].stress_pressure,
-                                      point_force[p].multiplier};
-            coefficients[own.test] = factor *
-              (forces[own.closing.row] - open[0] * state[p].gap -
-               open[1] * state[p].stress_pressure -
-               open[2] * state[p].multiplier);
-          }
+        if (!acts(p))
+          continue;
+        const Tensor<1, 3> open =
+          constant_tangent(p) *
+          Tensor<1, 3>(
+            {state[p].gap, state[p].stress_pressure, state[p].multiplier});
+        PointVector closing =
+          along_direction(p,
+                          {point_force[p].gap - open[0],
+                           point_force[p].stress_pressure - open[1],
+                           point_force[p].multiplier - open[2]});
         if (friction_acts(p))
-          for (unsigned int t = 0; t < own.tangential.size(); ++t)
-            coefficients[own.first_tangential + t] =
-              factor * (friction.traction(p) * own.tangential[t]);
+          closing += on_displacement(friction.traction(p));
+        rows->add(p,
+                  weight * evaluator.contact_points()[p].weight * closing,
+                  coefficients);
       }
   }
 
@@ -456,18 +382,79 @@ namespace Ricochet
   PointwiseContact::friction_derivatives(const unsigned int p) const
   {
     const PointGeometry &geometry = kinematics->geometry(p);
-    const auto           plane    = tangent_plane(geometry.normal);
-    if (kinematics->has_constant_rows())
-      return friction.derivatives(p, plane);
-    // Slip follows the way, and the turning of the plane in which it is.
-    PointwiseFriction::Derivatives derivatives =
-      friction.derivatives(p,
-                           dealii::Tensor<2, 3>(
-                             dealii::unit_symmetric_tensor<3>()));
-    derivatives.with_slip = derivatives.with_slip *
-      (plane * geometry.relative_way_derivative +
+    // Slip follows the displacement, and the turning of the plane in which it is.
+    PointwiseFriction::Derivatives derivatives = friction.derivatives(p);
+    derivatives.with_slip                      = derivatives.with_slip *
+      (tangent_plane(geometry.normal) * geometry.relative_way_derivative +
        geometry.projection_derivative(geometry.relative_way));
     return derivatives;
+  }
+
+
+
+  namespace
+  {
+    /// The derivatives @p tangent of forces on gap, stress pressure and multiplier as
+    /// those of forces on the observables, where the force on the gap acts along @p
+    /// direction and the gap has the gradient @p gap_gradient.
+    PointMatrix
+    on_observables(const ContactPointTangent &tangent,
+                   const Tensor<1, 3>        &direction,
+                   const Tensor<1, 3>        &gap_gradient)
+    {
+      PointMatrix result;
+      for (unsigned int c = 0; c < 3; ++c)
+        for (unsigned int d = 0; d < 3; ++d)
+          result[c][d] = tangent[0][0] * direction[c] * gap_gradient[d];
+      for (unsigned int s = 1; s < 3; ++s)
+        {
+          for (unsigned int c = 0; c < 3; ++c)
+            {
+              result[c][s + 2] = tangent[0][s] * direction[c];
+              result[s + 2][c] = tangent[s][0] * gap_gradient[c];
+            }
+          for (unsigned int t = 1; t < 3; ++t)
+            result[s + 2][t + 2] = tangent[s][t];
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  PointMatrix
+  PointwiseContact::point_tangent(const unsigned int         p,
+                                  const ContactPointTangent &left_out) const
+  {
+    const ContactPointTangent law_tangent =
+      law->tangent(linearisation[p],
+                   old_state[p],
+                   evaluator.contact_points()[p].cell_diameter);
+    const bool presses = point_force[p].gap != 0.;
+    if (presses || law_tangent[0].norm_square() > 0.)
+      kinematics->update_geometry(p);
+    const PointGeometry &geometry = kinematics->geometry(p);
+    PointMatrix          result =
+      on_observables(law_tangent - left_out,
+                     geometry.direction_length * geometry.normal,
+                     geometry.gap_gradient);
+    if (!presses)
+      return result;
+
+    // The direction of the force turns, and friction follows slip and pressure.
+    Tensor<2, 3> with_displacement =
+      point_force[p].gap * geometry.direction_derivative;
+    if (friction_acts(p))
+      {
+        const auto          derivatives = friction_derivatives(p);
+        ContactPointTangent of_pressure;
+        of_pressure[0] = -law_tangent[0];
+        result += on_observables(of_pressure,
+                                 derivatives.with_pressure,
+                                 geometry.gap_gradient);
+        with_displacement += derivatives.with_slip;
+      }
+    return result + on_displacement(with_displacement);
   }
 
 
@@ -476,44 +463,8 @@ namespace Ricochet
   PointwiseContact::complete_tangent(Matrix &tangent) const
   {
     for (unsigned int p = 0; p < state.size(); ++p)
-      {
-        const ContactPoint       &point = evaluator.contact_points()[p];
-        const ContactPointTangent law_tangent =
-          law->tangent(linearisation[p], old_state[p], point.cell_diameter);
-        if (law_tangent[0].norm_square() > 0. || point_force[p].gap != 0.)
-          kinematics->update_geometry(p);
-        evaluator.add(p, weight, law_tangent, tangent);
-        add_turning(p, tangent);
-
-        if (friction_acts(p))
-          {
-            const auto                  derivatives = friction_derivatives(p);
-            const dealii::Tensor<1, 3> &slope       = derivatives.with_pressure;
-            evaluator.add(p,
-                          weight,
-                          derivatives.with_slip,
-                          {{-law_tangent[0][0] * slope,
-                            -law_tangent[0][1] * slope,
-                            -law_tangent[0][2] * slope}},
-                          tangent);
-          }
-      }
+      evaluator.add(p, weight, point_tangent(p), tangent);
     tangent.compress(VectorOperation::add);
-  }
-
-
-
-  void
-  PointwiseContact::add_turning(const unsigned int p, Matrix &tangent) const
-  {
-    if (kinematics->has_constant_rows() || point_force[p].gap == 0.)
-      return;
-    evaluator.add(p,
-                  weight,
-                  point_force[p].gap *
-                    kinematics->geometry(p).direction_derivative,
-                  {},
-                  tangent);
   }
 
 
@@ -523,12 +474,13 @@ namespace Ricochet
   {
     for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
       {
-        const ContactPointTangent constant = displacement_functionals
-          ? constant_tangent(p)
-          : open_tangent(*law, evaluator.contact_points()[p].cell_diameter);
-        if (!displacement_functionals && constant[0].norm_square() > 0.)
-          kinematics->update_geometry(p);
-        evaluator.add(p, weight, constant, tangent);
+        // Nothing of the gap is in it where directions turn.
+        const Tensor<1, 3> &normal =
+          evaluator.contact_points()[p].obstacle_normal;
+        evaluator.add(p,
+                      weight,
+                      on_observables(constant_tangent(p), normal, normal),
+                      tangent);
       }
     tangent.compress(VectorOperation::add);
   }
@@ -540,10 +492,8 @@ namespace Ricochet
   {
     ContactStructure structure;
     structure.rows = evaluator.unknowns();
-    if (functionals)
-      structure.functionals = functionals->all();
-    if (displacement_functionals)
-      structure.functionals = displacement_functionals->all();
+    if (rows)
+      structure.functionals = rows->all();
     structure.has_multipliers = law->traits().needs_multiplier;
     const auto closing        = closing_directions(*law, 1.);
     structure.is_symmetric    = !structure.has_multipliers && closing &&
@@ -557,48 +507,13 @@ namespace Ricochet
   void
   PointwiseContact::tangent_change(std::vector<FunctionalRow> &change) const
   {
-    if (displacement_functionals)
-      {
-        for (unsigned int p = 0; p < state.size(); ++p)
-          if (acts(p))
-            displacement_functionals->add(
-              p,
-              weight * evaluator.contact_points()[p].weight *
-                closing_tangent(p),
-              change);
-        sum_columns(change);
-        return;
-      }
     for (unsigned int p = 0; p < state.size(); ++p)
-      {
-        const ContactPoint              &point = evaluator.contact_points()[p];
-        const ClosingFunctionals::Point &own   = (*functionals)[p];
-        const ContactPointTangent        law_tangent =
-          law->tangent(linearisation[p], old_state[p], point.cell_diameter);
-        const double factor = weight * point.weight;
-        const double closing =
-          law_tangent[own.closing.row][own.closing.column] -
-          own.open_tangent[own.closing.row][own.closing.column];
-        if (closing != 0.)
-          change[own.test].emplace_back(own.trial, factor * closing);
-
-        if (!friction_acts(p))
-          continue;
-        const auto derivatives = friction_derivatives(p);
-        for (unsigned int t = 0; t < own.tangential.size(); ++t)
-          {
-            auto &row = change[own.first_tangential + t];
-            for (unsigned int s = 0; s < own.tangential.size(); ++s)
-              row.emplace_back(own.first_tangential + s,
-                               factor *
-                                 (own.tangential[t] * derivatives.with_slip *
-                                  own.tangential[s]));
-            if (const double with_gap = -law_tangent[0][0] *
-                  (own.tangential[t] * derivatives.with_pressure);
-                with_gap != 0.)
-              row.emplace_back(own.trial, factor * with_gap);
-          }
-      }
+      if (acts(p))
+        rows->add(p,
+                  weight * evaluator.contact_points()[p].weight *
+                    point_tangent(p, constant_tangent(p)),
+                  change);
+    sum_columns(change);
   }
 
 
@@ -718,9 +633,7 @@ namespace Ricochet
           law->force(state[p],
                      state[p],
                      evaluator.contact_points()[p].cell_diameter);
-        if (point_force.gap != 0.)
-          kinematics->update_geometry(p);
-        evaluator.add(p, point_force, result);
+        evaluator.add(p, along_direction(p, point_force), result);
       }
     result.compress(VectorOperation::add);
     clear_multipliers(result);
@@ -751,8 +664,11 @@ namespace Ricochet
       {
         const double stiffness =
           law->multiplier_scale(evaluator.contact_points()[p].cell_diameter);
-        evaluator.add(p, {0., 0., stiffness}, scaling);
-        evaluator.add(p, {0., 0., 1.}, boundary_mass);
+        PointVector on_multiplier;
+        on_multiplier[PointPlace::multiplier] = stiffness;
+        evaluator.add(p, on_multiplier, scaling);
+        on_multiplier[PointPlace::multiplier] = 1.;
+        evaluator.add(p, on_multiplier, boundary_mass);
       }
     scaling.compress(VectorOperation::add);
     boundary_mass.compress(VectorOperation::add);
@@ -812,7 +728,10 @@ namespace Ricochet
           : law->branch(state[p], state[p], point.cell_diameter) != 0;
         sums[point.boundary_id].add(point, state[p].gap, force, is_active);
       }
-    add_stress_pressure(instant.solution, stress_evaluator, stress_state, sums);
+    add_stress_pressure(instant.solution,
+                        stress_evaluator,
+                        stress_observables,
+                        sums);
     return reduce_summaries(sums, evaluator.communicator);
   }
 } // namespace Ricochet

@@ -3,8 +3,7 @@
 #define ricochet_contact_treatments_pointwise_contact_h
 
 #include <contact/contact_operator.h>
-#include <contact/treatments/closing_functionals.h>
-#include <contact/treatments/displacement_functionals.h>
+#include <contact/treatments/contact_rows.h>
 #include <contact/treatments/pointwise_friction.h>
 
 #include <memory>
@@ -43,11 +42,7 @@ namespace Ricochet
       , friction(friction, augmentation)
       , augmentation(augmentation)
       , modified_energy(modified_energy)
-      , kinematics(make_kinematics(body,
-                                   std::move(points),
-                                   {/* way */ friction.exists() ||
-                                      prefers_displacements(),
-                                    /* prediction */ false}))
+      , kinematics(make_kinematics(body, std::move(points)))
       , evaluator(kinematics->evaluator)
       , stress_evaluator(body, std::move(stress_points))
       , force(body.make_vector())
@@ -57,13 +52,7 @@ namespace Ricochet
                               body.multiplier_indices().n_elements())
     {
       compute_row_scaling();
-      if (!kinematics->has_constant_rows() || prefers_displacements())
-        make_displacement_functionals();
-      // Whether the law is of that kind does not depend on h_T.
-      else if (closing_directions(*this->law, 1.))
-        functionals.emplace(*this->law,
-                            this->friction.exists(),
-                            evaluator.coefficients());
+      make_rows();
     }
 
     ContactSteps
@@ -84,7 +73,7 @@ namespace Ricochet
     void
     complete_tangent(Matrix &tangent) const override;
 
-    /// With functionals of displacements nothing that depends on directions, which may turn.
+    /// Without directions that may turn.
     void
     complete_constant_tangent(Matrix &tangent) const override;
 
@@ -187,47 +176,41 @@ namespace Ricochet
     void
     compute_row_scaling();
 
-    /// Unless what the law makes in closed points cannot be told from what it makes in
-    /// open ones.
+    /// None if the law in closed points cannot be separated from that in open ones.
     void
-    make_displacement_functionals();
+    make_rows();
+
+    /// Rows of point @p p along which closing changes the law's tangent, and with
+    /// friction along the obstacle.
+    void
+    add_directions(const unsigned int p);
 
     /// What is kept is a force on displacements; the equations of the
     /// multipliers hold at the end of a stage and are never averaged.
     void
     clear_multipliers(Vector &vector) const;
 
-    /// Let points go on from where the last complete_residual() saw them, by @p change of
-    /// the #displacement_functionals.
-    void
-    displace_points(const std::vector<double> &change);
-
     /// Whether a point is not as an open one.
     bool
     acts(const unsigned int p) const;
 
-    /// Whether contact acts through the unknowns of the displacement where its directions
-    /// stay the same, too.
-    bool
-    prefers_displacements() const;
+    /// The force of the law on the observables of point @p p, along the direction of
+    /// contact.
+    PointVector
+    along_direction(const unsigned int         p,
+                    const ContactPointForce<> &force) const;
 
-    /// What complete_constant_tangent() has in a point with #displacement_functionals.
+    /// The tangent of the law in a point that complete_constant_tangent() has.
     ContactPointTangent
     constant_tangent(const unsigned int p) const;
 
-    /// The force in a point, less what the constant tangent makes of the state.
-    DisplacementFunctionals::OfPoint
-    closing_force(const unsigned int p) const;
+    /// Derivatives of the force on the observables of point @p p, less those that
+    /// follow from @p left_out, a part of the law's tangent.
+    PointMatrix
+    point_tangent(const unsigned int         p,
+                  const ContactPointTangent &left_out = {}) const;
 
-    /// Its derivatives.
-    DisplacementFunctionals::TangentOfPoint
-    closing_tangent(const unsigned int p) const;
-
-    /// Bring #slips to the state of the kinematics.
-    void
-    find_slips();
-
-    /// Ask law and friction for the forces at #state and #slips.
+    /// Ask law and friction for the forces at #state.
     void
     evaluate_laws();
 
@@ -239,11 +222,6 @@ namespace Ricochet
     /// The force of the law in the residual: linearised at #linearisation.
     ContactPointForce<>
     linearised_force(const unsigned int p) const;
-
-    /// What the direction of the force in a point adds to its tangent: nothing
-    /// where it stays the same.
-    void
-    add_turning(const unsigned int p, Matrix &tangent) const;
 
     /// Derivatives of friction with respect to the way of the point over the step
     /// (Pa/m) and to the pressure.
@@ -267,26 +245,21 @@ namespace Ricochet
     ContactPointEvaluator            stress_evaluator;
     double                           weight     = 1.;
     unsigned int                     n_iterates = 0;
-    std::vector<ContactPointState<>> state, old_state, stress_state;
-    // Slip over the step (m), with friction.
-    std::vector<dealii::Tensor<1, 3>> slips;
-    // What look_at_change() begins from: state and slips of the last
-    // complete_residual(), as long as they differ from these; and displacements.
-    bool                              looks_at_change = false;
-    std::vector<ContactPointState<>>  state_before;
-    std::vector<dealii::Tensor<1, 3>> slips_before, displacements_before,
-      displaced;
+    std::vector<ContactPointState<>> state, old_state;
+    // Observables from which look_at_change() begins, those of the last
+    // complete_residual(), and at which it looks.
+    bool                     looks_at_change = false;
+    std::vector<PointVector> observables_before, observables,
+      stress_observables;
     // Where the law is linearised: now, and at the last accepted iterate.
     std::vector<ContactPointState<>> linearisation, accepted_linearisation;
     // Force of the law per area (Pa) at the last complete_residual().
     std::vector<ContactPointForce<>> point_force;
     Vector                           force, friction_part, scaling;
     const unsigned int               n_displacements_owned;
-    // One of them, see the constructor; none if the law does not act through such.
-    std::optional<ClosingFunctionals>      functionals;
-    std::optional<DisplacementFunctionals> displacement_functionals;
-    // With the latter, those of the law in each point.
-    std::vector<Closing> closings;
+    std::optional<ContactRows>       rows;
+    // The rows are those of directions, which stay the same.
+    bool rows_have_directions = false;
   };
 } // namespace Ricochet
 

@@ -42,14 +42,13 @@ namespace Ricochet
 
 
   PointwiseFriction::Derivatives
-  PointwiseFriction::derivatives(const unsigned int  p,
-                                 const Tensor<2, 3> &plane) const
+  PointwiseFriction::derivatives(const unsigned int p) const
   {
     Derivatives derivatives;
     law.derivatives(branch[p],
                     pressures[p],
                     slip_rate[p],
-                    plane,
+                    Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()),
                     derivatives.with_slip,
                     derivatives.with_pressure);
     derivatives.with_slip /= time_step;

@@ -93,9 +93,8 @@ namespace Ricochet
       dealii::Tensor<1, 3> with_pressure;
     };
 
-    /// @param plane projection on the space in which slips are.
     Derivatives
-    derivatives(const unsigned int p, const dealii::Tensor<2, 3> &plane) const;
+    derivatives(const unsigned int p) const;
 
     /// Energy taken in point @p p per area over the step (J/m^2).
     double
