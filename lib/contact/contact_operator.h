@@ -24,37 +24,114 @@ namespace Ricochet
     double friction = 0.;
   };
 
+  /// What a residual cannot be smaller than (N).
+  struct ResidualBounds
+  {
+    /// By how much the force in the residual differs from that of the law: not zero where
+    /// the law was linearised elsewhere, and part of what Newton's method makes small.
+    double linearisation = 0.;
+    /// Force that round-off in the gaps can cause: a stiff law makes much of little.
+    double round_off = 0.;
+  };
+
+  /// Which points are in contact, as numbers that are the same on all ranks.
+  struct ActiveSet
+  {
+    /// Changes whenever a point changes between open, closed, sticking and slipping.
+    std::uint64_t hash = 0;
+    /// Changes whenever the tangent does; none if the tangent changes with every state.
+    std::optional<std::uint64_t> tangent_key;
+  };
+
+  /// Properties of contact that are the same in all of a run.
+  struct ContactTraits
+  {
+    bool has_friction = false;
+    /// There is a modified energy. A constraint stores nothing; a method without
+    /// potential has none.
+    bool has_modified_energy = true;
+    /// An obstacle moves, and so does work on the body.
+    bool has_moving_obstacles = false;
+    /// There may be times at which no point has a gap.
+    bool gaps_may_be_unknown = false;
+    /// The summary has the pressure of the body's own stress.
+    bool knows_stress_pressure = false;
+    /// contact_work() is known for each boundary.
+    bool knows_work = false;
+  };
+
   /**
-   * Contact as a stage of a time scheme sees it: it adds its forces to (or, for
-   * active sets, takes rows out of) a residual that already holds everything else.
+   * A contact treatment: its forces and their derivatives in a stage of a time scheme,
+   * and its report at an instant.
    *
-   * All vectors are system vectors without ghost values; all functions are
-   * collective.
+   * A stage begins with begin_stage(). Newton's method evaluates it by add_residual(),
+   * which adds the contact forces to (or, for active sets, replaces rows of) a residual
+   * that has all others already, and takes an evaluated point as its iterate by
+   * accept_iterate(). All but reports are those of the last evaluation.
+   *
+   * Contact acts through the rows H of structure().functionals, if there are such: its
+   * forces are those of open contact, which is linear, and H^T z. A stage that is
+   * condensed to contact evaluates z at values of H u alone (evaluate_at_increment()).
+   *
+   * All vectors are system vectors without ghost values; all functions are collective.
    */
-  class StageContact
+  class ContactOperator : public ContactReport
   {
   public:
-    virtual ~StageContact() = default;
+    // ### Constant properties
+
+    /// Rows of contact in a tangent, and their kind.
+    const ContactStructure &
+    structure() const
+    {
+      return own_structure;
+    }
+
+    const ContactTraits &
+    traits() const
+    {
+      return own_traits;
+    }
+
+    /// Per row, the factor that makes the residual a force: 1 for displacements, a
+    /// stiffness for multipliers.
+    const Vector &
+    row_scaling() const
+    {
+      return scaling;
+    }
+
+    /// Of all contacts together; set by the table that makes them.
+    EnergyPromise promise;
+
+    /// That of the contact of the points with @p boundary_id.
+    virtual const EnergyPromise &
+    promise_at(const dealii::types::boundary_id /*boundary_id*/) const
+    {
+      return promise;
+    }
+
+    // ### A stage
 
     /// Begin the solution of one stage; @p weight is the factor of the new
     /// contact force in the residual.
     virtual void
     begin_stage(const ContactStart &start, const double weight) = 0;
 
-    /// Complete @p residual at @p solution. Nothing is remembered for the next
-    /// iterate until accept_iterate() is called, so that a line search can look
-    /// at several points.
+    /// Add contact to @p residual at @p solution. Nothing is remembered for the next
+    /// iterate until accept_iterate() is called, so that a line search can evaluate
+    /// several points.
     virtual void
-    complete_residual(const Vector &solution, Vector &residual) = 0;
+    add_residual(const Vector &solution, Vector &residual) = 0;
 
-    /// The point of the last complete_residual() is the next iterate.
+    /// The point of the last evaluation is the next iterate.
     virtual void
     accept_iterate()
     {}
 
-    /// From here on another problem with the same contact is solved, near the last
-    /// iterate, or the same one from elsewhere: what former iterates did, such as to come
-    /// back to where they were, tells nothing. Which points were active still counts.
+    /// Another problem with the same contact follows, near the last iterate, or the same
+    /// one from elsewhere: that former iterates came back to where they were says nothing
+    /// of it. Which points were active still counts.
     virtual void
     forget_iterates()
     {}
@@ -70,200 +147,134 @@ namespace Ricochet
       return false;
     }
 
+    virtual ResidualBounds
+    residual_bounds() const = 0;
+
+    virtual ActiveSet
+    active_set() const = 0;
+
+    /// The number of active contact points, and of all, for Newton's table.
+    virtual std::string
+    active_set_description() const = 0;
+
+    // ### Forces and works of the last evaluation
+
     /// The contact force (N, without the stage's weight and without the
-    /// multipliers' own equations) at the solution of the last
-    /// complete_residual().
-    virtual const Vector &
-    contact_force() const = 0;
+    /// multipliers' own equations).
+    const Vector &
+    contact_force() const
+    {
+      return force;
+    }
+
+    /// The part of contact_force() that friction makes; null without friction.
+    const Vector *
+    friction_force() const
+    {
+      return own_traits.has_friction ? &friction_part : nullptr;
+    }
 
     /// The forces of the several contacts whose sum contact_force() is, in their order;
-    /// none where there is only one. Also right after force_at().
+    /// none where there is only one. Also after force_at().
     virtual std::vector<const Vector *>
     shares() const
     {
       return {};
     }
 
-    /// The part of contact_force() that friction makes; null without friction.
-    virtual const Vector *
-    friction_force() const
-    {
-      return nullptr;
-    }
-
-    /// What friction takes over the step that ends at the last
-    /// complete_residual() (J): the work of its tractions along the slip.
+    /// Energy that friction takes over the step (J): the work of its tractions along the
+    /// slip.
     virtual double
     friction_dissipation() const
     {
       return 0.;
     }
 
-    /// Whether contact_work() tells one contact from the others.
-    virtual bool
-    knows_work_of_contacts() const
-    {
-      return false;
-    }
-
-    /// What the contact of the points with @p boundary_id takes over the step that
-    /// ends at the last complete_residual(). Collective.
+    /// Works over the step against the contact of the points with @p boundary_id.
+    /// @pre ContactTraits::knows_work
     virtual ContactWork
     contact_work(const dealii::types::boundary_id /*boundary_id*/) const
     {
-      AssertThrow(false,
-                  dealii::ExcMessage("This contact is not told in parts."));
+      AssertThrow(false, dealii::ExcMessage("Works are not known in parts."));
       return {};
     }
 
-    /// What contact has made of the energy over the step that ends at the last
-    /// complete_residual(), of each boundary with points; that step is over then. The
-    /// amounts have a meaning where contact acts over a step.
+    /// Energy that contact has made over the step, of each boundary with points; that
+    /// step is over then. The amounts have a meaning where contact acts over a step.
     ///
     /// @param begin the solution (m) at the beginning of the step, at @p begin_time (s).
-    /// @param end the same at its end. Collective.
+    /// @param end the same at its end.
     virtual ContactSteps
     end_step(const Vector &begin,
              const Vector &end,
              const double  begin_time,
              const double  end_time) = 0;
 
-    /// By how much the force in the residual differs from that of the law, at
-    /// the last complete_residual() (N): not zero where the law was linearised
-    /// elsewhere, and part of what Newton's method makes small.
-    virtual double
-    linearisation_error() const
-    {
-      return 0.;
-    }
-
-    /// Force (N) that round-off in the gaps can cause at the last
-    /// complete_residual(): a stiff law makes much of little.
-    virtual double
-    round_off() const = 0;
-
-    /// Per row, the factor that makes the residual a force: 1 for
-    /// displacements, a stiffness for multipliers.
-    virtual const Vector &
-    row_scaling() const = 0;
-
-    /// Whether complete_residual() takes rows out of the residual, so that all other
-    /// forces have to be in it before.
-    virtual bool
-    takes_rows() const
-    {
-      return false;
-    }
-
-    /// The number of active contact points at the last complete_residual(), and
-    /// of all, for Newton's table.
-    virtual std::string
-    active_set_description() const = 0;
-  };
-
-  /// Contact as linear solvers see it, at the solution of the last
-  /// complete_residual().
-  class TangentContact
-  {
-  public:
-    virtual ~TangentContact() = default;
+    // ### The tangent of the last evaluation
 
     virtual void
-    complete_tangent(Matrix &tangent) const = 0;
+    add_tangent(Matrix &tangent) const = 0;
 
-    /// Where the structure has functionals: complete @p tangent with what
-    /// complete_tangent() adds besides tangent_change(), at any state. For most contact
-    /// that is what open points add.
+    /// Add the derivatives of open contact, at any state: add_tangent() less those of
+    /// the forces on rows.
     virtual void
-    complete_constant_tangent(Matrix & /*tangent*/) const
+    add_open_tangent(Matrix & /*tangent*/) const
     {}
 
-    /// What complete_tangent() couples at the last complete_residual() beyond the
-    /// couplings of the body; null if it never does. Collective.
+    /// Unknowns that add_tangent() couples and the body does not; null if there are
+    /// never any.
     virtual const Couplings *
     couplings()
     {
       return nullptr;
     }
 
-    /// How complete_tangent() enters a tangent: contact spreads by initial gap.
-    /// A symmetric structure keeps a symmetric tangent symmetric.
-    virtual ContactStructure
-    tangent_structure() const = 0;
+    // ### By rows, where the structure has functionals
 
-    /// Where the structure has functionals: the difference between
-    /// complete_tangent() and complete_constant_tangent() in terms of them, see
-    /// Tangent::contact_change. @p change has an empty row for each functional
-    /// that this rank knows.
+    /// Evaluate contact where the values of this rank's rows differ by @p increment from
+    /// those at the last add_residual(), and the residual without contact along them is
+    /// @p residual (N; of use where contact eliminates rows of the body). Until
+    /// add_residual() is called again, all but contact_force(), friction_force() and
+    /// works are those of this state.
     virtual void
-    tangent_change(std::vector<FunctionalRow> & /*change*/) const
+    evaluate_at_increment(const std::vector<double> & /*increment*/,
+                          const std::vector<double> & /*residual*/)
     {
-      AssertThrow(false,
-                  dealii::ExcMessage("This contact has no functionals."));
+      AssertThrow(false, dealii::ExcMessage("This contact has no rows."));
     }
 
-    /// Where contact takes rows: how the coefficients of force_change() follow from
-    /// the forces along the functionals that are there without contact, see
-    /// Tangent::contact_excess_change. @p change as above.
+    /// The coefficients z (N) of this rank's rows: the contact force, less that of open
+    /// contact at the same state, times the stage's weight, is H^T z.
     virtual void
-    excess_change(std::vector<FunctionalRow> & /*change*/) const
-    {}
-
-    /// Where the structure has functionals: look at the state where their values (of
-    /// this rank) differ by @p change from those at the last complete_residual(), as
-    /// complete_residual() does. Until that is called again, all but contact_force(),
-    /// friction_force(), and works speak of this state.
-    /// The other argument is the residual without contact along them (N), of use
-    /// where contact takes rows.
-    virtual void
-    look_at_change(const std::vector<double> & /*change*/,
-                   const std::vector<double> & /*excess*/)
+    forces_on_rows(std::vector<double> & /*coefficients*/) const
     {
-      AssertThrow(false,
-                  dealii::ExcMessage("This contact has no functionals."));
+      AssertThrow(false, dealii::ExcMessage("This contact has no rows."));
     }
 
-    /// The contact force less what open contact makes of the same state, times the
-    /// stage's weight, as a sum of the functionals: the coefficient of each of this
-    /// rank's (N). Its derivatives are those of tangent_change() and
-    /// excess_change().
+    /// The derivatives of forces_on_rows() with respect to the values of rows, and where
+    /// contact eliminates rows of the body to the residual without contact along them.
+    /// Both have an empty row for each of this rank.
     virtual void
-    force_change(std::vector<double> & /*coefficients*/) const
+    differentiate_forces(std::vector<FunctionalRow> & /*with_values*/,
+                         std::vector<FunctionalRow> & /*with_residual*/) const
     {
-      AssertThrow(false,
-                  dealii::ExcMessage("This contact has no functionals."));
+      AssertThrow(false, dealii::ExcMessage("This contact has no rows."));
     }
 
-    /**
-     * A number that is the same on all ranks and changes whenever the tangent
-     * does, or nothing if the tangent changes with every state.
-     */
-    virtual std::optional<std::uint64_t>
-    tangent_signature() const = 0;
-
-    /// A number that is the same on all ranks and changes whenever a contact
-    /// point changes between open, closed, sticking and slipping.
-    virtual std::uint64_t
-    active_set_signature() const = 0;
-  };
-
-  /// A contact treatment: what time schemes, linear solvers and reports ask of
-  /// it.
-  class ContactOperator
-    : public StageContact
-    , public TangentContact
-    , public ContactReport
-  {
-  public:
-    /// Of all contacts together; set by the table that makes them.
-    EnergyPromise promise;
-
-    /// That of the contact of the points with @p boundary_id.
-    virtual const EnergyPromise &
-    promise_at(const dealii::types::boundary_id /*boundary_id*/) const
+  protected:
+    /// @param layout of system vectors.
+    explicit ContactOperator(const Vector &layout)
+      : force(layout)
+      , friction_part(layout)
+      , scaling(layout)
     {
-      return promise;
+      force = friction_part = 0.;
+      scaling               = 1.;
     }
+
+    ContactStructure own_structure;
+    ContactTraits    own_traits;
+    Vector           force, friction_part, scaling;
   };
 } // namespace Ricochet
 

@@ -78,25 +78,6 @@ namespace Ricochet
     virtual double
     potential(const Vector &solution, const double time) = 0;
 
-    /// Whether there is a modified energy. A constraint stores nothing; a method
-    /// without potential has none.
-    virtual bool
-    has_modified_energy() const
-    {
-      return true;
-    }
-
-    /// Whether an obstacle moves, and so does work on the body.
-    virtual bool
-    has_moving_obstacles() const = 0;
-
-    /// Whether there may be times at which no point has a gap.
-    virtual bool
-    gaps_may_be_unknown() const
-    {
-      return false;
-    }
-
     /// Contact pressure (Pa), as a field for pictures: the average around each
     /// node of the contact boundary, in the place of the node's first
     /// displacement; zero elsewhere. It depends on the arguments alone: in nodes
@@ -104,10 +85,6 @@ namespace Ricochet
     /// solution.
     virtual Vector
     pressure_field(const ContactInstant &instant) = 0;
-
-    /// Whether the summary has the pressure of the body's own stress.
-    virtual bool
-    knows_stress_pressure() const = 0;
 
     virtual ContactSummaries
     summary(const ContactInstant &instant) = 0;

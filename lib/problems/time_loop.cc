@@ -132,7 +132,7 @@ namespace Ricochet
     , ledger(folder)
     , check(system.contact.promise,
             checked_contacts(system.contact, this->contact_names),
-            system.contact.has_moving_obstacles() &&
+            system.contact.traits().has_moving_obstacles &&
               scheme.contact_force_is_of_step())
   {
     sums.contacts.resize(this->contact_names.size());
@@ -147,23 +147,23 @@ namespace Ricochet
     add("energy", "J");
     add("modified_energy",
         "J",
-        /* may be empty */ !system.contact.has_modified_energy());
+        /* may be empty */ !system.contact.traits().has_modified_energy);
     add("total_energy",
         "J",
-        /* may be empty */ !system.contact.has_modified_energy());
+        /* may be empty */ !system.contact.traits().has_modified_energy);
     add("external_work", "J");
     add("contact_work", "J");
     add("friction_work", "J");
     add("viscous_dissipation", "J");
     add("numerical_dissipation", "J");
-    if (system.contact.has_moving_obstacles())
+    if (system.contact.traits().has_moving_obstacles)
       add("obstacle_work", "J");
     if (system.has_imposed_displacements())
       add("imposed_work", "J");
     add("balance_residual", "1");
     add("promise_residual",
         "1",
-        /* may be empty */ !system.contact.has_modified_energy());
+        /* may be empty */ !system.contact.traits().has_modified_energy);
     add("round_off", "J");
     add("newton_iterations", "1");
     add("linear_solves", "1");
@@ -175,13 +175,13 @@ namespace Ricochet
     add("passing_halvings", "1");
     for (const auto &[name, ids] : this->contact_names)
       {
-        const bool may_be_empty = system.contact.gaps_may_be_unknown();
+        const bool may_be_empty = system.contact.traits().gaps_may_be_unknown;
         add("mean_gap_" + name, "m", may_be_empty);
         add("smallest_gap_" + name, "m", may_be_empty);
         add("penetration_" + name, "m");
         add("contact_force_" + name, "N");
         add("contact_pressure_" + name, "Pa");
-        if (system.contact.knows_stress_pressure())
+        if (system.contact.traits().knows_stress_pressure)
           add("stress_pressure_" + name, "Pa");
         add("active_points_" + name, "1");
         add("passed_points_" + name, "1");
@@ -193,7 +193,7 @@ namespace Ricochet
             add("entered_points_" + name, "1");
           }
       }
-    if (system.contact.knows_work_of_contacts())
+    if (system.contact.traits().knows_work)
       for (const auto &contact : this->contact_names)
         {
           const auto &[name, ids] = contact;
@@ -315,7 +315,7 @@ namespace Ricochet
       {
         StepReport report =
           scheme.step(system, old_state, time_step, new_state);
-        if (obstacle_work && system.contact.has_moving_obstacles())
+        if (obstacle_work && system.contact.traits().has_moving_obstacles)
           {
             const auto forces_of = [](const State &state) {
               return state.contact_shares.empty()
@@ -512,7 +512,7 @@ namespace Ricochet
                     const StepReport &report,
                     const double      balance)
   {
-    const double       modified = system.contact.has_modified_energy()
+    const double       modified = system.contact.traits().has_modified_energy
             ? energies.total() + system.contact.potential(state.solution, state.time)
             : std::numeric_limits<double>::quiet_NaN();
     EnergyCheck::Terms terms;
@@ -547,7 +547,7 @@ namespace Ricochet
                                sums.friction_work,
                                sums.viscous_dissipation,
                                sums.numerical_dissipation};
-    if (system.contact.has_moving_obstacles())
+    if (system.contact.traits().has_moving_obstacles)
       row.push_back(sums.obstacle_work);
     if (system.has_imposed_displacements())
       row.push_back(sums.imposed_work);
@@ -586,14 +586,14 @@ namespace Ricochet
                     contact.max_penetration,
                     contact.force,
                     contact.contact_pressure});
-        if (system.contact.knows_stress_pressure())
+        if (system.contact.traits().knows_stress_pressure)
           row.push_back(contact.stress_pressure);
         row.push_back(static_cast<double>(contact.active_points));
         row.push_back(static_cast<double>(sums.contacts[k].n_passed));
         if (scheme.contact_force_is_of_step())
           row.push_back(sums.contacts[k].made);
         if (scheme.contact_force_is_of_step() &&
-            system.contact.gaps_may_be_unknown())
+            system.contact.traits().gaps_may_be_unknown)
           row.insert(row.end(),
                      {static_cast<double>(sums.contacts[k].n_dropped),
                       static_cast<double>(sums.contacts[k].n_entered)});
@@ -748,7 +748,7 @@ namespace Ricochet
         active += value("active_points_" + entry.first);
       }
     char modified_energy[40] = "-";
-    if (system.contact.has_modified_energy())
+    if (system.contact.traits().has_modified_energy)
       std::snprintf(modified_energy,
                     sizeof(modified_energy),
                     "%.7e",

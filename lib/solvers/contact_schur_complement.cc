@@ -49,7 +49,7 @@ namespace Ricochet
   ContactSchurComplement::factorise(const Tangent &tangent)
   {
     tangent.assemble_body(matrix);
-    tangent.complete_constant_contact(matrix);
+    tangent.add_open_contact(matrix);
     const Stopwatch stopwatch(spent.factorising);
     ++spent.n_factorisations;
     forwards.assign((n_rows() + group_size - 1) / group_size, {});

@@ -43,8 +43,7 @@ namespace Ricochet
                            const SparseCholesky::Kind           kind,
                            TangentSolver::Costs                &spent);
 
-    /// K becomes that of @p tangent, with what contact adds besides
-    /// Tangent::contact_change.
+    /// K becomes that of @p tangent, with open contact.
     /// @throws NewtonFailure when it cannot be factored.
     void
     factorise(const Tangent &tangent);
@@ -109,9 +108,8 @@ namespace Ricochet
                    const std::vector<double> &coefficients,
                    std::vector<double>       &values);
 
-    /// The derivatives C of the coefficients with respect to H x (see
-    /// Tangent::contact_change) and E with respect to what the residual leaves over along
-    /// the rows (see Tangent::contact_excess_change), by row.
+    /// The derivatives C of the coefficients with respect to H x, and E with respect to
+    /// the residual along the rows, by row (see Tangent::differentiate_contact).
     /// @throws NewtonFailure when the matrix of solve_contact() is singular.
     void
     set_contact(const std::vector<FunctionalRow> &change,

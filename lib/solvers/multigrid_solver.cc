@@ -53,7 +53,7 @@ namespace Ricochet
     : contact(contact)
     , clamped(clamped)
     , is_sum(linear_body && contact.functionals.has_value() &&
-             !contact.takes_rows && coarse_space.prolongation.m() > 0)
+             !contact.eliminates_rows && coarse_space.prolongation.m() > 0)
     , multigrid(std::move(coarse_space), linear_body && contact.is_symmetric)
   {
     return_freed_memory();
@@ -86,14 +86,14 @@ namespace Ricochet
       {
         body.reset();
         MatrixSum terms = tangent.body_terms;
-        if (tangent.complete_contact)
+        if (tangent.add_contact)
           {
             if (matrix.entries()->m() == 0)
               reinit_contact_matrix(*terms[0].matrix,
                                     contact.rows,
                                     *matrix.entries());
             *matrix.entries() = 0.;
-            tangent.complete_constant_contact(*matrix.entries());
+            tangent.add_open_contact(*matrix.entries());
             terms.push_back({1., &matrix});
           }
         current->set_terms(terms);
@@ -102,9 +102,10 @@ namespace Ricochet
         multigrid.set_body(*current, tangent.body_terms.size());
         body = tangent.body;
       }
-    std::vector<FunctionalRow> change(n_functionals);
-    if (tangent.complete_contact)
-      tangent.contact_change(change);
+    std::vector<FunctionalRow> change(n_functionals),
+      with_residual(n_functionals);
+    if (tangent.add_contact)
+      tangent.differentiate_contact(change, with_residual);
     current->set_change(std::move(change));
   }
 

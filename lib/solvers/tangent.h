@@ -36,7 +36,7 @@ namespace Ricochet
     /// It couples unknowns that the body does not couple, and not always the same.
     bool couplings_change = false;
     /// It takes rows of the body out, and puts its own there.
-    bool takes_rows = false;
+    bool eliminates_rows = false;
   };
 
   /// What names the body's part of a tangent: the weights of its terms.
@@ -74,16 +74,16 @@ namespace Ricochet
     /// The body's part as a sum, if it is linear, as if no unknown were clamped.
     MatrixSum body_terms;
     /// Add contact.
-    std::function<void(Matrix &)> complete_contact;
-    /// Add what contact adds besides contact_change.
-    std::function<void(Matrix &)> complete_constant_contact;
-    /// The difference of that and complete_contact as the rows of a matrix C between the
-    /// functionals f_i that this rank knows: the sum of C_ij f_i f_j^T, and of what other
-    /// ranks add.
-    std::function<void(std::vector<FunctionalRow> &)> contact_change;
-    /// Where contact takes rows, besides the sum of E_ij f_i f_j^T K, with the body's
-    /// matrix K.
-    std::function<void(std::vector<FunctionalRow> &)> contact_excess_change;
+    std::function<void(Matrix &)> add_contact;
+    /// Add the derivatives of open contact alone.
+    std::function<void(Matrix &)> add_open_contact;
+    /// The difference of that and add_contact: the rows of matrices C and E between
+    /// the functionals f_i that this rank knows, for the sum of C_ij f_i f_j^T and of what
+    /// other ranks add, and, where contact takes rows, of E_ij f_i f_j^T K with the
+    /// body's matrix K.
+    std::function<void(std::vector<FunctionalRow> &,
+                       std::vector<FunctionalRow> &)>
+      differentiate_contact;
   };
 } // namespace Ricochet
 

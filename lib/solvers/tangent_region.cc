@@ -239,8 +239,7 @@ namespace Ricochet
     const Functionals &functionals = kept.rows();
     ContactRows        of_contact;
     of_contact.fill(std::vector<FunctionalRow>(kept.n_rows()));
-    contact.contact_change(of_contact[0]);
-    contact.contact_excess_change(of_contact[1]);
+    contact.differentiate_contact(of_contact[0], of_contact[1]);
     UnknownList region = largest(residual);
     add_contact(of_contact, functionals, region);
     if (region.empty())

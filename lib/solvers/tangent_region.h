@@ -19,7 +19,7 @@ namespace Ricochet
    * with K tells T what it does not know.
    *
    * With the displacements d of the region R that K and the derivatives C and E of contact
-   * (see Tangent::contact_change and contact_excess_change) find for a residual r, while all
+   * (see Tangent::differentiate_contact) find for a residual r, while all
    * else is held,
    *
    *     (K + E K + C)_RR d = -r_R,

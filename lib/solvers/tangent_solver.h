@@ -62,8 +62,8 @@ namespace Ricochet
   assemble(const Tangent &tangent, Matrix &matrix)
   {
     tangent.assemble_body(matrix);
-    if (tangent.complete_contact)
-      tangent.complete_contact(matrix);
+    if (tangent.add_contact)
+      tangent.add_contact(matrix);
   }
 } // namespace Ricochet
 

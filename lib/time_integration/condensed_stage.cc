@@ -30,12 +30,12 @@ namespace Ricochet
     copy_values(residual, open_residual);
     if (work.size() != residual.size())
       work.reinit(residual);
-    contact.force_change(forces);
+    contact.forces_on_rows(forces);
     const std::vector<double> all = by_place(forces);
     for (double &force : forces)
       force = -force;
     system.add_rows(forces, open_residual);
-    if (contact.takes_rows())
+    if (contact.structure().eliminates_rows)
       open_excess = system.along_rows(open_residual);
     system.begin(open_residual);
     look_around(all);
@@ -111,7 +111,7 @@ namespace Ricochet
     for (unsigned int f = 0; f < change.size(); ++f)
       change[f] =
         system.place(f) < values.size() ? values[system.place(f)] : 0.;
-    if (contact.takes_rows())
+    if (contact.structure().eliminates_rows)
       {
         work = 0.;
         system.add_rows(unknowns.coefficients, work);
@@ -119,8 +119,8 @@ namespace Ricochet
         for (unsigned int f = 0; f < excess.size(); ++f)
           excess[f] = (1. - unknowns.share) * open_excess[f] - excess[f];
       }
-    contact.look_at_change(change, excess);
-    contact.force_change(forces);
+    contact.evaluate_at_increment(change, excess);
+    contact.forces_on_rows(forces);
     for (unsigned int f = 0; f < change.size(); ++f)
       unknowns.coefficients[f] = forces[f] - unknowns.coefficients[f];
     contact_force_scale = unknowns.share == 0.
@@ -139,7 +139,7 @@ namespace Ricochet
     if (rest.share == 0.)
       return system.norm_of_rows(rest.coefficients,
                                  contact_forces.row_scaling) +
-        contact_forces.weight * contact.linearisation_error();
+        contact_forces.weight * contact.residual_bounds().linearisation;
     work = 0.;
     work.add(rest.share, open_residual);
     system.add_rows(rest.coefficients, work);
@@ -156,13 +156,12 @@ namespace Ricochet
     Unknowns rest = read(right_hand_side);
     // Where Newton's method converges fast, its dense system costs more than the one
     // or two iterations that another one would save.
-    const std::uint64_t active_set = contact.active_set_signature();
+    const std::uint64_t active_set = contact.active_set().hash;
     if (!may_reuse || tangent_active_set != active_set)
       {
         change.assign(system.n_rows(), {});
-        contact.tangent_change(change);
         excess_change.assign(system.n_rows(), {});
-        contact.excess_change(excess_change);
+        contact.differentiate_forces(change, excess_change);
         system.set_contact(change, excess_change);
         tangent_active_set = active_set;
       }

@@ -53,7 +53,7 @@ namespace Ricochet
     if (const Vector *friction_force = system.contact.friction_force())
       // What a moving obstacle drags along is work of contact, as all that it
       // does to the body.
-      report.friction_work = system.contact.has_moving_obstacles()
+      report.friction_work = system.contact.traits().has_moving_obstacles
         ? system.contact.friction_dissipation()
         : *friction_force * work;
     report.contact_work = new_state.contact_force * work - report.friction_work;

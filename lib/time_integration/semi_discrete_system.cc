@@ -15,11 +15,11 @@ namespace Ricochet
     /// Clamped unknowns (@p clamped of this rank) have equations of their own,
     /// in which contact has no part.
     ContactStructure
-    contact_structure(const TangentContact &contact,
-                      const IndexSet       &my_clamped,
-                      const MPI_Comm        communicator)
+    contact_structure(const ContactOperator &contact,
+                      const IndexSet        &my_clamped,
+                      const MPI_Comm         communicator)
     {
-      ContactStructure structure = contact.tangent_structure();
+      ContactStructure structure = contact.structure();
       if (structure.functionals)
         {
           IndexSet   clamped(my_clamped.size());

@@ -39,7 +39,7 @@ namespace Ricochet
     /// Contact force at this instant (two-point treatments: over the last
     /// step), on the side of the internal forces (N).
     Vector contact_force;
-    /// What several contacts have of contact_force (N), see StageContact::shares();
+    /// What several contacts have of contact_force (N), see ContactOperator::shares();
     /// empty where there is only one.
     std::vector<Vector> contact_shares;
     /// Mean velocity over the last step, (u_new - u_old)/dt (m/s), which

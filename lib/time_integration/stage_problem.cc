@@ -54,7 +54,7 @@ namespace Ricochet
           parts.bulk.strain_round_off();
       }
     return *bulk_round_off +
-      stage.contact_weight_new * parts.contact.round_off();
+      stage.contact_weight_new * parts.contact.residual_bounds().round_off;
   }
 
   NewtonSolver::Problem
@@ -180,7 +180,7 @@ namespace Ricochet
         entries(result) += stage.bulk_weight_new * entries(parts.force) +
           entries(parts.constant_part);
       }
-    parts.contact.complete_residual(point, result);
+    parts.contact.add_residual(point, result);
     contact_scale =
       stage.contact_weight_new * l2_norm(parts.contact.contact_force());
     force_scale += contact_scale;
@@ -200,7 +200,7 @@ namespace Ricochet
       {
         tangent.body =
           BodyKey{stage.inertia, bulk_weight, stage.contact_weight_new};
-        tangent.contact    = parts.contact.tangent_signature();
+        tangent.contact    = parts.contact.active_set().tangent_key;
         tangent.body_terms = stage.bulk_step_force
           ? parts.bulk.step_tangent_terms(stage.time_step)
           : parts.bulk.tangent_terms(bulk_weight);
@@ -238,24 +238,21 @@ namespace Ricochet
         assemble_body(parts.body_matrix);
         parts.united_pattern.embed(parts.body_matrix, matrix);
       };
-    const auto complete = [this](void (TangentContact::*add)(Matrix &) const) {
+    const auto complete = [this](void (ContactOperator::*add)(Matrix &) const) {
       return [this, add](Matrix &matrix) {
         const Stopwatch stopwatch(parts.tangent_seconds);
         (parts.contact.*add)(matrix);
         matrix.clear_rows(parts.clamped, 1.);
       };
     };
-    tangent.complete_contact = complete(&TangentContact::complete_tangent);
-    tangent.complete_constant_contact =
-      complete(&TangentContact::complete_constant_tangent);
-    tangent.contact_change = [this](std::vector<FunctionalRow> &change) {
-      const Stopwatch stopwatch(parts.tangent_seconds);
-      parts.contact.tangent_change(change);
-    };
-    tangent.contact_excess_change = [this](std::vector<FunctionalRow> &change) {
-      const Stopwatch stopwatch(parts.tangent_seconds);
-      parts.contact.excess_change(change);
-    };
+    tangent.add_contact      = complete(&ContactOperator::add_tangent);
+    tangent.add_open_contact = complete(&ContactOperator::add_open_tangent);
+    tangent.differentiate_contact =
+      [this](std::vector<FunctionalRow> &with_values,
+             std::vector<FunctionalRow> &with_residual) {
+        const Stopwatch stopwatch(parts.tangent_seconds);
+        parts.contact.differentiate_forces(with_values, with_residual);
+      };
     return tangent;
   }
 
@@ -269,7 +266,7 @@ namespace Ricochet
     ++report.outer_iterations;
     const Tangent       current    = tangent(here());
     const bool          has_name   = current.body && current.contact;
-    const std::uint64_t active_set = parts.contact.active_set_signature();
+    const std::uint64_t active_set = parts.contact.active_set().hash;
     const bool          reuse =
       may_reuse && !has_name && factored_active_set == active_set;
     if (!has_name)
@@ -290,7 +287,7 @@ namespace Ricochet
   StageProblem::norm(const Vector &result)
   {
     return norm_of_forces(result) +
-      stage.contact_weight_new * parts.contact.linearisation_error();
+      stage.contact_weight_new * parts.contact.residual_bounds().linearisation;
   }
 
   double

@@ -1015,18 +1015,18 @@ namespace
     body_matrix.reinit(body.sparsity_pattern());
     Vector residual(solution), product(solution), difference(solution);
     residual = 0.;
-    contact.complete_residual(solution, residual);
+    contact.add_residual(solution, residual);
     UnitedPattern united;
     united.update(body.sparsity_pattern(), *contact.couplings());
     united.embed(body_matrix, matrix);
-    contact.complete_tangent(matrix);
+    contact.add_tangent(matrix);
     matrix.vmult(product, direction);
     const double h  = 1e-7;
     const auto   at = [&](const double length) {
       Vector point(solution), result(solution);
       point.add(length, direction);
       result = 0.;
-      contact.complete_residual(point, result);
+      contact.add_residual(point, result);
       return result;
     };
     difference = at(h);

@@ -118,13 +118,13 @@ namespace
     const Vector zero = body.make_vector();
     contact.begin_stage({pressed, zero, zero, 0., 0.}, 1.);
     Vector residual = body.make_vector();
-    contact.complete_residual(pressed, residual);
+    contact.add_residual(pressed, residual);
     Matrix bodies, matrix;
     bodies.reinit(body.sparsity_pattern());
     UnitedPattern united;
     united.update(body.sparsity_pattern(), *contact.couplings());
     united.embed(bodies, matrix);
-    contact.complete_tangent(matrix);
+    contact.add_tangent(matrix);
 
     Entries entries;
     for (const auto &entry : matrix)

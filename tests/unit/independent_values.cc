@@ -1186,7 +1186,7 @@ BOOST_AUTO_TEST_CASE(traction_of_a_sticking_block)
                    zero = body.make_vector();
       Vector residual(zero);
       contact->begin_stage({old_solution, zero, zero, .1}, 1.);
-      contact->complete_residual(solution, residual);
+      contact->add_residual(solution, residual);
       BOOST_CHECK_CLOSE(boundary_sum(body, contact->contact_force(), 0, 2),
                         c_tau == 3. ? 2. * 3. * .5 : 2. * .3 * 10.,
                         1e-8);
@@ -1221,7 +1221,7 @@ BOOST_AUTO_TEST_CASE(persistent_contact_looks_half_a_step_ahead)
       Vector       residual(zero);
       const Vector mean_velocity = falling(speed);
       contact->begin_stage({zero, zero, mean_velocity, .01}, 1.);
-      contact->complete_residual(falling(.2), residual);
+      contact->add_residual(falling(.2), residual);
       BOOST_CHECK_EQUAL(contact->active_set_description(),
                         speed < 12. ? "0 of 5" : "5 of 5");
     }

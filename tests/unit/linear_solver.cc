@@ -148,7 +148,7 @@ namespace
       body.clamped_indices().end());
     LinearSolver solver(
       solver_parameters,
-      contact->tangent_structure(),
+      contact->structure(),
       linear_body,
       body.clamped_indices(),
       [&]() { return body.coarse_space(); },
@@ -171,15 +171,15 @@ namespace
         right_hand_side.compress(VectorOperation::insert);
         old_force = -.2;
         contact->begin_stage(start, weight);
-        contact->complete_residual(solution, residual);
+        contact->add_residual(solution, residual);
         contact->accept_iterate();
-        contact->complete_residual(solution, residual);
+        contact->add_residual(solution, residual);
 
         Tangent tangent;
         if (linear_body)
           {
             tangent.body       = BodyKey{3., .5, weight};
-            tangent.contact    = contact->tangent_signature();
+            tangent.contact    = contact->active_set().tangent_key;
             tangent.body_terms = bulk.step_tangent_terms(.1);
             tangent.body_terms.push_back({3., &mass});
           }
@@ -192,28 +192,25 @@ namespace
           bulk.add_step_tangent(old_solution, solution, .1, matrix);
           matrix.clear_rows(clamped, 1.);
         };
-        tangent.complete_contact = [&](Matrix &matrix) {
-          contact->complete_tangent(matrix);
+        tangent.add_contact = [&](Matrix &matrix) {
+          contact->add_tangent(matrix);
           matrix.clear_rows(clamped, 1.);
         };
-        tangent.complete_constant_contact = [&](Matrix &matrix) {
-          contact->complete_constant_tangent(matrix);
+        tangent.add_open_contact = [&](Matrix &matrix) {
+          contact->add_open_tangent(matrix);
           matrix.clear_rows(clamped, 1.);
         };
-        tangent.contact_change = [&](std::vector<FunctionalRow> &change) {
-          contact->tangent_change(change);
-        };
-        tangent.contact_excess_change =
-          [&](std::vector<FunctionalRow> &change) {
-            contact->excess_change(change);
+        tangent.differentiate_contact =
+          [&](std::vector<FunctionalRow> &with_values,
+              std::vector<FunctionalRow> &with_residual) {
+            contact->differentiate_forces(with_values, with_residual);
           };
         if (solver.condenses())
           {
             ContactSchurComplement    &complement = solver.condensed(tangent);
             std::vector<FunctionalRow> change(complement.n_rows()),
               excess_change(complement.n_rows());
-            tangent.contact_change(change);
-            tangent.contact_excess_change(excess_change);
+            tangent.differentiate_contact(change, excess_change);
             solve_condensed(complement,
                             change,
                             excess_change,
@@ -225,7 +222,7 @@ namespace
 
         Matrix matrix;
         tangent.assemble_body(matrix);
-        tangent.complete_contact(matrix);
+        tangent.add_contact(matrix);
         matrix.vmult(residual, result);
         residual -= right_hand_side;
         BOOST_CHECK_MESSAGE(residual.l2_norm() <
@@ -357,11 +354,12 @@ BOOST_AUTO_TEST_CASE(multigrid_needs_few_iterations)
             Vector solution = body.make_vector(), residual(solution),
                    right_hand_side(solution), result(solution);
             contact->begin_stage({solution, solution, solution, .1}, stiffness);
-            contact->complete_residual(solution, residual);
-            const ContactStructure     structure = contact->tangent_structure();
+            contact->add_residual(solution, residual);
+            const ContactStructure     structure = contact->structure();
             std::vector<FunctionalRow> change(
-              structure.functionals->functionals.size());
-            contact->tangent_change(change);
+              structure.functionals->functionals.size()),
+              with_residual(change);
+            contact->differentiate_forces(change, with_residual);
 
             TangentOperator tangent(body.owned_indices(),
                                     body.clamped_indices(),

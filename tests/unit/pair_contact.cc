@@ -282,11 +282,11 @@ BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
           body_matrix.reinit(body.sparsity_pattern());
           Vector residual(solution), product(solution), difference(solution);
           residual = 0.;
-          contact.complete_residual(solution, residual);
+          contact.add_residual(solution, residual);
           UnitedPattern united;
           united.update(body.sparsity_pattern(), *contact.couplings());
           united.embed(body_matrix, matrix);
-          contact.complete_tangent(matrix);
+          contact.add_tangent(matrix);
           matrix.vmult(product, direction);
 
           const double h  = 1e-7;
@@ -294,7 +294,7 @@ BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
             Vector point(solution), result(solution);
             point.add(length, direction);
             result = 0.;
-            contact.complete_residual(point, result);
+            contact.add_residual(point, result);
             return result;
           };
           difference = at(h);
@@ -338,7 +338,7 @@ BOOST_AUTO_TEST_CASE(cost_of_couplings)
                            disks.state.time + time_step},
                           1.);
       Vector residual = body.make_vector();
-      contact.complete_residual(old, residual);
+      contact.add_residual(old, residual);
       Matrix of_bodies, matrix;
       of_bodies.reinit(body.sparsity_pattern());
       impact.system.mass_matrix().add_to(4. / (time_step * time_step),
@@ -347,7 +347,7 @@ BOOST_AUTO_TEST_CASE(cost_of_couplings)
       UnitedPattern united;
       united.update(body.sparsity_pattern(), *contact.couplings());
       united.embed(of_bodies, matrix);
-      contact.complete_tangent(matrix);
+      contact.add_tangent(matrix);
 
       Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(matrix.m(), matrix.n());
       for (const auto &entry : matrix)

@@ -216,14 +216,14 @@ namespace
       current.assemble_body = [this](Matrix &matrix) {
         matrix.copy_from(frozen_tangent);
       };
-      current.complete_constant_contact = [](Matrix &) {};
-      current.row_scaling               = &scaling;
-      current.contact_change = [](std::vector<FunctionalRow> &change) {
-        change[0] = {{0, 2.}, {1, -.7}};
-      };
-      current.contact_excess_change = [](std::vector<FunctionalRow> &change) {
-        change[0] = {{0, -.4}};
-      };
+      current.add_open_contact = [](Matrix &) {};
+      current.row_scaling      = &scaling;
+      current.differentiate_contact =
+        [](std::vector<FunctionalRow> &with_values,
+           std::vector<FunctionalRow> &with_residual) {
+          with_values[0]   = {{0, 2.}, {1, -.7}};
+          with_residual[0] = {{0, -.4}};
+        };
       kept->factorise(current);
     }
 
@@ -308,8 +308,8 @@ BOOST_AUTO_TEST_CASE(regions_save_iterations)
 {
   // Without contact: K x = b by steps with T.
   BodyWithRegion body;
-  body.current.contact_change        = [](std::vector<FunctionalRow> &) {};
-  body.current.contact_excess_change = [](std::vector<FunctionalRow> &) {};
+  body.current.differentiate_contact = [](std::vector<FunctionalRow> &,
+                                          std::vector<FunctionalRow> &) {};
   Symmetric    symmetric(body.frozen_tangent);
   const Vector right_hand_side = some_vector(2);
   const auto   iterations      = [&](const bool with_region) {

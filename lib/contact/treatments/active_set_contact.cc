@@ -148,6 +148,12 @@ namespace Ricochet
                                   points[p].end - points[p].begin))
             add(direction);
       }
+    own_structure.rows               = evaluator.unknowns();
+    own_structure.functionals        = jacobian.all();
+    own_structure.eliminates_rows    = true;
+    own_traits.has_friction          = friction_coefficient > 0.;
+    own_traits.has_moving_obstacles  = kinematics->has_moving_obstacles();
+    own_traits.knows_stress_pressure = stress_evaluator.has_points();
   }
 
 
@@ -205,7 +211,7 @@ namespace Ricochet
 
 
   void
-  ActiveSetContact::complete_residual(const Vector &solution, Vector &residual)
+  ActiveSetContact::add_residual(const Vector &solution, Vector &residual)
   {
     looks_at_change = false;
     kinematics->evaluate(solution, state);
@@ -281,37 +287,30 @@ namespace Ricochet
 
 
   void
-  ActiveSetContact::tangent_change(std::vector<FunctionalRow> &change) const
+  ActiveSetContact::differentiate_forces(
+    std::vector<FunctionalRow> &with_values,
+    std::vector<FunctionalRow> &with_residual) const
   {
     for (unsigned int p = 0; p < nodes.size(); ++p)
       if (is_active(p))
         {
+          const ExchangeDerivatives derivatives = exchange_derivatives(p);
           jacobian.add(p,
-                       on_displacement(
-                         exchange_derivatives(p).with_displacement),
-                       change);
+                       on_displacement(derivatives.with_displacement),
+                       with_values);
+          jacobian.add(p,
+                       on_displacement(derivatives.with_excess),
+                       with_residual);
         }
-    sum_columns(change);
+    sum_columns(with_values);
+    sum_columns(with_residual);
   }
 
 
 
   void
-  ActiveSetContact::excess_change(std::vector<FunctionalRow> &change) const
-  {
-    for (unsigned int p = 0; p < nodes.size(); ++p)
-      if (is_active(p))
-        jacobian.add(p,
-                     on_displacement(exchange_derivatives(p).with_excess),
-                     change);
-    sum_columns(change);
-  }
-
-
-
-  void
-  ActiveSetContact::look_at_change(const std::vector<double> &change,
-                                   const std::vector<double> &excess)
+  ActiveSetContact::evaluate_at_increment(const std::vector<double> &change,
+                                          const std::vector<double> &excess)
   {
     if (!looks_at_change)
       observables_before = kinematics->observables();
@@ -344,7 +343,7 @@ namespace Ricochet
 
 
   void
-  ActiveSetContact::force_change(std::vector<double> &coefficients) const
+  ActiveSetContact::forces_on_rows(std::vector<double> &coefficients) const
   {
     coefficients.assign(jacobian.all().functionals.size(), 0.);
     for (unsigned int p = 0; p < nodes.size(); ++p)
@@ -355,7 +354,7 @@ namespace Ricochet
 
 
   void
-  ActiveSetContact::complete_tangent(Matrix &tangent) const
+  ActiveSetContact::add_tangent(Matrix &tangent) const
   {
     // In place, on the rows of the active nodes, which have the same columns in the
     // same order, because cells couple all components.
@@ -410,8 +409,8 @@ namespace Ricochet
 
 
 
-  double
-  ActiveSetContact::round_off() const
+  ResidualBounds
+  ActiveSetContact::residual_bounds() const
   {
     double square = 0.;
     for (unsigned int p = 0; p < nodes.size(); ++p)
@@ -427,8 +426,9 @@ namespace Ricochet
               square += stick * stick;
             }
         }
-    return std::sqrt(
-      dealii::Utilities::MPI::sum(square, evaluator.communicator));
+    return {0.,
+            std::sqrt(
+              dealii::Utilities::MPI::sum(square, evaluator.communicator))};
   }
 
 
@@ -444,9 +444,12 @@ namespace Ricochet
 
 
 
-  std::optional<std::uint64_t>
-  ActiveSetContact::tangent_signature() const
+  ActiveSet
+  ActiveSetContact::active_set() const
   {
+    std::vector<int> values = statuses();
+    values.push_back(static_cast<int>(closing_kind()));
+    ActiveSet result{global_hash(values, evaluator.communicator), {}};
     // The direction of slip is part of the tangent, and so are normals that turn.
     const bool turns = !kinematics->has_constant_rows();
     if (friction_coefficient > 0. || turns)
@@ -458,19 +461,10 @@ namespace Ricochet
           });
         if (dealii::Utilities::MPI::max(has_directions ? 1 : 0,
                                         evaluator.communicator) == 1)
-          return {};
+          return result;
       }
-    return active_set_signature();
-  }
-
-
-
-  std::uint64_t
-  ActiveSetContact::active_set_signature() const
-  {
-    std::vector<int> values = statuses();
-    values.push_back(static_cast<int>(closing_kind()));
-    return global_hash(values, evaluator.communicator);
+    result.tangent_key = result.hash;
+    return result;
   }
 
 

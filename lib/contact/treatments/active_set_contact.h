@@ -48,19 +48,16 @@ namespace Ricochet
                      const Condition  condition,
                      const double     augmentation,
                      const double     friction_coefficient)
-      : kinematics(make_kinematics(body, std::move(nodes)))
+      : ContactOperator(body.make_vector())
+      , kinematics(make_kinematics(body, std::move(nodes)))
       , evaluator(kinematics->evaluator)
       , jacobian(evaluator.coefficients())
       , stress_evaluator(body, std::move(stress_points))
       , condition(condition)
       , augmentation(augmentation)
       , friction_coefficient(friction_coefficient)
-      , force(body.make_vector())
-      , friction_part(body.make_vector())
-      , scaling(body.make_vector())
       , nodes(evaluator.contact_points().size())
     {
-      scaling = 1.;
       make_rows();
     }
 
@@ -68,7 +65,7 @@ namespace Ricochet
     begin_stage(const ContactStart &start, const double weight) override;
 
     void
-    complete_residual(const Vector &solution, Vector &residual) override;
+    add_residual(const Vector &solution, Vector &residual) override;
 
     ContactSteps
     end_step(const Vector &begin,
@@ -83,60 +80,28 @@ namespace Ricochet
     next_pass() override;
 
     void
-    complete_tangent(Matrix &tangent) const override;
-
-    ContactStructure
-    tangent_structure() const override
-    {
-      ContactStructure structure;
-      structure.rows        = evaluator.unknowns();
-      structure.functionals = jacobian.all();
-      structure.takes_rows  = true;
-      return structure;
-    }
+    add_tangent(Matrix &tangent) const override;
 
     void
-    tangent_change(std::vector<FunctionalRow> &change) const override;
+    differentiate_forces(
+      std::vector<FunctionalRow> &with_values,
+      std::vector<FunctionalRow> &with_residual) const override;
 
     void
-    excess_change(std::vector<FunctionalRow> &change) const override;
+    evaluate_at_increment(const std::vector<double> &change,
+                          const std::vector<double> &excess) override;
 
     void
-    look_at_change(const std::vector<double> &change,
-                   const std::vector<double> &excess) override;
+    forces_on_rows(std::vector<double> &coefficients) const override;
 
-    void
-    force_change(std::vector<double> &coefficients) const override;
-
-    std::optional<std::uint64_t>
-    tangent_signature() const override;
-
-    std::uint64_t
-    active_set_signature() const override;
+    ActiveSet
+    active_set() const override;
 
     std::string
     active_set_description() const override;
 
-    const Vector &
-    contact_force() const override
-    {
-      return force;
-    }
-
-    bool
-    takes_rows() const override
-    {
-      return true;
-    }
-
-    double
-    round_off() const override;
-
-    const Vector *
-    friction_force() const override
-    {
-      return friction_coefficient > 0. ? &friction_part : nullptr;
-    }
+    ResidualBounds
+    residual_bounds() const override;
 
     double
     friction_dissipation() const override;
@@ -155,24 +120,6 @@ namespace Ricochet
     potential(const Vector & /*solution*/, const double /*time*/) override
     {
       return 0.;
-    }
-
-    bool
-    has_moving_obstacles() const override
-    {
-      return kinematics->has_moving_obstacles();
-    }
-
-    const Vector &
-    row_scaling() const override
-    {
-      return scaling;
-    }
-
-    bool
-    knows_stress_pressure() const override
-    {
-      return stress_evaluator.has_points();
     }
 
     ContactSummaries
@@ -241,7 +188,7 @@ namespace Ricochet
     }
 
     /// Rows along the normal of each node, and with friction along the plane; where
-    /// normals turn, along the axes.
+    /// normals turn, along the axes; and the properties of the base that follow.
     void
     make_rows();
 
@@ -265,7 +212,7 @@ namespace Ricochet
     void
     look_at_geometry(const unsigned int p);
 
-    /// @return what the condition keeps at zero, at the last complete_residual() (m).
+    /// @return what the condition keeps at zero, at the last add_residual() (m).
     double
     closing(const unsigned int p) const;
 
@@ -288,12 +235,11 @@ namespace Ricochet
 
     std::vector<ContactPointState<>> state, old_state;
     std::vector<PointVector>         stress_observables;
-    Vector                           force, friction_part, scaling;
     std::vector<Node>                nodes;
-    // Observables from which look_at_change() begins, and at which it looks.
+    // Observables from which evaluate_at_increment() begins, and at which it looks.
     bool                     looks_at_change = false;
     std::vector<PointVector> observables_before, observables;
-    // Work space of complete_tangent(): the rows of a node.
+    // Work space of add_tangent(): the rows of a node.
     mutable std::vector<double> normal_row, new_rows;
   };
 } // namespace Ricochet

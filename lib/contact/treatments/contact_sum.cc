@@ -11,34 +11,59 @@ namespace Ricochet
 
   ContactSum::ContactSum(
     std::vector<std::unique_ptr<ContactOperator>> all_contacts)
-    : contacts(std::move(all_contacts))
-    , force(contacts.front()->row_scaling())
-    , friction(force)
-    , scaling(force)
+    : ContactOperator(all_contacts.front()->row_scaling())
+    , contacts(std::move(all_contacts))
     , instant_forces(contacts.size(), force)
   {
-    for (const bool takes_rows : {false, true})
+    for (const bool eliminates_rows : {false, true})
       for (const auto &contact : contacts)
-        if (contact->takes_rows() == takes_rows)
+        if (contact->structure().eliminates_rows == eliminates_rows)
           in_order.push_back(contact.get());
     promise = contacts.front()->promise;
     for (const auto &contact : contacts)
       promise = promise.and_also(contact->promise);
-    force   = 0.;
-    scaling = 1.;
+    for (const ContactOperator *contact : in_order)
+      scaling.scale(contact->row_scaling());
+    set_structure();
+  }
+
+
+
+  void
+  ContactSum::set_structure()
+  {
+    bool                          have_functionals = true;
+    std::vector<ContactStructure> structures;
+    own_structure.is_symmetric     = true;
+    own_traits.has_modified_energy = true;
     for (const ContactOperator *contact : in_order)
       {
-        has_friction = has_friction || contact->friction_force();
-        scaling.scale(contact->row_scaling());
+        const ContactStructure &own =
+          structures.emplace_back(contact->structure());
+        own_structure.rows.insert(own_structure.rows.end(),
+                                  own.rows.begin(),
+                                  own.rows.end());
+        own_structure.is_symmetric &= own.is_symmetric;
+        own_structure.has_multipliers |= own.has_multipliers;
+        own_structure.couplings_change |= own.couplings_change;
+        own_structure.eliminates_rows |= own.eliminates_rows;
+        have_functionals = have_functionals && own.functionals;
+
+        own_traits.has_friction |= contact->traits().has_friction;
+        own_traits.has_modified_energy &= contact->traits().has_modified_energy;
+        own_traits.has_moving_obstacles |=
+          contact->traits().has_moving_obstacles;
+        own_traits.gaps_may_be_unknown |= contact->traits().gaps_may_be_unknown;
       }
-    std::vector<ContactStructure> structures;
-    for (const ContactOperator *contact : in_order)
-      structures.push_back(contact->tangent_structure());
-    if (!std::all_of(structures.begin(),
-                     structures.end(),
-                     [](const ContactStructure &structure) {
-                       return structure.functionals.has_value();
-                     }))
+    // Each row once, where it comes first.
+    std::set<types::global_dof_index>    known;
+    std::vector<types::global_dof_index> rows;
+    for (const auto row : own_structure.rows)
+      if (known.insert(row).second)
+        rows.push_back(row);
+    own_structure.rows = rows;
+
+    if (!have_functionals)
       return;
     const MPI_Comm communicator = force.get_mpi_communicator();
     if (!keeps_rows_apart(structures, communicator))
@@ -47,12 +72,18 @@ namespace Ricochet
           return;
         products.emplace(functionals);
       }
+    own_structure.functionals.emplace();
     first_functional.push_back(0);
     for (const ContactStructure &structure : structures)
       {
         functionals.add(structure.functionals->functionals);
         first_functional.push_back(functionals.size());
+        std::vector<double> &order = own_structure.functionals->order;
+        order.insert(order.end(),
+                     structure.functionals->order.begin(),
+                     structure.functionals->order.end());
       }
+    own_structure.functionals->functionals = functionals;
   }
 
 
@@ -64,7 +95,7 @@ namespace Ricochet
     bool are_apart = true;
     for (unsigned int k = 0; k < structures.size(); ++k)
       {
-        if (!structures[k].takes_rows)
+        if (!structures[k].eliminates_rows)
           continue;
         const std::set<types::global_dof_index> rows(structures[k].rows.begin(),
                                                      structures[k].rows.end());
@@ -96,20 +127,20 @@ namespace Ricochet
 
 
   void
-  ContactSum::complete_residual(const Vector &solution, Vector &residual)
+  ContactSum::add_residual(const Vector &solution, Vector &residual)
   {
     force = 0.;
     for (ContactOperator *contact : in_order)
       {
-        contact->complete_residual(solution, residual);
+        contact->add_residual(solution, residual);
         force += contact->contact_force();
       }
-    if (!has_friction)
+    if (!own_traits.has_friction)
       return;
-    friction = 0.;
+    friction_part = 0.;
     for (const ContactOperator *contact : in_order)
       if (const Vector *part = contact->friction_force())
-        friction += *part;
+        friction_part += *part;
   }
 
 
@@ -183,23 +214,16 @@ namespace Ricochet
 
 
 
-  double
-  ContactSum::linearisation_error() const
+  ResidualBounds
+  ContactSum::residual_bounds() const
   {
-    double sum = 0.;
+    ResidualBounds sum;
     for (const ContactOperator *contact : in_order)
-      sum = std::hypot(sum, contact->linearisation_error());
-    return sum;
-  }
-
-
-
-  double
-  ContactSum::round_off() const
-  {
-    double sum = 0.;
-    for (const ContactOperator *contact : in_order)
-      sum = std::hypot(sum, contact->round_off());
+      {
+        const ResidualBounds own = contact->residual_bounds();
+        sum.linearisation = std::hypot(sum.linearisation, own.linearisation);
+        sum.round_off     = std::hypot(sum.round_off, own.round_off);
+      }
     return sum;
   }
 
@@ -217,115 +241,64 @@ namespace Ricochet
 
 
   void
-  ContactSum::complete_tangent(Matrix &tangent) const
+  ContactSum::add_tangent(Matrix &tangent) const
   {
     for (const ContactOperator *contact : in_order)
-      contact->complete_tangent(tangent);
+      contact->add_tangent(tangent);
   }
 
 
 
   void
-  ContactSum::complete_constant_tangent(Matrix &tangent) const
+  ContactSum::add_open_tangent(Matrix &tangent) const
   {
     for (const ContactOperator *contact : in_order)
-      contact->complete_constant_tangent(tangent);
-  }
-
-
-
-  ContactStructure
-  ContactSum::tangent_structure() const
-  {
-    ContactStructure sum;
-    sum.is_symmetric = true;
-    if (!first_functional.empty())
-      sum.functionals.emplace();
-    for (const ContactOperator *contact : in_order)
-      {
-        const ContactStructure own = contact->tangent_structure();
-        sum.rows.insert(sum.rows.end(), own.rows.begin(), own.rows.end());
-        sum.is_symmetric     = sum.is_symmetric && own.is_symmetric;
-        sum.has_multipliers  = sum.has_multipliers || own.has_multipliers;
-        sum.couplings_change = sum.couplings_change || own.couplings_change;
-        sum.takes_rows       = sum.takes_rows || own.takes_rows;
-        if (!sum.functionals)
-          continue;
-        sum.functionals->functionals.add(own.functionals->functionals);
-        sum.functionals->order.insert(sum.functionals->order.end(),
-                                      own.functionals->order.begin(),
-                                      own.functionals->order.end());
-      }
-    // Each row once, where it comes first.
-    std::vector<types::global_dof_index> rows;
-    std::vector<types::global_dof_index> sorted = sum.rows;
-    std::sort(sorted.begin(), sorted.end());
-    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    std::vector<bool> taken(sorted.size(), false);
-    for (const auto row : sum.rows)
-      {
-        const auto place =
-          std::lower_bound(sorted.begin(), sorted.end(), row) - sorted.begin();
-        if (!taken[place])
-          rows.push_back(row);
-        taken[place] = true;
-      }
-    sum.rows = rows;
-    return sum;
+      contact->add_open_tangent(tangent);
   }
 
 
 
   void
-  ContactSum::gather_change(
-    void (TangentContact::*ask)(std::vector<FunctionalRow> &) const,
-    std::vector<FunctionalRow> &change) const
+  ContactSum::differentiate_forces(
+    std::vector<FunctionalRow> &with_values,
+    std::vector<FunctionalRow> &with_residual) const
   {
     for (unsigned int k = 0; k < in_order.size(); ++k)
       {
         const unsigned int         first = first_functional[k];
-        std::vector<FunctionalRow> own(first_functional[k + 1] - first);
-        (in_order[k]->*ask)(own);
-        for (unsigned int f = 0; f < own.size(); ++f)
+        const unsigned int         n     = first_functional[k + 1] - first;
+        std::vector<FunctionalRow> own_values(n), own_residual(n);
+        in_order[k]->differentiate_forces(own_values, own_residual);
+        const auto add = [&](const unsigned int          f,
+                             const FunctionalRow        &own,
+                             std::vector<FunctionalRow> &all) {
+          for (const auto &[g, value] : own)
+            all[first + f].emplace_back(first + g, value);
+        };
+        for (unsigned int f = 0; f < n; ++f)
           {
-            for (auto &entry : own[f])
-              entry.first += first;
-            change[first + f] = std::move(own[f]);
+            add(f, own_values[f], with_values);
+            add(f, own_residual[f], with_residual);
+            if (!products)
+              continue;
+            // Forces of other contacts in rows that this one eliminates.
+            for (const auto &[g, value] : own_residual[f])
+              for (const auto &[other, product] : products->of(first + g))
+                if (other < first)
+                  for (std::vector<FunctionalRow> *all :
+                       {&with_values, &with_residual})
+                    for (const auto &[h, entry] : (*all)[other])
+                      (*all)[first + f].emplace_back(h,
+                                                     value * product * entry);
           }
-        if (!products || !in_order[k]->takes_rows())
-          continue;
-        std::vector<FunctionalRow> with_excess(own.size());
-        in_order[k]->excess_change(with_excess);
-        for (unsigned int f = 0; f < own.size(); ++f)
-          for (const auto &[g, value] : with_excess[f])
-            for (const auto &[other, product] : products->of(first + g))
-              if (other < first)
-                for (const auto &[h, entry] : change[other])
-                  change[first + f].emplace_back(h, value * product * entry);
       }
   }
 
 
 
   void
-  ContactSum::tangent_change(std::vector<FunctionalRow> &change) const
-  {
-    gather_change(&TangentContact::tangent_change, change);
-  }
-
-
-
-  void
-  ContactSum::excess_change(std::vector<FunctionalRow> &change) const
-  {
-    gather_change(&TangentContact::excess_change, change);
-  }
-
-
-
-  void
-  ContactSum::look_at_change(const std::vector<double> &change,
-                             const std::vector<double> &excess)
+  ContactSum::evaluate_at_increment(const std::vector<double> &change,
+                                    const std::vector<double> &excess)
   {
     // Those that take rows see the forces of others before them.
     std::vector<double> forces;
@@ -338,17 +311,17 @@ namespace Ricochet
                                   all.begin() + first_functional[k + 1]);
         };
         std::vector<double> own_excess = own(excess);
-        if (products && in_order[k]->takes_rows())
+        if (products && in_order[k]->structure().eliminates_rows)
           for (unsigned int f = 0; f < own_excess.size(); ++f)
             for (const auto &[other, product] :
                  products->of(first_functional[k] + f))
               if (other < first_functional[k])
                 own_excess[f] += product * forces[other];
-        in_order[k]->look_at_change(own(change), own_excess);
+        in_order[k]->evaluate_at_increment(own(change), own_excess);
         if (!products)
           continue;
         std::vector<double> own_forces;
-        in_order[k]->force_change(own_forces);
+        in_order[k]->forces_on_rows(own_forces);
         forces.insert(forces.end(), own_forces.begin(), own_forces.end());
       }
   }
@@ -356,13 +329,13 @@ namespace Ricochet
 
 
   void
-  ContactSum::force_change(std::vector<double> &coefficients) const
+  ContactSum::forces_on_rows(std::vector<double> &coefficients) const
   {
     coefficients.clear();
     std::vector<double> own;
     for (const ContactOperator *contact : in_order)
       {
-        contact->force_change(own);
+        contact->forces_on_rows(own);
         coefficients.insert(coefficients.end(), own.begin(), own.end());
       }
   }
@@ -401,28 +374,19 @@ namespace Ricochet
 
 
 
-  std::optional<std::uint64_t>
-  ContactSum::tangent_signature() const
+  ActiveSet
+  ContactSum::active_set() const
   {
-    std::uint64_t sum = 0;
+    ActiveSet sum{0, 0};
     for (const ContactOperator *contact : in_order)
       {
-        const auto own = contact->tangent_signature();
-        if (!own)
-          return {};
-        sum = hash_of_both(sum, *own);
+        const ActiveSet own = contact->active_set();
+        sum.hash            = hash_of_both(sum.hash, own.hash);
+        if (!own.tangent_key)
+          sum.tangent_key.reset();
+        else if (sum.tangent_key)
+          sum.tangent_key = hash_of_both(*sum.tangent_key, *own.tangent_key);
       }
-    return sum;
-  }
-
-
-
-  std::uint64_t
-  ContactSum::active_set_signature() const
-  {
-    std::uint64_t sum = 0;
-    for (const ContactOperator *contact : in_order)
-      sum = hash_of_both(sum, contact->active_set_signature());
     return sum;
   }
 
@@ -451,36 +415,6 @@ namespace Ricochet
     for (ContactOperator *contact : in_order)
       sum += contact->potential(solution, time);
     return sum;
-  }
-
-
-
-  bool
-  ContactSum::has_modified_energy() const
-  {
-    return std::all_of(contacts.begin(), contacts.end(), [](const auto &own) {
-      return own->has_modified_energy();
-    });
-  }
-
-
-
-  bool
-  ContactSum::has_moving_obstacles() const
-  {
-    return std::any_of(contacts.begin(), contacts.end(), [](const auto &own) {
-      return own->has_moving_obstacles();
-    });
-  }
-
-
-
-  bool
-  ContactSum::gaps_may_be_unknown() const
-  {
-    return std::any_of(contacts.begin(), contacts.end(), [](const auto &own) {
-      return own->gaps_may_be_unknown();
-    });
   }
 
 

@@ -50,7 +50,7 @@ namespace Ricochet
     begin_stage(const ContactStart &start, const double weight) override;
 
     void
-    complete_residual(const Vector &solution, Vector &residual) override;
+    add_residual(const Vector &solution, Vector &residual) override;
 
     void
     accept_iterate() override;
@@ -61,20 +61,8 @@ namespace Ricochet
     bool
     next_pass() override;
 
-    const Vector &
-    contact_force() const override
-    {
-      return force;
-    }
-
     std::vector<const Vector *>
     shares() const override;
-
-    const Vector *
-    friction_force() const override
-    {
-      return has_friction ? &friction : nullptr;
-    }
 
     double
     friction_dissipation() const override;
@@ -92,81 +80,41 @@ namespace Ricochet
         boundary_id & ((1U << boundary_bits) - 1));
     }
 
-    double
-    linearisation_error() const override;
-
-    double
-    round_off() const override;
-
-    const Vector &
-    row_scaling() const override
-    {
-      return scaling;
-    }
+    ResidualBounds
+    residual_bounds() const override;
 
     std::string
     active_set_description() const override;
 
     void
-    complete_tangent(Matrix &tangent) const override;
+    add_tangent(Matrix &tangent) const override;
 
     void
-    complete_constant_tangent(Matrix &tangent) const override;
-
-    bool
-    takes_rows() const override
-    {
-      return in_order.back()->takes_rows();
-    }
-
-    /// The functionals are those of all contacts, one contact after the other; there
-    /// are none if one of them has none, or, on several ranks, if one takes rows in
-    /// which another acts.
-    ContactStructure
-    tangent_structure() const override;
+    add_open_tangent(Matrix &tangent) const override;
 
     void
-    tangent_change(std::vector<FunctionalRow> &change) const override;
+    differentiate_forces(
+      std::vector<FunctionalRow> &with_values,
+      std::vector<FunctionalRow> &with_residual) const override;
 
     void
-    excess_change(std::vector<FunctionalRow> &change) const override;
+    evaluate_at_increment(const std::vector<double> &change,
+                          const std::vector<double> &excess) override;
 
     void
-    look_at_change(const std::vector<double> &change,
-                   const std::vector<double> &excess) override;
-
-    void
-    force_change(std::vector<double> &coefficients) const override;
+    forces_on_rows(std::vector<double> &coefficients) const override;
 
     const Couplings *
     couplings() override;
 
-    std::optional<std::uint64_t>
-    tangent_signature() const override;
-
-    std::uint64_t
-    active_set_signature() const override;
+    ActiveSet
+    active_set() const override;
 
     void
     force_at(const Vector &solution, const double time, Vector &force) override;
 
     double
     potential(const Vector &solution, const double time) override;
-
-    bool
-    has_modified_energy() const override;
-
-    bool
-    has_moving_obstacles() const override;
-
-    bool
-    gaps_may_be_unknown() const override;
-
-    bool
-    knows_stress_pressure() const override
-    {
-      return false;
-    }
 
     Vector
     pressure_field(const ContactInstant &instant) override;
@@ -180,12 +128,11 @@ namespace Ricochet
     keeps_rows_apart(const std::vector<ContactStructure> &structures,
                      const MPI_Comm                       communicator);
 
-    /// Ask each contact for a @p change between its functionals, and put them one
-    /// behind the other. One that takes rows follows those before it in them.
+    /// The structure and the properties of all contacts. The functionals are those of all,
+    /// one contact after the other; there are none if one of them has none, or, on
+    /// several ranks, if one takes rows in which another acts.
     void
-    gather_change(void (TangentContact::*ask)(std::vector<FunctionalRow> &)
-                    const,
-                  std::vector<FunctionalRow> &change) const;
+    set_structure();
 
     /// The share of contact @p k at an instant.
     static const Vector &
@@ -203,8 +150,6 @@ namespace Ricochet
     Functionals               functionals;
     // Where one takes rows in which another acts.
     mutable std::optional<FunctionalProducts> products;
-    bool                                      has_friction = false;
-    Vector                                    force, friction, scaling;
     // After force_at() these are the shares; otherwise contacts know them.
     std::vector<Vector> instant_forces;
     bool                at_instant = false;

@@ -54,9 +54,9 @@ namespace Ricochet
 
 
   void
-  CutFaceContact::complete_residual(const Vector &solution, Vector &residual)
+  CutFaceContact::add_residual(const Vector &solution, Vector &residual)
   {
-    PointwiseContact::complete_residual(solution, residual);
+    PointwiseContact::add_residual(solution, residual);
     for (const auto index : free_multipliers)
       residual(index) -= stage_weight() * solution(index);
     residual.compress(VectorOperation::add);
@@ -75,9 +75,9 @@ namespace Ricochet
 
 
   void
-  CutFaceContact::complete_tangent(Matrix &tangent) const
+  CutFaceContact::add_tangent(Matrix &tangent) const
   {
-    PointwiseContact::complete_tangent(tangent);
+    PointwiseContact::add_tangent(tangent);
     add_free_multipliers(tangent);
   }
 
@@ -101,15 +101,4 @@ namespace Ricochet
     return summaries;
   }
 
-
-
-  ContactStructure
-  CutFaceContact::tangent_structure() const
-  {
-    ContactStructure structure;
-    structure.has_multipliers =
-      PointwiseContact::tangent_structure().has_multipliers;
-    structure.couplings_change = true;
-    return structure;
-  }
 } // namespace Ricochet

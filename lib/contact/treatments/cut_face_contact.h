@@ -44,23 +44,19 @@ namespace Ricochet
       find_free_multipliers(points,
                             body.multiplier_indices(),
                             body.communicator);
+      // The rows of the bodies are not those of one obstacle.
+      own_structure                  = {};
+      own_structure.has_multipliers  = traits_of_law().needs_multiplier;
+      own_structure.couplings_change = true;
+      // A slave of which nothing is in front of the master has no gap.
+      own_traits.gaps_may_be_unknown = true;
     }
 
     void
-    complete_residual(const Vector &solution, Vector &residual) override;
+    add_residual(const Vector &solution, Vector &residual) override;
 
     void
-    complete_tangent(Matrix &tangent) const override;
-
-    ContactStructure
-    tangent_structure() const override;
-
-    /// A slave of which nothing is before the master has no gap.
-    bool
-    gaps_may_be_unknown() const override
-    {
-      return true;
-    }
+    add_tangent(Matrix &tangent) const override;
 
     /// Areas and mean pressures are those of the whole slave, mean gaps those of its
     /// cut faces.

@@ -103,14 +103,12 @@ namespace Ricochet
   PairContact<dim>::PairContact(const Body<dim>                &body,
                                 const std::vector<ContactPair> &pair_list,
                                 PairMethod                      pair_method)
-    : communicator(body.communicator)
+    : ContactOperator(body.make_vector())
+    , communicator(body.communicator)
     , owned(body.owned_indices())
     , method(std::move(pair_method))
     , has_friction(dim > 1 && method.friction.exists())
     , friction(method.friction, method.augmentation)
-    , force(body.make_vector())
-    , friction_part(body.make_vector())
-    , scaling(body.make_vector())
     , n_displacements_owned(body.owned_indices().n_elements() -
                             body.multiplier_indices().n_elements())
   {
@@ -138,7 +136,6 @@ namespace Ricochet
 
     // The equations of a multiplier become forces when its pressures are taken
     // for what they are in the equations of motion.
-    scaling = 1.;
     std::set<types::global_dof_index> multipliers;
     for (const PointState &state : states)
       for (const auto index : point_of(state).multipliers)
@@ -174,6 +171,19 @@ namespace Ricochet
       own_place.push_back(owned.index_within_set(index));
     skin_values.resize(skin.size());
     skin_force.resize(skin.size());
+
+    own_structure.has_multipliers  = !method.law;
+    own_structure.couplings_change = true;
+    own_structure.functionals.emplace();
+    own_structure.functionals->order = skin_order;
+    for (const auto index : skin)
+      {
+        own_structure.functionals->functionals.add(index, 1.);
+        own_structure.functionals->functionals.end_functional();
+      }
+    own_traits.has_friction        = has_friction;
+    own_traits.gaps_may_be_unknown = true;
+    own_traits.knows_work          = true;
   }
 
 
@@ -256,7 +266,7 @@ namespace Ricochet
         state.accepted_status        = state.status;
         state.accepted_linearisation = state.linearisation;
       }
-    if (!method.law && sets.returns(active_set_signature()))
+    if (!method.law && sets.returns(global_hash(statuses(), communicator)))
       sets_recur = true;
     if (n_frozen > 0)
       --n_frozen;
@@ -397,7 +407,8 @@ namespace Ricochet
     const Pair                 &pair = pair_of(state);
     ConstraintState<n_tangents> result;
     result.pressure = pair.multipliers(state.point)[0];
-    for (unsigned int d = 0; has_exact_friction() && d < n_tangents; ++d)
+    // Without friction they may be there, too, and are kept at zero.
+    for (unsigned int d = 0; d + 1 < dim; ++d)
       result.traction[d] = pair.multipliers(state.point)[d + 1];
     if (state.status == Status::open)
       return result;
@@ -417,7 +428,8 @@ namespace Ricochet
     const Pair                 &pair    = pair_of(state);
     ConstraintState<n_tangents> current = constraint_state(state);
     state.pressure                      = current.pressure;
-    state.traction                      = current.traction;
+    if (has_exact_friction())
+      state.traction = current.traction;
 
     // Round-off neither opens nor closes a point.
     const double r         = stiffness(state);
@@ -539,7 +551,7 @@ namespace Ricochet
 
   template <int dim>
   void
-  PairContact<dim>::complete_residual(const Vector &solution, Vector &residual)
+  PairContact<dim>::add_residual(const Vector &solution, Vector &residual)
   {
     evaluate(solution);
     residual.add(weight, force);
@@ -553,8 +565,9 @@ namespace Ricochet
 
   template <int dim>
   void
-  PairContact<dim>::look_at_change(const std::vector<double> &change,
-                                   const std::vector<double> & /*excess*/)
+  PairContact<dim>::evaluate_at_increment(
+    const std::vector<double> &change,
+    const std::vector<double> & /*excess*/)
   {
     for (unsigned int f = 0; f < skin.size(); ++f)
       point_of_change.trilinos_vector()[0][own_place[f]] =
@@ -567,7 +580,7 @@ namespace Ricochet
 
   template <int dim>
   void
-  PairContact<dim>::force_change(std::vector<double> &coefficients) const
+  PairContact<dim>::forces_on_rows(std::vector<double> &coefficients) const
   {
     coefficients = skin_force;
   }
@@ -793,48 +806,35 @@ namespace Ricochet
 
 
   template <int dim>
-  double
-  PairContact<dim>::linearisation_error() const
+  ResidualBounds
+  PairContact<dim>::residual_bounds() const
   {
-    double square = 0.;
+    double error = 0., round_off = 0.;
     for (unsigned int s = 0; s < states.size(); ++s)
       {
-        double error = states[s].error;
-        square += error * error * point_of(states[s]).weight *
-          point_of(states[s]).weight;
-        if (method.law && has_friction && states[s].pressure > 0.)
-          square += friction.error(s).norm_square() *
-            point_of(states[s]).weight * point_of(states[s]).weight;
+        const PointState &state  = states[s];
+        const double      weight = point_of(state).weight;
+        error += std::pow(weight * state.error, 2);
+        if (method.law && has_friction && state.pressure > 0.)
+          error += friction.error(s).norm_square() * weight * weight;
+        if (state.status == Status::open)
+          continue;
+        double factor =
+          method.law ? std::abs(state.with_gap) : stiffness(state);
+        if (method.law && state.status == Status::stick)
+          factor += friction.round_off(1.);
+        round_off +=
+          std::pow(weight * factor * pair_of(state).round_off(state.point), 2);
       }
-    return std::sqrt(Utilities::MPI::sum(square, communicator));
-  }
-
-
-
-  template <int dim>
-  double
-  PairContact<dim>::round_off() const
-  {
-    double square = 0.;
-    for (const PointState &state : states)
-      if (state.status != Status::open)
-        {
-          double factor =
-            method.law ? std::abs(state.with_gap) : stiffness(state);
-          if (method.law && state.status == Status::stick)
-            factor += friction.round_off(1.);
-          const double force = point_of(state).weight * factor *
-            pair_of(state).round_off(state.point);
-          square += force * force;
-        }
-    return std::sqrt(Utilities::MPI::sum(square, communicator));
+    return {std::sqrt(Utilities::MPI::sum(error, communicator)),
+            std::sqrt(Utilities::MPI::sum(round_off, communicator))};
   }
 
 
 
   template <int dim>
   void
-  PairContact<dim>::complete_tangent(Matrix &tangent) const
+  PairContact<dim>::add_tangent(Matrix &tangent) const
   {
     const auto add = [&](const types::global_dof_index  row,
                          const unsigned int             n_columns,
@@ -851,7 +851,7 @@ namespace Ricochet
 
   template <int dim>
   void
-  PairContact<dim>::complete_constant_tangent(Matrix &tangent) const
+  PairContact<dim>::add_open_tangent(Matrix &tangent) const
   {
     for (const PointState &state : states)
       for_each_multiplier(state, [&](const types::global_dof_index index) {
@@ -937,7 +937,9 @@ namespace Ricochet
 
   template <int dim>
   void
-  PairContact<dim>::tangent_change(std::vector<FunctionalRow> &change) const
+  PairContact<dim>::differentiate_forces(
+    std::vector<FunctionalRow> &change,
+    std::vector<FunctionalRow> & /*with_residual*/) const
   {
     const auto add = [&](const types::global_dof_index  row,
                          const unsigned int             n_columns,
@@ -1103,25 +1105,6 @@ namespace Ricochet
 
 
   template <int dim>
-  ContactStructure
-  PairContact<dim>::tangent_structure() const
-  {
-    ContactStructure structure;
-    structure.has_multipliers  = !method.law;
-    structure.couplings_change = true;
-    structure.functionals.emplace();
-    structure.functionals->order = skin_order;
-    for (const auto index : skin)
-      {
-        structure.functionals->functionals.add(index, 1.);
-        structure.functionals->functionals.end_functional();
-      }
-    return structure;
-  }
-
-
-
-  template <int dim>
   const Couplings *
   PairContact<dim>::couplings()
   {
@@ -1184,25 +1167,19 @@ namespace Ricochet
 
 
   template <int dim>
-  std::optional<std::uint64_t>
-  PairContact<dim>::tangent_signature() const
+  ActiveSet
+  PairContact<dim>::active_set() const
   {
+    ActiveSet result{global_hash(statuses(), communicator), {}};
     // Directions turn; nothing stays the same but a tangent without contact.
-    bool none = true;
-    for (const PointState &state : states)
-      none = none && !is_in_contact(state);
-    if (Utilities::MPI::min(none ? 1 : 0, communicator) == 0)
-      return {};
-    return global_hash({}, communicator);
-  }
-
-
-
-  template <int dim>
-  std::uint64_t
-  PairContact<dim>::active_set_signature() const
-  {
-    return global_hash(statuses(), communicator);
+    const bool none = std::none_of(states.begin(),
+                                   states.end(),
+                                   [this](const PointState &state) {
+                                     return is_in_contact(state);
+                                   });
+    if (Utilities::MPI::min(none ? 1 : 0, communicator) == 1)
+      result.tangent_key = global_hash({}, communicator);
+    return result;
   }
 
 

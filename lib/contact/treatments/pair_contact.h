@@ -73,7 +73,7 @@ namespace Ricochet
     begin_stage(const ContactStart &start, const double weight) override;
 
     void
-    complete_residual(const Vector &solution, Vector &residual) override;
+    add_residual(const Vector &solution, Vector &residual) override;
 
     void
     accept_iterate() override;
@@ -87,26 +87,8 @@ namespace Ricochet
     bool
     next_pass() override;
 
-    const Vector &
-    contact_force() const override
-    {
-      return force;
-    }
-
-    const Vector *
-    friction_force() const override
-    {
-      return has_friction ? &friction_part : nullptr;
-    }
-
     double
     friction_dissipation() const override;
-
-    bool
-    knows_work_of_contacts() const override
-    {
-      return true;
-    }
 
     ContactWork
     contact_work(const dealii::types::boundary_id boundary_id) const override;
@@ -117,74 +99,43 @@ namespace Ricochet
              const double  begin_time,
              const double  end_time) override;
 
-    double
-    linearisation_error() const override;
-
-    double
-    round_off() const override;
-
-    const Vector &
-    row_scaling() const override
-    {
-      return scaling;
-    }
+    ResidualBounds
+    residual_bounds() const override;
 
     std::string
     active_set_description() const override;
 
     void
-    complete_tangent(Matrix &tangent) const override;
+    add_tangent(Matrix &tangent) const override;
 
     /// What is left without contact are the equations of the multipliers.
     void
-    complete_constant_tangent(Matrix &tangent) const override;
+    add_open_tangent(Matrix &tangent) const override;
 
-    /// With functionals: the unknowns of the surfaces, of which contact is any function.
+    /// Its rows are the unknowns of the surfaces, of which contact is any function.
     void
-    tangent_change(std::vector<FunctionalRow> &change) const override;
-
-    void
-    look_at_change(const std::vector<double> &change,
-                   const std::vector<double> &excess) override;
+    differentiate_forces(
+      std::vector<FunctionalRow> &with_values,
+      std::vector<FunctionalRow> &with_residual) const override;
 
     void
-    force_change(std::vector<double> &coefficients) const override;
+    evaluate_at_increment(const std::vector<double> &change,
+                          const std::vector<double> &excess) override;
 
-    ContactStructure
-    tangent_structure() const override;
+    void
+    forces_on_rows(std::vector<double> &coefficients) const override;
 
     const Couplings *
     couplings() override;
 
-    std::optional<std::uint64_t>
-    tangent_signature() const override;
-
-    std::uint64_t
-    active_set_signature() const override;
+    ActiveSet
+    active_set() const override;
 
     void
     force_at(const Vector &solution, const double time, Vector &force) override;
 
     double
     potential(const Vector &solution, const double time) override;
-
-    bool
-    has_moving_obstacles() const override
-    {
-      return false;
-    }
-
-    bool
-    knows_stress_pressure() const override
-    {
-      return false;
-    }
-
-    bool
-    gaps_may_be_unknown() const override
-    {
-      return true;
-    }
 
     Vector
     pressure_field(const ContactInstant &instant) override;
@@ -301,7 +252,7 @@ namespace Ricochet
     bool
     begin_point(PointState &state) const;
 
-    /// What tangent_change() adds for a law.
+    /// Derivatives of the forces of a law, for differentiate_forces().
     void
     add_change_of_law(std::vector<FunctionalRow> &change) const;
 
@@ -398,7 +349,6 @@ namespace Ricochet
     PointwiseFriction                  friction;
     std::vector<std::unique_ptr<Pair>> pairs;
     std::vector<PointState>            states;
-    Vector                             force, friction_part, scaling;
     const unsigned int                 n_displacements_owned;
     double                             weight     = 1.;
     double                             time_step  = 0.;
@@ -432,7 +382,7 @@ namespace Ricochet
     Couplings    all_couplings;
     // This rank's unknowns of the surfaces in ascending order, the order in which
     // contact is expected to spread over them, their values at the last
-    // complete_residual(), and what contact does to each.
+    // add_residual(), and what contact does to each.
     std::vector<dealii::types::global_dof_index> skin;
     /// Of each of the skin among this rank's unknowns.
     std::vector<unsigned int>     own_place;
@@ -441,7 +391,7 @@ namespace Ricochet
       dealii::numbers::invalid_unsigned_int;
     /// Of each unknown from the first of the skin on.
     std::vector<unsigned int> place_in_skin;
-    // Where look_at_change() looks.
+    // Where evaluate_at_increment() looks.
     Vector point_of_change;
     // Work space.
     std::vector<double> values;

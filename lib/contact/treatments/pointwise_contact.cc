@@ -150,7 +150,7 @@ namespace Ricochet
 
 
   void
-  PointwiseContact::complete_residual(const Vector &solution, Vector &residual)
+  PointwiseContact::add_residual(const Vector &solution, Vector &residual)
   {
     looks_at_change = false;
     kinematics->evaluate(solution, state);
@@ -312,8 +312,9 @@ namespace Ricochet
 
 
   void
-  PointwiseContact::look_at_change(const std::vector<double> &change,
-                                   const std::vector<double> & /*excess*/)
+  PointwiseContact::evaluate_at_increment(
+    const std::vector<double> &change,
+    const std::vector<double> & /*excess*/)
   {
     if (!looks_at_change)
       observables_before = kinematics->observables();
@@ -352,7 +353,7 @@ namespace Ricochet
 
 
   void
-  PointwiseContact::force_change(std::vector<double> &coefficients) const
+  PointwiseContact::forces_on_rows(std::vector<double> &coefficients) const
   {
     coefficients.assign(rows->all().functionals.size(), 0.);
     for (unsigned int p = 0; p < state.size(); ++p)
@@ -460,7 +461,7 @@ namespace Ricochet
 
 
   void
-  PointwiseContact::complete_tangent(Matrix &tangent) const
+  PointwiseContact::add_tangent(Matrix &tangent) const
   {
     for (unsigned int p = 0; p < state.size(); ++p)
       evaluator.add(p, weight, point_tangent(p), tangent);
@@ -470,7 +471,7 @@ namespace Ricochet
 
 
   void
-  PointwiseContact::complete_constant_tangent(Matrix &tangent) const
+  PointwiseContact::add_open_tangent(Matrix &tangent) const
   {
     for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
       {
@@ -487,33 +488,44 @@ namespace Ricochet
 
 
 
-  ContactStructure
-  PointwiseContact::tangent_structure() const
+  void
+  PointwiseContact::set_structure()
   {
-    ContactStructure structure;
-    structure.rows = evaluator.unknowns();
+    own_structure.rows = evaluator.unknowns();
     if (rows)
-      structure.functionals = rows->all();
-    structure.has_multipliers = law->traits().needs_multiplier;
-    const auto closing        = closing_directions(*law, 1.);
-    structure.is_symmetric    = !structure.has_multipliers && closing &&
+      own_structure.functionals = rows->all();
+    own_structure.has_multipliers = law->traits().needs_multiplier;
+    const auto closing            = closing_directions(*law, 1.);
+    own_structure.is_symmetric    = !own_structure.has_multipliers && closing &&
       closing->test == closing->trial && !friction.exists() &&
       kinematics->has_constant_rows();
-    return structure;
+    own_traits.has_friction          = friction.exists();
+    own_traits.has_moving_obstacles  = kinematics->has_moving_obstacles();
+    own_traits.knows_stress_pressure = stress_evaluator.has_points();
   }
 
 
 
   void
-  PointwiseContact::tangent_change(std::vector<FunctionalRow> &change) const
+  PointwiseContact::differentiate_forces(
+    std::vector<FunctionalRow> &with_values,
+    std::vector<FunctionalRow> & /*with_residual*/) const
   {
     for (unsigned int p = 0; p < state.size(); ++p)
       if (acts(p))
         rows->add(p,
                   weight * evaluator.contact_points()[p].weight *
                     point_tangent(p, constant_tangent(p)),
-                  change);
-    sum_columns(change);
+                  with_values);
+    sum_columns(with_values);
+  }
+
+
+
+  ResidualBounds
+  PointwiseContact::residual_bounds() const
+  {
+    return {linearisation_error(), round_off()};
   }
 
 
@@ -562,12 +574,18 @@ namespace Ricochet
 
 
 
-  std::optional<std::uint64_t>
-  PointwiseContact::tangent_signature() const
+  ActiveSet
+  PointwiseContact::active_set() const
   {
+    const std::vector<int> values      = branches();
+    std::vector<int>       with_sticks = values;
+    if (friction.exists())
+      for (unsigned int p = 0; p < state.size(); ++p)
+        with_sticks.push_back(friction.sticks(p));
+    ActiveSet result{global_hash(with_sticks, evaluator.communicator), {}};
+
     // Without contact every law is linear.
-    const std::vector<int> values = branches();
-    const bool             turns  = !kinematics->has_constant_rows();
+    const bool turns = !kinematics->has_constant_rows();
     if (!law->traits().piecewise_linear || friction.exists() || turns)
       {
         bool active = std::any_of(values.begin(),
@@ -580,21 +598,10 @@ namespace Ricochet
               active || friction_acts(p) || (turns && point_force[p].gap != 0.);
         if (dealii::Utilities::MPI::max(active ? 1 : 0,
                                         evaluator.communicator) == 1)
-          return {};
+          return result;
       }
-    return global_hash(values, evaluator.communicator);
-  }
-
-
-
-  std::uint64_t
-  PointwiseContact::active_set_signature() const
-  {
-    std::vector<int> values = branches();
-    if (friction.exists())
-      for (unsigned int p = 0; p < state.size(); ++p)
-        values.push_back(friction.sticks(p));
-    return global_hash(values, evaluator.communicator);
+    result.tangent_key = global_hash(values, evaluator.communicator);
+    return result;
   }
 
 

@@ -38,21 +38,20 @@ namespace Ricochet
                      const RegularisedFriction  &friction        = {},
                      const double                augmentation    = 1.,
                      const bool                  modified_energy = true)
-      : law(std::move(law))
+      : ContactOperator(body.make_vector())
+      , law(std::move(law))
       , friction(friction, augmentation)
       , augmentation(augmentation)
-      , modified_energy(modified_energy)
       , kinematics(make_kinematics(body, std::move(points)))
       , evaluator(kinematics->evaluator)
       , stress_evaluator(body, std::move(stress_points))
-      , force(body.make_vector())
-      , friction_part(body.make_vector())
-      , scaling(body.make_vector())
       , n_displacements_owned(body.owned_indices().n_elements() -
                               body.multiplier_indices().n_elements())
     {
       compute_row_scaling();
       make_rows();
+      set_structure();
+      own_traits.has_modified_energy = modified_energy;
     }
 
     ContactSteps
@@ -68,54 +67,35 @@ namespace Ricochet
     begin_stage(const ContactStart &start, const double weight) override;
 
     void
-    complete_residual(const Vector &solution, Vector &residual) override;
+    add_residual(const Vector &solution, Vector &residual) override;
 
     void
-    complete_tangent(Matrix &tangent) const override;
+    add_tangent(Matrix &tangent) const override;
 
     /// Without directions that may turn.
     void
-    complete_constant_tangent(Matrix &tangent) const override;
-
-    ContactStructure
-    tangent_structure() const override;
+    add_open_tangent(Matrix &tangent) const override;
 
     void
-    look_at_change(const std::vector<double> &change,
-                   const std::vector<double> &excess) override;
+    evaluate_at_increment(const std::vector<double> &change,
+                          const std::vector<double> &excess) override;
 
     void
-    force_change(std::vector<double> &coefficients) const override;
+    forces_on_rows(std::vector<double> &coefficients) const override;
 
     void
-    tangent_change(std::vector<FunctionalRow> &change) const override;
+    differentiate_forces(
+      std::vector<FunctionalRow> &with_values,
+      std::vector<FunctionalRow> &with_residual) const override;
 
-    std::optional<std::uint64_t>
-    tangent_signature() const override;
-
-    std::uint64_t
-    active_set_signature() const override;
+    ActiveSet
+    active_set() const override;
 
     std::string
     active_set_description() const override;
 
-    const Vector &
-    contact_force() const override
-    {
-      return force;
-    }
-
-    double
-    linearisation_error() const override;
-
-    double
-    round_off() const override;
-
-    const Vector *
-    friction_force() const override
-    {
-      return friction.exists() ? &friction_part : nullptr;
-    }
+    ResidualBounds
+    residual_bounds() const override;
 
     double
     friction_dissipation() const override;
@@ -125,30 +105,6 @@ namespace Ricochet
 
     double
     potential(const Vector &solution, const double time) override;
-
-    bool
-    has_modified_energy() const override
-    {
-      return modified_energy;
-    }
-
-    bool
-    has_moving_obstacles() const override
-    {
-      return kinematics->has_moving_obstacles();
-    }
-
-    const Vector &
-    row_scaling() const override
-    {
-      return scaling;
-    }
-
-    bool
-    knows_stress_pressure() const override
-    {
-      return stress_evaluator.has_points();
-    }
 
     ContactSummaries
     summary(const ContactInstant &instant) override;
@@ -164,17 +120,33 @@ namespace Ricochet
       return weight;
     }
 
+    ContactLawTraits
+    traits_of_law() const
+    {
+      return law->traits();
+    }
+
   private:
     /// The normal force (N) in a point, at #state.
     double
     normal_force(const unsigned int p, const Vector &contact_force);
 
-    /// The law's branch in each point at the last complete_residual().
+    /// The law's branch in each point at the last add_residual().
     std::vector<int>
     branches() const;
 
     void
     compute_row_scaling();
+
+    /// Of the base, after make_rows().
+    void
+    set_structure();
+
+    /// What residual_bounds() has of its parts (N).
+    double
+    linearisation_error() const;
+    double
+    round_off() const;
 
     /// None if the law in closed points cannot be separated from that in open ones.
     void
@@ -200,7 +172,7 @@ namespace Ricochet
     along_direction(const unsigned int         p,
                     const ContactPointForce<> &force) const;
 
-    /// The tangent of the law in a point that complete_constant_tangent() has.
+    /// The tangent of the law in a point that add_open_tangent() has.
     ContactPointTangent
     constant_tangent(const unsigned int p) const;
 
@@ -238,7 +210,6 @@ namespace Ricochet
     const std::unique_ptr<ContactLaw>        law;
     PointwiseFriction                        friction;
     const double                             augmentation;
-    const bool                               modified_energy;
     const std::unique_ptr<ContactKinematics> kinematics;
     // That of the kinematics.
     ContactPointEvaluator           &evaluator;
@@ -246,16 +217,15 @@ namespace Ricochet
     double                           weight     = 1.;
     unsigned int                     n_iterates = 0;
     std::vector<ContactPointState<>> state, old_state;
-    // Observables from which look_at_change() begins, those of the last
-    // complete_residual(), and at which it looks.
+    // Observables from which evaluate_at_increment() begins, those of the last
+    // add_residual(), and at which it looks.
     bool                     looks_at_change = false;
     std::vector<PointVector> observables_before, observables,
       stress_observables;
     // Where the law is linearised: now, and at the last accepted iterate.
     std::vector<ContactPointState<>> linearisation, accepted_linearisation;
-    // Force of the law per area (Pa) at the last complete_residual().
+    // Force of the law per area (Pa) at the last add_residual().
     std::vector<ContactPointForce<>> point_force;
-    Vector                           force, friction_part, scaling;
     const unsigned int               n_displacements_owned;
     std::optional<ContactRows>       rows;
     // The rows are those of directions, which stay the same.
