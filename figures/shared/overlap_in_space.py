@@ -130,7 +130,7 @@ def overlap_of(x, cells):
 
 
 def bodies(cells):
-    """The hexahedra of each body: those that hang together by vertices."""
+    """The hexahedra of each body: connected by vertices."""
     body = np.arange(cells.max() + 1)
     while True:
         lowest = body.copy()

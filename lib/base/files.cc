@@ -88,7 +88,7 @@ namespace Ricochet
         write_all(descriptor, bytes, file);
       }
 
-      /// Take the place of the old file.
+      /// Replace the old file.
       void
       keep()
       {

@@ -16,8 +16,8 @@ namespace Ricochet
 
   /**
    * Write @p bytes to a new file beside @p file, wait until they are on the disk,
-   * and let it take the place of @p file: whatever happens, there is the old file
-   * or the new one, and never a part of one.
+   * and let it replace @p file: whatever happens, there is the old file or the
+   * new one, and never a part of one.
    *
    * @throws ComputationError naming the file, when it cannot be written (disk
    * full, folder not writable); the old file is then still there.

@@ -23,7 +23,7 @@ namespace Ricochet
 
   /**
    * The entry of @p kept that @p is_wanted, moved to the front; or a new one,
-   * made by @p make, in the place of the one not used for longest if there
+   * made by @p make, in place of the one not used for longest if there
    * are @p n_kept. If it cannot be made, nothing is kept of it.
    */
   template <typename Entry, typename Predicate, typename Make>

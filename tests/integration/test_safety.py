@@ -176,7 +176,7 @@ class Safety(ProgramTest):
             code, _, error = self.attempt("bar_sd", prm=mine, options=options)
             self.assertEqual(code, 0, msg=error)
             self.assertEqual(mine.read_text(), text)
-        # Also when another file's run takes its place, and when the values of a
+        # Also when another file's run replaces it, and when the values of a
         # run are run again where they are.
         self.run_program("bar_sd", SHORT)
         self.assertEqual(mine.read_text(), text)

@@ -6,6 +6,11 @@ import shlex
 
 from common import *
 
+sys.path.insert(0, str(ROOT / "doc"))
+
+import check_spelling  # noqa: E402
+import source_text  # noqa: E402
+
 specification = importlib.util.spec_from_file_location("tidy", ROOT / "scripts" / "tidy.py")
 tidy = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(tidy)
@@ -122,6 +127,91 @@ class Style(ProgramTest):
         self.assertFalse(is_clean)
         self.assertIn("modernize-use-override", text)
         self.assertIn("lib/a.h:2", text)
+
+
+# A sentence for each idiom of doc/idioms.txt, in order; sentences without any.
+WRONG = [
+    "A ball falls before a rigid plane.",
+    "Points before facets have a gap.",
+    "The scene is in the plane.",
+    "Two spheres collide in space.",
+    "The gap is exact, but for round-off.",
+    "The work is told twice.",
+    "Stick and slip are told apart by a trial.",
+    "The balance does not tell whether it is right.",
+    "The work is force times way of the belt.",
+    "A point passes a vertex, by the part of its way on each facet.",
+    "The energy is three times its start on the way.",
+    "Each node is held off the facets.",
+    "The ring feels itself.",
+    "Points go to and fro over a vertex.",
+    "Parts that hang together are one.",
+    "A law knows nothing of the scheme.",
+    "What contact makes of its energy is in the table.",
+    "A multiplier is in the place of the stress.",
+    "The new file takes the place of the old one.",
+    "A law of one's own has a file.",
+    "The parameter steers Newton's method.",
+    "The table of energies has a row for each step.",
+]
+BEGINNINGS = ["What a run leaves.", "Those of the step.", "Of each contact.", "The same of a step."]
+RIGHT = [
+    "The energy before the impact, and the mean before the last step.",
+    "The slip is in the plane of the facet, and in the plane x = 0.",
+    "Discretisation in space and time.",
+    "Not the gap is zero, but for a moment its rate.",
+    "By the way, the bar flies to and fro in this way, one way or the other.",
+    "Errors tell the user what to do, and the place of the facet is known.",
+    "The impact takes place at once.",
+]
+
+
+class Idioms(ProgramTest):
+    """Comments and pages say the words of the field."""
+
+    def check(self, *words):
+        return subprocess.run([sys.executable, ROOT / "doc" / "check_spelling.py", "--sources",
+                               *words], capture_output=True, text=True)
+
+    def test_sources(self):
+        result = self.check()
+        self.assertEqual(result.returncode, 0, msg=result.stderr)
+        self.assertRegex(result.stdout, r"^[1-9]\d\d+ source files, 0 idioms")
+
+    def test_each_idiom_is_found(self):
+        expressions = [expression for expression, _ in check_spelling.idioms()]
+        self.assertEqual(len(expressions), len(WRONG + BEGINNINGS))
+        for expression, sentence in zip(expressions, WRONG + BEGINNINGS):
+            with self.subTest(sentence):
+                self.assertRegex(sentence, expression)
+                self.assertTrue(check_spelling.findings(sentence, is_comment=True))
+        for sentence in RIGHT + BEGINNINGS:
+            with self.subTest(sentence):
+                self.assertEqual(check_spelling.findings(sentence, is_comment=False), [])
+
+    def test_wrong_sentences_in_files(self):
+        """Found across the lines of a comment, and not in code or in strings."""
+        (self.folder / "lib" / "base").mkdir(parents=True)
+        files = {
+            "lib/base/a.h": '/**\n * It is exact, but\n * for round-off.\n */\n'
+                            'const char *b = "but for the //";\n// A ball before\n// a plane.\n',
+            "lib/base/a.py": '"""One.\n\nParts that hang\ntogether.\n"""\nA = "of one\'s own"\n'
+                             "B = A  # What it is.\n",
+            "README.md": "Exact.\n\n- in\n  space\n\n```\nheld off\n```\n",
+            "CHANGELOG.md": "Before a plane.\n",
+        }
+        for name, text in files.items():
+            (self.folder / name).write_text(text)
+        result = self.check(self.folder)
+        self.assertEqual(result.returncode, 1)
+        places = [line.split(": ")[0] for line in result.stderr.splitlines()]
+        self.assertEqual(places, ["README.md:3", "lib/base/a.h:2", "lib/base/a.h:6",
+                                  "lib/base/a.py:3", "lib/base/a.py:7"], msg=result.stderr)
+        self.assertIn("except for", result.stderr)
+
+    def test_paragraphs(self):
+        self.assertEqual(source_text.paragraphs(["a", " b ", "", "- c", "- d", "  e"]),
+                         [(0, "a b"), (3, "- c"), (4, "- d e")])
 
 
 if __name__ == "__main__":
