@@ -8,8 +8,8 @@
 #   docs.sh --build-dir DIR     with programs that are there
 #   docs.sh --without-api ...   all but the pages of the API, and links to them
 #
-# Warnings are errors, and so are broken links and misspelt words (doc/words.txt has those
-# that are right all the same).
+# Warnings are errors, and so are broken links, misspelt words (doc/words.txt has those that are
+# right all the same) and the idioms of doc/idioms.txt.
 
 api=yes
 [ "${1:-}" != "--without-api" ] || { api=no; shift; }

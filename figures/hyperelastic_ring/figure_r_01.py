@@ -69,7 +69,7 @@ def draw():
             panel.set_ylim(-0.7, 8.3)
             panel.text(middle - 14.5, 7.1, f"t = {time[step]:.2f} s")
             panel.grid(False)
-        column[0].set_title("feels itself" if felt else "passes through itself")
+        column[0].set_title("self-contact" if felt else "passes through itself")
         column[-1].set_xlabel("$x_1$ (m)")
     for panel in panels[:, 0]:
         panel.set_ylabel("$x_2$ (m)")
@@ -83,10 +83,10 @@ def draw():
         np.where(nodes > 0, nodes, np.nan),
         color="#0072B2",
         linewidth=0.8,
-        label="feels itself: its nodes, from the table",
+        label="self-contact: its nodes, from the table",
     )
     for felt, colour, label in (
-        (True, "#0072B2", "feels itself: its outline, from the pictures"),
+        (True, "#0072B2", "self-contact: its outline, from the pictures"),
         (False, RED, "passes through itself: its outline"),
     ):
         depth = deepest(felt)
@@ -127,7 +127,7 @@ def checks():
     turning = np.abs(table["angular_momentum"]).max()
     change = np.abs(np.diff(table["angular_momentum"])[free]).max() / turning
     return [
-        constant_row("feels itself", RUNS[True], paper="-"),
+        constant_row("self-contact", RUNS[True], paper="-"),
         constant_row("passes through itself", RUNS[False], paper="-"),
         check(
             "max |balance residual|, 2 runs",

@@ -362,7 +362,7 @@ namespace Ricochet
                                curved,
                                "Whether the edges of tetrahedra are curved, so "
                                "that the ball is round; takes Mesh/Degree = 2. "
-                               "In a file the order of the elements tells.");
+                               "In a file the order of the elements is used.");
     parameters.add_parameter(
       "Mesh size",
       mesh_size,
@@ -393,7 +393,7 @@ namespace Ricochet
     parameters.add_parameter(
       "Material",
       material_name,
-      "The name of a section 'Material NAME' that takes the place of law, density, "
+      "The name of a section 'Material NAME' that replaces law, density, "
       "moduli and viscosity here: for several bodies of one material.",
       Patterns::Anything());
     parameters.add_parameter(

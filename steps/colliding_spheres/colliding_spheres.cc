@@ -572,5 +572,5 @@ main(int argc, char **argv)
   return run_program<CollidingSpheres>(argc,
                                        argv,
                                        "colliding_spheres",
-                                       "Two elastic spheres collide in space.");
+                                       "Two elastic spheres collide in 3D.");
 }

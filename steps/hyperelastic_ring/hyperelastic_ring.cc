@@ -217,7 +217,7 @@ HyperelasticRing::add_parameters(ParameterHandler &prm)
   prm.add_parameter(
     "Self",
     touches_itself,
-    "Whether the ring feels itself: its circles touch each other and "
+    "Self-contact of the ring: its circles touch each other and "
     "themselves, by the same treatment as the foundation. In papers A and B "
     "contact is with the foundation only.",
     Patterns::Bool());

@@ -242,7 +242,7 @@ Sphere::add_parameters(ParameterHandler &prm)
     is_curved,
     "Whether the edges of cells are curved, with the nodes of the "
     "surface on the sphere, when no file is given. Takes degree 2. "
-    "In a file the order of the elements tells.");
+    "In a file the order of the elements is used.");
   prm.leave_subsection();
   prm.enter_subsection("Material");
   prm.add_parameter("Lame lambda",
