@@ -11,6 +11,9 @@ import itertools
 
 from common import *
 
+# Of the column solver, see SolverReport.
+CONDENSED, CONDENSED_FAILED = 4, 64
+
 
 class Combinations(ProgramTest):
 
@@ -55,6 +58,7 @@ class Combinations(ProgramTest):
                                 ledger["displacement_left"]))
                         # Newton's tolerance, magnified by many impacts.
                         self.assertLess(difference, 1e-6)
+        return ledgers
 
     def test_bar_sd(self):
         self.check("bar_sd")
@@ -62,7 +66,20 @@ class Combinations(ProgramTest):
     def test_bar_ss(self):
         if is_debug_build():
             self.skipTest("the same code as of the other bar")
-        self.check("bar_ss")
+        ledgers = self.check("bar_ss")
+        # Each of them condensed to contact, which bars of this size are not by themselves.
+        condensed = [(name, program, parameters + ["Linear solver/Type=condensed"])
+                     for name, program, parameters in self.cases("bar_ss")]
+        for name, ledger in self.run_many(condensed):
+            with self.subTest(f"condensed: {name}"):
+                # In all steps, none of which has fallen back to the whole tangent.
+                strategies = {int(value) for value in ledger["solver"][1:]}
+                self.assertEqual({value & CONDENSED for value in strategies}, {CONDENSED})
+                self.assertEqual({value & CONDENSED_FAILED for value in strategies}, {0})
+                reference = ledgers[name]
+                for column in ("displacement_left", "energy"):
+                    self.assertLess(max(abs(a - b) for a, b in zip(reference[column],
+                                                                   ledger[column])), 1e-6)
 
     def test_variants_of_nitsche(self):
         """theta = -1 and 0 have no modified energy, but their balance closes."""
