@@ -2,7 +2,6 @@
 #ifndef ricochet_solvers_block_matrix_h
 #define ricochet_solvers_block_matrix_h
 
-#include <base/large_pages.h>
 #include <base/types.h>
 
 #include <deal.II/base/partitioner.h>
@@ -207,7 +206,7 @@ namespace Ricochet
     const unsigned int size;
     // Row by row, #size entries each: on the diagonal, and at #places->column.
     std::vector<Number> diagonal;
-    LargeVector<Number> blocks;
+    std::vector<Number> blocks;
   };
 } // namespace Ricochet
 

@@ -2,7 +2,6 @@
 #ifndef ricochet_solvers_triangular_factor_h
 #define ricochet_solvers_triangular_factor_h
 
-#include <base/large_pages.h>
 #include <solvers/functionals.h>
 
 #include <array>
@@ -238,7 +237,7 @@ namespace Ricochet
     std::vector<int>   block_of;
     std::vector<Block> blocks;
     std::vector<int>   first_rows;
-    LargeVector<Value> values;
+    std::vector<Value> values;
     // 1 / D
     std::vector<double> inverse_diagonal;
     // No column before a block of #trees has rows in it or behind it; and how many values

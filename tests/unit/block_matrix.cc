@@ -5,7 +5,7 @@
 
 #include "meshes.h"
 
-#include <base/large_pages.h>
+#include <base/vector_operations.h>
 #include <discretization/linear_bulk.h>
 #include <solvers/single_finest_level.h>
 #include <solvers/single_tangent.h>
@@ -14,8 +14,6 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include <cstdint>
-#include <numeric>
 
 using namespace Ricochet;
 using dealii::VectorOperation;
@@ -274,32 +272,6 @@ BOOST_AUTO_TEST_CASE(finest_level_in_single_precision)
   matrix.vmult(product, vector);
   multiply();
   BOOST_CHECK_SMALL(difference(found, product), 1e-15);
-}
-
-// Arrays keep their values when they grow from small to large pages, and shrink
-// again; large ones begin where a page does.
-BOOST_AUTO_TEST_CASE(arrays_on_large_pages)
-{
-  constexpr std::size_t page = std::size_t(1) << 21;
-  LargeVector<double>   array;
-  for (const std::size_t n :
-       {std::size_t(10), page / 8 - 1, page / 8, 3 * page / 8 + 5})
-    {
-      const std::size_t old_size = array.size();
-      array.resize(n);
-      std::iota(array.begin() + old_size, array.end(), old_size);
-      array.shrink_to_fit();
-      BOOST_CHECK_EQUAL(std::accumulate(array.begin(), array.end(), 0.),
-                        .5 * n * (n - 1.));
-      if (n * sizeof(double) >= page)
-        BOOST_CHECK_EQUAL(reinterpret_cast<std::uintptr_t>(array.data()) % page,
-                          0u);
-    }
-  const LargeVector<double> copy(array);
-  array.resize(10);
-  array.shrink_to_fit();
-  BOOST_CHECK_EQUAL(array.back(), 9.);
-  BOOST_CHECK_EQUAL(copy.back(), copy.size() - 1.);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
