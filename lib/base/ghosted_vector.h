@@ -5,19 +5,17 @@
 #include <base/types.h>
 
 #include <deal.II/base/index_set.h>
-
-#include <Epetra_Vector.h>
+#include <deal.II/lac/read_write_vector.h>
 
 #include <memory>
 #include <vector>
-
-class Epetra_Import;
 
 namespace Ricochet
 {
   /**
    * Values of a vector on this rank, including those of other ranks that it
-   * needs. The communication pattern is set up once, and not for each vector.
+   * needs, in the order of their indices. The communication pattern is set up
+   * once, and not for each vector.
    */
   class GhostedVector
   {
@@ -25,10 +23,14 @@ namespace Ricochet
     GhostedVector() = default;
 
     /// @param layout a vector with ghost values.
-    explicit GhostedVector(const Vector &layout);
+    explicit GhostedVector(const Vector &layout)
+      : GhostedVector(dealii::IndexSet(layout.trilinos_partitioner()))
+    {}
 
-    /// The values of @p indices alone, whoever owns them. Collective.
-    GhostedVector(const dealii::IndexSet &indices, const MPI_Comm communicator);
+    /// The values of @p indices alone, whoever owns them.
+    explicit GhostedVector(const dealii::IndexSet &indices)
+      : ghosted(std::make_unique<Values>(indices))
+    {}
 
     /// Take all values from @p vector, which has no ghost values and always the same
     /// layout. Collective.
@@ -39,25 +41,30 @@ namespace Ricochet
     unsigned int
     size() const
     {
-      return ghosted->MyLength();
+      return ghosted->locally_owned_size();
     }
 
     /// Position of the unknown @p index among the values(); -1 if it is not on
     /// this rank.
     int
-    local_index(const dealii::types::global_dof_index index) const;
+    local_index(const dealii::types::global_dof_index index) const
+    {
+      return index < indices().size() && indices().is_element(index)
+        ? static_cast<int>(indices().index_within_set(index))
+        : -1;
+    }
 
     /// The unknown at a position among the values().
     dealii::types::global_dof_index
     index(const int local_index) const
     {
-      return ghosted->Map().GID(local_index);
+      return indices().nth_index_in_set(local_index);
     }
 
     const double *
     values() const
     {
-      return ghosted->Values();
+      return ghosted->begin();
     }
 
     /// The value of the unknown @p index, which must be on this rank.
@@ -68,12 +75,19 @@ namespace Ricochet
     }
 
   private:
-    std::unique_ptr<Epetra_Vector> ghosted;
-    // Whether all values are this rank's, in the same order. Otherwise several ranks have
-    // an exchange, and one takes values from their places in the vector.
-    bool knows_exchange = false, takes_all = false;
-    std::shared_ptr<const Epetra_Import> exchange;
-    std::vector<int>                     places;
+    using Values = dealii::LinearAlgebra::ReadWriteVector<double>;
+
+    const dealii::IndexSet &
+    indices() const
+    {
+      return ghosted->get_stored_elements();
+    }
+
+    std::unique_ptr<Values> ghosted;
+    // Whether there is one rank, and whether it takes all values in their order; otherwise
+    // it takes them from their places in the vector. Several ranks exchange them.
+    bool knows_exchange = false, is_alone = false, takes_all = false;
+    std::vector<int> places;
   };
 } // namespace Ricochet
 

@@ -13,6 +13,19 @@
 
 namespace Ricochet
 {
+  /// The values of @p vector on this rank, its ghost values included.
+  inline double *
+  local_values(Vector &vector)
+  {
+    return vector.trilinos_vector()[0];
+  }
+
+  inline const double *
+  local_values(const Vector &vector)
+  {
+    return vector.trilinos_vector()[0];
+  }
+
   /// @p to = @p from, two vectors of one layout without ghost values, or @p to has no
   /// size yet. deal.II's assignment asks each time how two layouts go together, which
   /// in a time step takes longer than to copy.
@@ -23,9 +36,9 @@ namespace Ricochet
         to.locally_owned_size() != from.locally_owned_size())
       to = from;
     else
-      std::copy_n(from.trilinos_vector()[0],
+      std::copy_n(local_values(from),
                   from.locally_owned_size(),
-                  to.trilinos_vector()[0]);
+                  local_values(to));
   }
 
   /// The values of a rank, without ghost values, for expressions that go through them
@@ -33,25 +46,25 @@ namespace Ricochet
   inline Eigen::Map<const Eigen::VectorXd>
   entries(const Vector &vector)
   {
-    return {vector.trilinos_vector()[0],
+    return {local_values(vector),
             static_cast<Eigen::Index>(vector.locally_owned_size())};
   }
 
   inline Eigen::Map<Eigen::VectorXd>
   entries(Vector &vector)
   {
-    return {vector.trilinos_vector()[0],
+    return {local_values(vector),
             static_cast<Eigen::Index>(vector.locally_owned_size())};
   }
 
   /// The l2 norm of the first @p n values of each rank of @p vector, with
-  /// several partial sums at a time, for speed; Epetra has one. Collective.
+  /// several partial sums at a time, for speed, unlike that of Trilinos.
+  /// Collective.
   inline double
   l2_norm(const Vector &vector, const unsigned int n)
   {
     const double square =
-      Eigen::Map<const Eigen::VectorXd>(vector.trilinos_vector()[0], n)
-        .squaredNorm();
+      Eigen::Map<const Eigen::VectorXd>(local_values(vector), n).squaredNorm();
     return std::sqrt(
       dealii::Utilities::MPI::sum(square, vector.get_mpi_communicator()));
   }

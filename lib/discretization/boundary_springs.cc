@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <discretization/boundary_springs.h>
 
 #include <deal.II/fe/fe_values.h>
@@ -201,8 +202,8 @@ namespace Ricochet
     stiffness.vmult(product, solution);
     for (unsigned int i = 0; i < part_of_unknown.size(); ++i)
       if (part_of_unknown[i] < own.size())
-        own[part_of_unknown[i]] += .5 * product.trilinos_vector()[0][i] *
-          solution.trilinos_vector()[0][i];
+        own[part_of_unknown[i]] +=
+          .5 * local_values(product)[i] * local_values(solution)[i];
     for (unsigned int p = 0; p < own.size(); ++p)
       energies[p] += Utilities::MPI::sum(own[p], communicator);
     return energies;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/parameter_file.h>
+#include <base/vector_operations.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <materials/gonzalez.h>
+#include <solvers/matrix_entries.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -218,16 +220,12 @@ namespace Ricochet
       for (const int row : cell.owned)
         if (row >= 0)
           diameter[row] = std::max(diameter[row], cell.iterator->diameter());
-    const auto &epetra = matrix.trilinos_matrix();
-    for (int row = 0; row < epetra.NumMyRows(); ++row)
+    const MatrixEntries entries(matrix);
+    for (unsigned int row = 0; row < entries.n_rows(); ++row)
       {
-        int     n_entries = 0;
-        double *values    = nullptr;
-        int    *columns   = nullptr;
-        epetra.ExtractMyRowView(row, n_entries, values, columns);
         double sum = 0.;
-        for (int j = 0; j < n_entries; ++j)
-          sum += std::abs(values[j]);
+        for (int k = entries.begin[row]; k < entries.begin[row + 1]; ++k)
+          sum += std::abs(entries.value[k]);
         const double force = sum * diameter[row];
         square += force * force;
         // Energy in the volume of the node, if all terms were as large as
@@ -249,13 +247,7 @@ namespace Ricochet
   void
   HyperelasticBulk<dim>::find_matrix_entries(const Matrix &matrix)
   {
-    const auto &epetra    = matrix.trilinos_matrix();
-    int        *row_begin = nullptr;
-    int        *columns   = nullptr;
-    double     *values    = nullptr;
-    const int error = epetra.ExtractCrsDataPointers(row_begin, columns, values);
-    AssertThrow(error == 0, ExcTrilinosError(error));
-
+    const MatrixEntries    entries(matrix);
     constexpr unsigned int n_lanes = Lanes::size();
     const unsigned int     n       = dim * n_nodes;
     all_batches.resize(n_batches);
@@ -265,9 +257,8 @@ namespace Ricochet
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
         for (unsigned int k = 0; k < n * n_lanes; ++k)
-          column[k] =
-            epetra.LCID(static_cast<TrilinosWrappers::types::int_type>(
-              ghosted_new.index(ghosted_index[batch * n * n_lanes + k])));
+          column[k] = entries.column_number(
+            ghosted_new.index(ghosted_index[batch * n * n_lanes + k]));
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int k = 0; k < n * n_lanes; ++k)
             {
@@ -278,14 +269,10 @@ namespace Ricochet
                   matrix_entry.push_back(-1);
                   continue;
                 }
-              // Columns rise in each row.
-              int *const end = columns + row_begin[row + 1];
-              const int *entry =
-                std::lower_bound(columns + row_begin[row], end, column[k]);
-              AssertThrow(entry != end && *entry == column[k],
+              matrix_entry.push_back(entries.find(row, column[k]));
+              AssertThrow(matrix_entry.back() >= 0,
                           ExcMessage("The sparsity pattern has no such "
                                      "entry."));
-              matrix_entry.push_back(entry - columns);
             }
       }
   }
@@ -484,7 +471,7 @@ namespace Ricochet
                                         Vector               &force) const
   {
     import_ghosts(old_solution, new_solution);
-    double *values = force.trilinos_vector()[0];
+    double *values = local_values(force);
     std::fill_n(values, force.locally_owned_size(), 0.);
     smallest_determinant = std::numeric_limits<double>::max();
     with_cell_size([&](const auto size) {
@@ -611,13 +598,7 @@ namespace Ricochet
                                     const UnknownList    *near) const
   {
     import_ghosts(old_solution, new_solution);
-    int      *row_begin = nullptr, *columns = nullptr;
-    double   *values = nullptr;
-    const int error =
-      tangent.trilinos_matrix().ExtractCrsDataPointers(row_begin,
-                                                       columns,
-                                                       values);
-    AssertThrow(error == 0, ExcTrilinosError(error));
+    double *const values = entry_values(tangent);
 
     std::vector<unsigned int> some_batches;
     if (near)

@@ -210,10 +210,10 @@ namespace Ricochet
     // The old, a middle and the new state of a step, and a guess.
     constexpr unsigned int n_known = 4;
     const auto             n       = solution.locally_owned_size();
-    const double          *values  = solution.trilinos_vector()[0];
+    const double          *values  = local_values(solution);
     // Comparison to the last digit, so that reuse does not change results.
     const auto is_same = [&](const KnownForce &known) {
-      const double *own = known.displacement.trilinos_vector()[0];
+      const double *own = local_values(known.displacement);
       return Utilities::MPI::min(std::equal(values, values + n, own) ? 1 : 0,
                                  communicator) == 1;
     };
@@ -331,7 +331,7 @@ namespace Ricochet
     // Several nodes at once.
     constexpr unsigned int width = 4 * dim;
     using Lanes                  = Eigen::Array<double, width, 1>;
-    double *const       values   = work.trilinos_vector()[0];
+    double *const       values   = local_values(work);
     std::vector<double> means(group_sizes.size(), 0.);
     const auto          group_of = [](const Run &run, const unsigned int i) {
       return run.part * dim + (run.first_component + i) % dim;

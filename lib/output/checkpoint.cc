@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/vector_operations.h>
 #include <output/checkpoint.h>
 
 #include <deal.II/base/utilities.h>
@@ -95,7 +96,7 @@ namespace Ricochet
     const auto positions_of_rank =
       Utilities::MPI::gather(folder.communicator, mesh.positions);
     for_each_vector(*this, [&](const Vector &vector) {
-      const double *mine           = vector.trilinos_vector()[0];
+      const double *mine           = local_values(vector);
       const auto    values_of_rank = Utilities::MPI::gather(
         folder.communicator,
         std::vector<double>(mine, mine + vector.locally_owned_size()));
@@ -211,7 +212,7 @@ namespace Ricochet
         fail("has " + std::to_string(stored->size()) +
              " unknowns, this run has " + std::to_string(vector.size()) +
              ": it belongs to another mesh");
-      double *values = vector.trilinos_vector()[0];
+      double *values = local_values(vector);
       for (std::size_t k = 0; k < mesh.positions.size(); ++k)
         values[k] = (*stored)[mesh.positions[k]];
       ++stored;

@@ -70,7 +70,7 @@ namespace Ricochet
     for (const auto *const motions : {&of_translations, &of_rotations})
       for (const Vector &motion : *motions)
         for (unsigned int i = 0; i < motion.locally_owned_size(); ++i)
-          if (motion.trilinos_vector()[0][i] != 0.)
+          if (local_values(motion)[i] != 0.)
             {
               begin_of_motions = std::min(begin_of_motions, i);
               end_of_motions   = std::max(end_of_motions, i + 1);

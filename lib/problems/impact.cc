@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <contact/obstacles/half_space.h>
 #include <base/exceptions.h>
+#include <base/vector_operations.h>
 #include <contact/treatments/contact_sum.h>
 #include <contact/treatments/pair_contact.h>
 #include <discretization/boundary_load.h>
@@ -283,7 +284,7 @@ namespace Ricochet
       // Nodes of parts that touch coincide and move differently.
       for (unsigned int i = 0; i < part_of_unknown.size(); ++i)
         if (part_of_unknown[i] == p)
-          result.trilinos_vector()[0][i] = field.trilinos_vector()[0][i];
+          local_values(result)[i] = local_values(field)[i];
     }
 
     template <int dim>
@@ -759,8 +760,8 @@ namespace Ricochet
         const Vector unit = uniform(direction);
         for (unsigned int k = 0; k < part_of.size(); ++k)
           if (part_of[k] < parts.size())
-            start.trilinos_vector()[0][k] +=
-              parts[part_of[k]].velocity[c] * unit.trilinos_vector()[0][k];
+            local_values(start)[k] +=
+              parts[part_of[k]].velocity[c] * local_values(unit)[k];
       }
     for (unsigned int p = 0; p < parts.size(); ++p)
       {

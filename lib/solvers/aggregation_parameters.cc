@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <solvers/aggregation_parameters.h>
 
 #include <ml_MultiLevelPreconditioner.h>
@@ -13,7 +14,7 @@ namespace Ricochet
     std::vector<double> modes;
     for (const Vector &mode : space.rigid_body_modes)
       {
-        const double *values = mode.trilinos_vector()[0];
+        const double *values = local_values(mode);
         modes.insert(modes.end(), values, values + mode.locally_owned_size());
       }
     return modes;

@@ -13,12 +13,12 @@ namespace Ricochet
   {
     /// The number on this rank of each column of @p matrix.
     std::vector<unsigned int>
-    local_columns(const Epetra_CrsMatrix            &matrix,
+    local_columns(const MatrixEntries               &matrix,
                   const Utilities::MPI::Partitioner &partitioner)
     {
-      std::vector<unsigned int> columns(matrix.NumMyCols());
+      std::vector<unsigned int> columns(matrix.n_columns());
       for (unsigned int c = 0; c < columns.size(); ++c)
-        columns[c] = partitioner.global_to_local(matrix.GCID64(c));
+        columns[c] = partitioner.global_to_local(matrix.column_index(c));
       return columns;
     }
 
@@ -27,30 +27,24 @@ namespace Ricochet
     /// Call @p action(column, value) for the entries of row @p r.
     template <typename Action>
     void
-    for_each_entry(const Epetra_CrsMatrix &matrix,
-                   const int               r,
-                   const Action           &action)
+    for_each_entry(const MatrixEntries &matrix,
+                   const int            r,
+                   const Action        &action)
     {
-      int     n_entries = 0;
-      double *values    = nullptr;
-      int    *indices   = nullptr;
-      matrix.ExtractMyRowView(r, n_entries, values, indices);
-      for (int e = 0; e < n_entries; ++e)
-        action(indices[e], values[e]);
+      for (int k = matrix.begin[r]; k < matrix.begin[r + 1]; ++k)
+        action(matrix.column[k], matrix.value[k]);
     }
   } // namespace
 
 
 
-  BlockPattern::BlockPattern(
-    const std::vector<const Epetra_CrsMatrix *> &matrices,
-    const std::vector<types::global_dof_index>  &others,
-    const unsigned int                           dim,
-    const MPI_Comm                               communicator)
+  BlockPattern::BlockPattern(const std::vector<MatrixEntries> &matrices,
+                             const std::vector<types::global_dof_index> &others,
+                             const unsigned int                          dim,
+                             const MPI_Comm communicator)
     : dim(dim)
   {
-    const IndexSet owned(
-      static_cast<const Epetra_BlockMap &>(matrices.front()->RangeMap()));
+    const IndexSet owned = matrices.front().row_indices();
     // Ghosts, each node with all of its unknowns.
     std::vector<types::global_dof_index> ghosts;
     const auto add_ghost = [&](const types::global_dof_index unknown) {
@@ -60,9 +54,9 @@ namespace Ricochet
     };
     for (const auto unknown : others)
       add_ghost(unknown);
-    for (const Epetra_CrsMatrix *matrix : matrices)
-      for (int c = 0; c < matrix->NumMyCols(); ++c)
-        add_ghost(matrix->GCID64(c));
+    for (const MatrixEntries &matrix : matrices)
+      for (unsigned int c = 0; c < matrix.n_columns(); ++c)
+        add_ghost(matrix.column_index(c));
     std::sort(ghosts.begin(), ghosts.end());
     IndexSet ghost_set(owned.size());
     ghost_set.add_indices(ghosts.begin(), ghosts.end());
@@ -75,12 +69,12 @@ namespace Ricochet
 
     const unsigned int                     n = owned.n_elements() / dim;
     std::vector<std::vector<unsigned int>> rows(n);
-    for (const Epetra_CrsMatrix *matrix : matrices)
+    for (const MatrixEntries &matrix : matrices)
       {
         const std::vector<unsigned int> columns =
-          local_columns(*matrix, *partitioner);
+          local_columns(matrix, *partitioner);
         for (unsigned int r = 0; r < n * dim; ++r)
-          for_each_entry(*matrix, r, [&](const int entry_column, double) {
+          for_each_entry(matrix, r, [&](const int entry_column, double) {
             // To the right of the diagonal, from either side of it.
             const unsigned int node = columns[entry_column] / dim;
             const auto [i, j]       = std::minmax({node, r / dim});
@@ -174,7 +168,7 @@ namespace Ricochet
 
   template <typename Number>
   void
-  BlockMatrix<Number>::add(const double factor, const Epetra_CrsMatrix &matrix)
+  BlockMatrix<Number>::add(const double factor, const MatrixEntries &matrix)
   {
     Assert(!isotropic, ExcNotImplemented());
     const unsigned int              dim = places->dim, n = places->n_rows();

@@ -3,6 +3,7 @@
 #define ricochet_solvers_block_matrix_h
 
 #include <base/types.h>
+#include <solvers/matrix_entries.h>
 
 #include <deal.II/base/partitioner.h>
 #include <deal.II/lac/full_matrix.h>
@@ -31,7 +32,7 @@ namespace Ricochet
      * @param others unknowns of other ranks that are to be known besides.
      * Collective.
      */
-    BlockPattern(const std::vector<const Epetra_CrsMatrix *>        &matrices,
+    BlockPattern(const std::vector<MatrixEntries>                   &matrices,
                  const std::vector<dealii::types::global_dof_index> &others,
                  const unsigned int                                  dim,
                  const MPI_Comm communicator);
@@ -76,7 +77,7 @@ namespace Ricochet
   /**
    * A symmetric matrix of blocks between nodes, half of which is stored: for bodies
    * in space with 4-byte numbers and nodes of degree 2 a sixth of the bytes of a
-   * matrix of entries. deal.II 9.4 and Epetra have no such matrix (theirs know neither
+   * matrix of entries. deal.II 9.4 and Trilinos have no such matrix (theirs know neither
    * blocks of fixed size in single precision nor symmetry).
    */
   template <typename Number>
@@ -95,7 +96,7 @@ namespace Ricochet
     /// each has its own rows). Its entries have a place in the pattern.
     /// @pre it is not isotropic; so below.
     void
-    add(const double factor, const Epetra_CrsMatrix &matrix);
+    add(const double factor, const MatrixEntries &matrix);
 
     /// Add @p factor times @p matrix, on the same pattern.
     void

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <solvers/body_matrix.h>
+#include <solvers/matrix_entries.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -27,7 +29,7 @@ namespace Ricochet
     if (by_entries)
       return by_entries->vmult(result, vector);
     with_ghosts(vector, [&](const double *from) {
-      by_blocks->vmult(from, result.trilinos_vector()[0]);
+      by_blocks->vmult(from, local_values(result));
     });
   }
 
@@ -44,7 +46,7 @@ namespace Ricochet
                                        isotropic.weight,
                                        *isotropic.matrix->blocks(),
                                        from,
-                                       result.trilinos_vector()[0]);
+                                       local_values(result));
     });
   }
 
@@ -55,7 +57,7 @@ namespace Ricochet
     const Vector                                    &vector,
     const std::function<void(const double *values)> &action) const
   {
-    const double *from = vector.trilinos_vector()[0];
+    const double *from = local_values(vector);
     if (ghosted.size() == 0)
       return action(from);
     std::copy(from, from + ghosted.locally_owned_size(), ghosted.begin());
@@ -73,21 +75,17 @@ namespace Ricochet
     std::vector<types::global_dof_index> indices;
     if (by_entries)
       {
-        const Epetra_CrsMatrix &epetra = by_entries->trilinos_matrix();
-        std::vector<double>     values;
-        const std::size_t       n_rows =
-          numbers ? numbers->size() : epetra.NumMyRows();
+        const MatrixEntries matrix(*by_entries);
+        std::vector<double> values;
+        const std::size_t n_rows = numbers ? numbers->size() : matrix.n_rows();
         for (std::size_t k = 0; k < n_rows; ++k)
           {
-            const unsigned int r         = numbers ? (*numbers)[k] : k;
-            int                n_entries = 0;
-            double            *row       = nullptr;
-            int               *columns   = nullptr;
-            epetra.ExtractMyRowView(r, n_entries, row, columns);
+            const unsigned int r = numbers ? (*numbers)[k] : k;
+            const int first = matrix.begin[r], end = matrix.begin[r + 1];
             indices.clear();
-            for (int e = 0; e < n_entries; ++e)
-              indices.push_back(epetra.GCID64(columns[e]));
-            values.assign(row, row + n_entries);
+            for (int e = first; e < end; ++e)
+              indices.push_back(matrix.column_index(matrix.column[e]));
+            values.assign(matrix.value + first, matrix.value + end);
             action(r, indices, values);
           }
         return;
@@ -118,29 +116,23 @@ namespace Ricochet
       }
     // Entries are found by where the matrix has its columns on this rank: to look up
     // each by its index takes longer than all the rest.
-    using EpetraIndex = TrilinosWrappers::types::int_type;
-    const Epetra_CrsMatrix            &epetra = matrix.trilinos_matrix();
+    const MatrixEntries                entries(matrix);
+    double *const                      value = entry_values(matrix);
     const Utilities::MPI::Partitioner &partitioner =
       *by_blocks->pattern()->partitioner;
     const auto       first = partitioner.local_range().first;
     std::vector<int> column_of(partitioner.locally_owned_size() +
                                partitioner.n_ghost_indices());
     for (unsigned int c = 0; c < column_of.size(); ++c)
-      column_of[c] =
-        epetra.LCID(static_cast<EpetraIndex>(partitioner.local_to_global(c)));
-    std::vector<int> place_of(epetra.NumMyCols(), -1);
+      column_of[c] = entries.column_number(partitioner.local_to_global(c));
+    std::vector<int> place_of(entries.n_columns(), -1);
     by_blocks->for_each_row([&](const unsigned int               r,
                                 const std::vector<unsigned int> &columns,
                                 const std::vector<double>       &values) {
-      int     n_entries = 0;
-      double *row       = nullptr;
-      int    *indices   = nullptr;
-      epetra.ExtractMyRowView(epetra.LRID(static_cast<EpetraIndex>(first + r)),
-                              n_entries,
-                              row,
-                              indices);
-      for (int e = 0; e < n_entries; ++e)
-        place_of[indices[e]] = e;
+      const int row   = entries.row_number(first + r);
+      const int begin = entries.begin[row], end = entries.begin[row + 1];
+      for (int e = begin; e < end; ++e)
+        place_of[entries.column[e]] = e;
       for (unsigned int k = 0; k < columns.size(); ++k)
         {
           const int column = column_of[columns[k]];
@@ -148,10 +140,10 @@ namespace Ricochet
           AssertThrow(place >= 0 || values[k] == 0.,
                       ExcMessage("The matrix lacks an entry."));
           if (place >= 0)
-            row[place] += factor * values[k];
+            value[place] += factor * values[k];
         }
-      for (int e = 0; e < n_entries; ++e)
-        place_of[indices[e]] = -1;
+      for (int e = begin; e < end; ++e)
+        place_of[entries.column[e]] = -1;
     });
   }
 
@@ -183,14 +175,15 @@ namespace Ricochet
   void
   BodyMatrix::add_diagonal(const double factor, Vector &diagonal) const
   {
-    double *values = diagonal.trilinos_vector()[0];
+    double *values = local_values(diagonal);
     if (by_entries)
       {
-        Vector    own(diagonal);
-        const int error = by_entries->trilinos_matrix().ExtractDiagonalCopy(
-          *own.trilinos_vector()(0));
-        AssertThrow(error == 0, ExcTrilinosError(error));
-        diagonal.add(factor, own);
+        const MatrixEntries matrix(*by_entries);
+        for (unsigned int r = 0; r < matrix.n_rows(); ++r)
+          if (const int k =
+                matrix.find(r, matrix.column_number(matrix.row_index(r)));
+              k >= 0)
+            values[r] += factor * matrix.value[k];
       }
     else
       for (unsigned int i = 0; i < diagonal.locally_owned_size(); ++i)
@@ -242,8 +235,9 @@ namespace Ricochet
   std::size_t
   BodyMatrix::memory_consumption() const
   {
-    return by_entries ? 12 * by_entries->trilinos_matrix().NumMyNonzeros() +
-        4 * by_entries->trilinos_matrix().NumMyRows()
-                      : by_blocks->memory_consumption();
+    if (!by_entries)
+      return by_blocks->memory_consumption();
+    const MatrixEntries matrix(*by_entries);
+    return 12 * matrix.size() + 4 * matrix.n_rows();
   }
 } // namespace Ricochet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/stopwatch.h>
+#include <base/vector_operations.h>
 #include <solvers/contact_schur_complement.h>
 
 #include <algorithm>
@@ -55,7 +56,7 @@ namespace Ricochet
     forwards.assign((n_rows() + group_size - 1) / group_size, {});
     columns.assign(forwards.size() * group_size, {});
     region_places = 0;
-    if (!cholesky.factorise(matrix.trilinos_matrix()))
+    if (!cholesky.factorise(matrix))
       throw NewtonFailure("The matrix of the body cannot be factored.\n");
     solves = &cholesky.factor();
   }
@@ -107,7 +108,7 @@ namespace Ricochet
   ContactSchurComplement::begin(const Vector &right_hand_side)
   {
     const Stopwatch stopwatch(spent.substituting);
-    solves->forward(right_hand_side.trilinos_vector()[0], forward);
+    solves->forward(local_values(right_hand_side), forward);
   }
 
 
@@ -163,7 +164,7 @@ namespace Ricochet
           solves->add(forward_of(group), of_group.data(), forward);
       }
     ++spent.n_substitutions;
-    solves->backward(forward, solution.trilinos_vector()[0]);
+    solves->backward(forward, local_values(solution));
   }
 
 
@@ -172,7 +173,7 @@ namespace Ricochet
   ContactSchurComplement::add_rows(const std::vector<double> &coefficients,
                                    Vector                    &vector) const
   {
-    double *values = vector.trilinos_vector()[0];
+    double *values = local_values(vector);
     for (unsigned int f = 0; f < coefficients.size(); ++f)
       if (coefficients[f] != 0.)
         for (std::size_t k = jacobian.begin[f]; k < jacobian.begin[f + 1]; ++k)
@@ -194,7 +195,7 @@ namespace Ricochet
     for (unsigned int d = 0; d < dof_sum.size(); ++d)
       {
         const double entry = scaling
-          ? dof_sum[d] * scaling->trilinos_vector()[0][contact_dofs[d]]
+          ? dof_sum[d] * local_values(*scaling)[contact_dofs[d]]
           : dof_sum[d];
         square += entry * entry;
       }
@@ -206,7 +207,7 @@ namespace Ricochet
   std::vector<double>
   ContactSchurComplement::along_rows(const Vector &vector) const
   {
-    const double       *values = vector.trilinos_vector()[0];
+    const double       *values = local_values(vector);
     std::vector<double> result(n_rows(), 0.);
     for (unsigned int f = 0; f < n_rows(); ++f)
       for (std::size_t k = jacobian.begin[f]; k < jacobian.begin[f + 1]; ++k)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/stopwatch.h>
+#include <base/vector_operations.h>
 #include <solvers/aggregation_parameters.h>
 #include <solvers/coupled_multigrid.h>
 #include <solvers/flexible_gmres.h>
@@ -137,7 +138,7 @@ namespace Ricochet
                                            values.data(),
                                            columns.data());
         (*inverse_diagonal)[row - n_displacements] =
-          1. / (diagonal[row] - square / scaling->trilinos_vector()[0][row]);
+          1. / (diagonal[row] - square / local_values(*scaling)[row]);
       }
     from_multipliers->FillComplete(*multipliers, *displacements);
     to_multipliers->FillComplete(*displacements, *multipliers);
@@ -231,7 +232,7 @@ namespace Ricochet
     aggregation->initialize(*schur_complement, list);
     finest_level = std::make_unique<SingleFinestLevel>(
       *aggregation,
-      *schur_complement,
+      MatrixEntries(*schur_complement),
       space.dim(),
       displacement_part.get_mpi_communicator());
   }
@@ -267,16 +268,16 @@ namespace Ricochet
     // u = S^-1 (r_u - G C~^-1 r_m), m = C~^-1 (r_m - H u).
     const unsigned int n    = displacement_part.locally_owned_size();
     const unsigned int n_m  = multipliers->NumMyElements();
-    const double      *from = vector.trilinos_vector()[0];
-    double            *to   = result.trilinos_vector()[0];
-    double            *part = displacement_part.trilinos_vector()[0];
+    const double      *from = local_values(vector);
+    double            *to   = local_values(result);
+    double            *part = local_values(displacement_part);
     for (unsigned int i = 0; i < n_m; ++i)
       (*multiplier_part)[i] = (*inverse_diagonal)[i] * from[n + i];
     from_multipliers->Multiply(false, *multiplier_part, *work);
     for (unsigned int i = 0; i < n; ++i)
       part[i] = from[i] - (*work)[i];
     aggregation->vmult(displacement_result, displacement_part);
-    const double *solved = displacement_result.trilinos_vector()[0];
+    const double *solved = local_values(displacement_result);
     std::copy(solved, solved + n, to);
     std::copy(solved, solved + n, work->Values());
     to_multipliers->Multiply(false, *work, *multiplier_part);

@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <solvers/factorisation.h>
+#include <solvers/matrix_entries.h>
 
 #include <Amesos.h>
-#include <Epetra_CrsMatrix.h>
 #include <Epetra_LinearProblem.h>
 
 namespace Ricochet
 {
   using namespace dealii;
 
-  namespace
+  struct Factorisation::Amesos
   {
-    /// Where the entries of a matrix lie, to which the packages keep pointers.
-    const double *
-    entries_of(const Epetra_CrsMatrix &matrix)
-    {
-      int    *row_start = nullptr, *columns = nullptr;
-      double *values = nullptr;
-      matrix.ExtractCrsDataPointers(row_start, columns, values);
-      return values;
-    }
-  } // namespace
+    Epetra_LinearProblem               problem;
+    std::unique_ptr<Amesos_BaseSolver> solver;
+  };
 
 
 
@@ -38,32 +31,34 @@ namespace Ricochet
   bool
   Factorisation::factorise(const Matrix &matrix, const bool keep_pivots)
   {
-    const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
-    int                     error  = 0;
-    Assert(!solver || entries == entries_of(epetra),
+    int error = 0;
+    // The packages keep pointers to the values.
+    Assert(!amesos || values == MatrixEntries(matrix).value,
            ExcMessage("Another matrix needs a factorisation of its own."));
-    if (!solver)
+    if (!amesos)
       {
-        entries = entries_of(epetra);
-        problem = std::make_unique<Epetra_LinearProblem>();
-        problem->SetOperator(const_cast<Epetra_CrsMatrix *>(&epetra));
+        values = MatrixEntries(matrix).value;
+        amesos = std::make_unique<Amesos>();
+        amesos->problem.SetOperator(
+          const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()));
         const std::string name =
           package == "KLU" ? "Amesos_Klu" : "Amesos_Mumps";
-        solver.reset(Amesos().Create(name, *problem));
-        AssertThrow(solver, ExcMessage("Trilinos was built without " + name));
-        error = solver->SymbolicFactorization();
+        amesos->solver.reset(::Amesos().Create(name, amesos->problem));
+        AssertThrow(amesos->solver,
+                    ExcMessage("Trilinos was built without " + name));
+        error = amesos->solver->SymbolicFactorization();
       }
     else if (package == "MUMPS" && !keep_pivots)
       // MUMPS looks at the values already when it orders the unknowns.
-      error = solver->SymbolicFactorization();
+      error = amesos->solver->SymbolicFactorization();
     // KLU looks at its pivots and chooses others when they are no longer good.
     Teuchos::ParameterList list;
     list.set("Refactorize", keep_pivots);
-    solver->SetParameters(list);
+    amesos->solver->SetParameters(list);
     if (error == 0)
-      error = solver->NumericFactorization();
+      error = amesos->solver->NumericFactorization();
     if (error != 0)
-      solver.reset();
+      amesos.reset();
     return error == 0;
   }
 
@@ -72,11 +67,11 @@ namespace Ricochet
   void
   Factorisation::solve(const Vector &right_hand_side, Vector &solution)
   {
-    problem->SetLHS(&solution.trilinos_vector());
-    problem->SetRHS(
+    amesos->problem.SetLHS(&solution.trilinos_vector());
+    amesos->problem.SetRHS(
       const_cast<Epetra_MultiVector *>(static_cast<const Epetra_MultiVector *>(
         &right_hand_side.trilinos_vector())));
-    if (solver->Solve() != 0)
+    if (amesos->solver->Solve() != 0)
       throw NewtonFailure("The linear system cannot be solved.");
   }
 } // namespace Ricochet

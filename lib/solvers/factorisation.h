@@ -7,9 +7,6 @@
 #include <memory>
 #include <string>
 
-class Amesos_BaseSolver;
-class Epetra_LinearProblem;
-
 namespace Ricochet
 {
   /**
@@ -40,10 +37,12 @@ namespace Ricochet
     solve(const Vector &right_hand_side, Vector &solution);
 
   private:
-    const std::string                     package;
-    const double                         *entries = nullptr;
-    std::unique_ptr<Epetra_LinearProblem> problem;
-    std::unique_ptr<Amesos_BaseSolver>    solver;
+    /// The linear system and its solver as Amesos has them.
+    struct Amesos;
+
+    const std::string       package;
+    const double           *values = nullptr;
+    std::unique_ptr<Amesos> amesos;
   };
 } // namespace Ricochet
 

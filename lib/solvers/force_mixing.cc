@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <solvers/force_mixing.h>
 #include <solvers/single_precision.h>
 
@@ -166,7 +167,7 @@ namespace Ricochet
                     Vector                                           &step,
                     const std::function<void(std::vector<double> &)> &complete)
   {
-    const double     *r = residual.trilinos_vector()[0];
+    const double     *r = local_values(residual);
     const std::size_t n = residual.locally_owned_size();
     residual_now.assign(r, r + n);
     // The plain step for what no change explains, and steps for what they do.
@@ -238,7 +239,7 @@ namespace Ricochet
       step_now[i] += known_step[i];
     last_residual.swap(residual_now);
     last_products.swap(parts);
-    std::copy(step_now.begin(), step_now.end(), step.trilinos_vector()[0]);
+    std::copy(step_now.begin(), step_now.end(), local_values(step));
     last_step.swap(step_now);
     has_last = true;
   }

@@ -10,10 +10,10 @@ namespace Ricochet
   KnownProduct::with(const Vector &vector) const
   {
     const unsigned int n      = vector.locally_owned_size();
-    const double      *values = vector.trilinos_vector()[0];
+    const double      *values = local_values(vector);
     // To the last digit, so that it makes no difference to know it.
     const bool is_known = product.size() == vector.size() &&
-      std::equal(values, values + n, known.trilinos_vector()[0]);
+      std::equal(values, values + n, local_values(known));
     if (dealii::Utilities::MPI::min(is_known ? 1 : 0,
                                     vector.get_mpi_communicator()) == 1)
       return product;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/vector_operations.h>
 #include <solvers/aggregation_parameters.h>
 #include <solvers/flexible_gmres.h>
 #include <solvers/multigrid.h>
@@ -257,7 +258,7 @@ namespace Ricochet
   Multigrid::cycle() const
   {
     const unsigned int n    = single_residual.locally_owned_size();
-    double *const      work = fine.trilinos_vector()[0];
+    double *const      work = local_values(fine);
     smoother.vmult(single_result, single_right_hand_side);
     single.vmult(single_residual, single_result);
     for (unsigned int i = 0; i < n; ++i)
@@ -311,8 +312,8 @@ namespace Ricochet
       }
     const double        size = size_for_single_precision(norm);
     const unsigned int  n    = single_residual.locally_owned_size();
-    const double *const from = vector.trilinos_vector()[0];
-    double *const       to   = result.trilinos_vector()[0];
+    const double *const from = local_values(vector);
+    double *const       to   = local_values(result);
     for (unsigned int i = 0; i < n; ++i)
       single_right_hand_side.local_element(i) =
         static_cast<float>(from[i] / size);

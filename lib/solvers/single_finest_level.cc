@@ -13,17 +13,36 @@ namespace Ricochet
 {
   using namespace dealii;
 
+  namespace
+  {
+    double
+    linfty_norm(const MatrixEntries &matrix, const MPI_Comm communicator)
+    {
+      double largest = 0.;
+      for (unsigned int r = 0; r < matrix.n_rows(); ++r)
+        {
+          double sum = 0.;
+          for (int k = matrix.begin[r]; k < matrix.begin[r + 1]; ++k)
+            sum += std::abs(matrix.value[k]);
+          largest = std::max(largest, sum);
+        }
+      return Utilities::MPI::max(largest, communicator);
+    }
+  } // namespace
+
+
+
   SingleFinestLevel::SingleFinestLevel(
     TrilinosWrappers::PreconditionAMG &aggregation,
-    const Epetra_CrsMatrix            &exact,
+    const MatrixEntries               &exact,
     const unsigned int                 dim,
     const MPI_Comm                     communicator)
-    : matrix(std::make_shared<BlockPattern>(
-        std::vector<const Epetra_CrsMatrix *>{&exact},
-        std::vector<types::global_dof_index>(),
-        dim,
-        communicator))
-    , scale(size_for_single_precision(exact.NormInf()))
+    : matrix(
+        std::make_shared<BlockPattern>(std::vector<MatrixEntries>{exact},
+                                       std::vector<types::global_dof_index>(),
+                                       dim,
+                                       communicator))
+    , scale(size_for_single_precision(linfty_norm(exact, communicator)))
   {
     matrix.add(1. / scale, exact);
     from.reinit(matrix.pattern()->partitioner);

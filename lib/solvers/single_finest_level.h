@@ -25,7 +25,7 @@ namespace Ricochet
     /// @param aggregation set up for @p matrix. @param dim unknowns of a node, which
     /// stand together. Both are to live as long as this. Collective.
     SingleFinestLevel(dealii::TrilinosWrappers::PreconditionAMG &aggregation,
-                      const Epetra_CrsMatrix                    &matrix,
+                      const MatrixEntries                       &matrix,
                       const unsigned int                         dim,
                       const MPI_Comm                             communicator);
 

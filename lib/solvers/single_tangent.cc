@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <solvers/single_precision.h>
 #include <solvers/single_tangent.h>
 
@@ -18,12 +19,12 @@ namespace Ricochet
     body.reset();
     // Blocks have a place for whatever couples in the body.
     pattern.reset();
-    std::vector<const Epetra_CrsMatrix *> matrices;
+    std::vector<MatrixEntries> matrices;
     for (const MatrixTerm &term : tangent.terms())
       if (term.matrix->blocks())
         pattern = term.matrix->blocks()->pattern();
       else
-        matrices.push_back(&term.matrix->entries()->trilinos_matrix());
+        matrices.emplace_back(*term.matrix->entries());
     if (!pattern)
       pattern = std::make_shared<BlockPattern>(matrices,
                                                tangent.functionals().index,
@@ -42,7 +43,7 @@ namespace Ricochet
         body->add(scaling * term.weight, *term.matrix->blocks());
       else
         body->add(scaling * term.weight,
-                  term.matrix->entries()->trilinos_matrix());
+                  MatrixEntries(*term.matrix->entries()));
 
     VectorType flags;
     initialize_dof_vector(flags);
@@ -59,7 +60,7 @@ namespace Ricochet
   {
     initialize_dof_vector(diagonal);
     const Vector  exact  = tangent.diagonal();
-    const double *values = exact.trilinos_vector()[0];
+    const double *values = local_values(exact);
     for (unsigned int i = 0; i < diagonal.locally_owned_size(); ++i)
       diagonal.local_element(i) = static_cast<float>(scaling * values[i]);
 

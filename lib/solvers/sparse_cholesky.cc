@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <base/types.h>
+#include <solvers/matrix_entries.h>
 #include <solvers/sparse_cholesky.h>
 
 #include <Eigen/CholmodSupport>
@@ -98,11 +98,8 @@ namespace Ricochet
       int row, column, below, above;
     };
 
-    /// @param row_start and @param columns of the @p matrix.
     void
-    find_pattern(const Epetra_CrsMatrix &matrix,
-                 const int              *row_start,
-                 const int              *columns);
+    find_pattern(const MatrixEntries &matrix);
 
     /// Fill #symmetric, with other signs in rows with a negative entry on the diagonal, if
     /// so wanted. @return whether the matrix is symmetric, except for the columns of
@@ -136,18 +133,13 @@ namespace Ricochet
 
 
   void
-  SparseCholesky::Workshop::find_pattern(const Epetra_CrsMatrix &matrix,
-                                         const int              *row_start,
-                                         const int              *columns)
+  SparseCholesky::Workshop::find_pattern(const MatrixEntries &matrix)
   {
-    using EpetraIndex = TrilinosWrappers::types::int_type;
-    AssertThrow(matrix.NumMyRows() == matrix.NumGlobalRows64(),
-                ExcMessage("CHOLMOD needs all rows on one rank."));
-    const int n = matrix.NumMyRows();
+    const int n = matrix.n_rows();
     // Columns have an order of their own, even on one rank.
-    std::vector<int> unknown_of(matrix.NumMyCols());
+    std::vector<int> unknown_of(matrix.n_columns());
     for (unsigned int c = 0; c < unknown_of.size(); ++c)
-      unknown_of[c] = matrix.LRID(static_cast<EpetraIndex>(matrix.GCID64(c)));
+      unknown_of[c] = matrix.row_number(matrix.column_index(c));
 
     // Entries on and below the diagonal, by columns. Rows rise in each of them, for they
     // are passed in their order.
@@ -155,17 +147,17 @@ namespace Ricochet
     int *begin = symmetric.outerIndexPtr();
     std::fill_n(begin, n + 1, 0);
     for (int i = 0; i < n; ++i)
-      for (int k = row_start[i]; k < row_start[i + 1]; ++k)
-        if (unknown_of[columns[k]] <= i)
-          ++begin[unknown_of[columns[k]] + 1];
+      for (int k = matrix.begin[i]; k < matrix.begin[i + 1]; ++k)
+        if (unknown_of[matrix.column[k]] <= i)
+          ++begin[unknown_of[matrix.column[k]] + 1];
     std::partial_sum(begin, begin + n + 1, begin);
     symmetric.resizeNonZeros(begin[n]);
     places.resize(begin[n]);
     diagonal.resize(n);
     std::vector<int> end(begin, begin + n);
     for (int i = 0; i < n; ++i)
-      for (int k = row_start[i]; k < row_start[i + 1]; ++k)
-        if (const int j = unknown_of[columns[k]]; j <= i)
+      for (int k = matrix.begin[i]; k < matrix.begin[i + 1]; ++k)
+        if (const int j = unknown_of[matrix.column[k]]; j <= i)
           {
             symmetric.innerIndexPtr()[end[j]] = i;
             places[end[j]]                    = {i, j, k, -1};
@@ -179,9 +171,9 @@ namespace Ricochet
     for (int j = 0; j < n; ++j)
       {
         above.clear();
-        for (int k = row_start[j]; k < row_start[j + 1]; ++k)
-          if (unknown_of[columns[k]] >= j)
-            above.emplace_back(unknown_of[columns[k]], k);
+        for (int k = matrix.begin[j]; k < matrix.begin[j + 1]; ++k)
+          if (unknown_of[matrix.column[k]] >= j)
+            above.emplace_back(unknown_of[matrix.column[k]], k);
         std::sort(above.begin(), above.end());
         bool is_symmetric =
           static_cast<int>(above.size()) == begin[j + 1] - begin[j];
@@ -254,23 +246,21 @@ namespace Ricochet
 
 
   bool
-  SparseCholesky::factorise(const Epetra_CrsMatrix &matrix)
+  SparseCholesky::factorise(const Matrix &matrix)
   {
     solves.reset();
-    int      *row_start = nullptr, *columns = nullptr;
-    double   *values = nullptr;
-    const int error = matrix.ExtractCrsDataPointers(row_start, columns, values);
-    AssertThrow(error == 0,
-                ExcMessage("The matrix is not stored in one piece."));
+    const MatrixEntries entries(matrix);
+    AssertThrow(entries.n_rows() == matrix.m(),
+                ExcMessage("CHOLMOD needs all rows on one rank."));
     if (!workshop)
       {
         workshop = std::make_unique<Workshop>();
-        workshop->find_pattern(matrix, row_start, columns);
+        workshop->find_pattern(entries);
       }
     // Of a body that is indefinite, unknowns of both signs are coupled.
-    bool is_symmetric = workshop->fill(values, true);
+    bool is_symmetric = workshop->fill(entries.value, true);
     if (workshop->couples_signs)
-      is_symmetric = workshop->fill(values, false);
+      is_symmetric = workshop->fill(entries.value, false);
     if (kind == Kind::exact && !is_symmetric)
       return false;
     Cholmod &cholesky = workshop->cholesky;

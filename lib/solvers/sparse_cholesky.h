@@ -2,9 +2,8 @@
 #ifndef ricochet_solvers_sparse_cholesky_h
 #define ricochet_solvers_sparse_cholesky_h
 
+#include <base/types.h>
 #include <solvers/triangular_factor.h>
-
-#include <Epetra_CrsMatrix.h>
 
 #include <memory>
 
@@ -44,7 +43,7 @@ namespace Ricochet
      * factorisation is for.
      */
     bool
-    factorise(const Epetra_CrsMatrix &matrix);
+    factorise(const Matrix &matrix);
 
     /// @pre factorise() has returned true.
     const TriangularSolves &

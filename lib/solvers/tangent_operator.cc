@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <solvers/tangent_operator.h>
 
 #include <deal.II/base/mpi.h>
@@ -130,8 +131,8 @@ namespace Ricochet
       {
         functional_matrix.vmult(observed, *argument);
         // Functionals act on those of the same point, so of the same rank.
-        const double *value  = observed.trilinos_vector()[0];
-        double       *action = acting.trilinos_vector()[0];
+        const double *value  = local_values(observed);
+        double       *action = local_values(acting);
         for (unsigned int f = 0; f < rows.size(); ++f)
           {
             action[f] = 0.;

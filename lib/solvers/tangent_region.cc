@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
+#include <solvers/matrix_entries.h>
 #include <solvers/tangent_region.h>
 
 #include <Eigen/KLUSupport>
-#include <Epetra_CrsMatrix.h>
 
 #include <algorithm>
 #include <array>
@@ -24,27 +25,6 @@ namespace Ricochet
     {
       unsigned int row, column;
       double       value;
-    };
-
-    /// The rows of a matrix, one behind the other.
-    struct Rows
-    {
-      explicit Rows(const Matrix &of)
-        : matrix(of.trilinos_matrix())
-      {
-        const int error = matrix.ExtractCrsDataPointers(begin, column, value);
-        AssertThrow(error == 0, ExcTrilinosError(error));
-      }
-
-      unsigned int
-      size() const
-      {
-        return matrix.NumMyRows();
-      }
-
-      const Epetra_CrsMatrix &matrix;
-      int                    *begin = nullptr, *column = nullptr;
-      double                 *value = nullptr;
     };
 
     /// Place of each unknown in the ascending @p region.
@@ -254,21 +234,21 @@ namespace Ricochet
     auto               system = std::make_unique<SmallSystem>();
     std::vector<Entry> entries;
     system->n = region.size();
-    const Rows change(difference), old(kept.body_matrix());
-    AssertThrow(change.matrix.NumMyNonzeros() == old.matrix.NumMyNonzeros(),
+    const MatrixEntries change(difference), old(kept.body_matrix());
+    AssertThrow(change.size() == old.size(),
                 ExcMessage("The matrices have the same pattern."));
-    const int *columns = change.matrix.ColMap().MyGlobalElements();
-    for (unsigned int row = 0; row < change.size(); ++row)
+    for (unsigned int row = 0; row < change.n_rows(); ++row)
       {
-        const unsigned int place = places(change.matrix.GRID(row));
+        const unsigned int place = places(change.row_index(row));
         if (place != not_there)
           system->own.push_back(
-            {place, row, contact.row_scaling->trilinos_vector()[0][row]});
+            {place, row, local_values(*contact.row_scaling)[row]});
         for (int k = change.begin[row]; k < change.begin[row + 1]; ++k)
           {
             if (place == not_there && change.value[k] == 0.)
               continue;
-            const unsigned int column = places(columns[change.column[k]]);
+            const unsigned int column =
+              places(change.column_index(change.column[k]));
             if (column == not_there)
               continue;
             if (change.value[k] != 0.)

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <solvers/matrix_entries.h>
 #include <solvers/united_pattern.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
-
-#include <Epetra_CrsGraph.h>
 
 #include <algorithm>
 
@@ -26,18 +25,17 @@ namespace Ricochet
     rows.compress();
 
     DynamicSparsityPattern all(owned.size(), owned.size(), rows);
-    const Epetra_CrsGraph &graph = body.trilinos_sparsity_pattern();
+    Matrix                 on_body, on_both;
+    on_body.reinit(body);
+    const MatrixEntries                  from(on_body);
     std::vector<types::global_dof_index> columns;
-    for (int row = 0; row < graph.NumMyRows(); ++row)
+    for (unsigned int row = 0; row < from.n_rows(); ++row)
       {
-        int  n       = 0;
-        int *indices = nullptr;
-        graph.ExtractMyRowView(row, n, indices);
         columns.clear();
-        for (int k = 0; k < n; ++k)
-          columns.push_back(graph.GCID64(indices[k]));
+        for (int k = from.begin[row]; k < from.begin[row + 1]; ++k)
+          columns.push_back(from.column_index(from.column[k]));
         std::sort(columns.begin(), columns.end());
-        all.add_entries(graph.GRID64(row),
+        all.add_entries(from.row_index(row),
                         columns.begin(),
                         columns.end(),
                         true);
@@ -49,38 +47,17 @@ namespace Ricochet
     SparsityTools::distribute_sparsity_pattern(all, owned, communicator, rows);
     united.reinit(owned, all, communicator);
 
-    Matrix matrix;
-    matrix.reinit(united);
-    find_places(body, matrix);
-  }
-
-
-
-  void
-  UnitedPattern::find_places(const TrilinosWrappers::SparsityPattern &body,
-                             const Matrix &united_matrix)
-  {
-    const Epetra_CrsGraph  &graph  = body.trilinos_sparsity_pattern();
-    const Epetra_CrsMatrix &epetra = united_matrix.trilinos_matrix();
-    int                    *begin = nullptr, *columns = nullptr;
-    double                 *values = nullptr;
-    epetra.ExtractCrsDataPointers(begin, columns, values);
+    on_both.reinit(united);
+    const MatrixEntries to(on_both);
     places.clear();
-    places.reserve(graph.NumMyNonzeros());
-    for (int row = 0; row < graph.NumMyRows(); ++row)
-      {
-        int  n       = 0;
-        int *indices = nullptr;
-        graph.ExtractMyRowView(row, n, indices);
-        for (int k = 0; k < n; ++k)
-          {
-            const int  column = epetra.LCID(graph.GCID64(indices[k]));
-            const int *entry =
-              std::find(columns + begin[row], columns + begin[row + 1], column);
-            Assert(entry != columns + begin[row + 1], ExcInternalError());
-            places.push_back(entry - columns);
-          }
-      }
+    places.reserve(from.size());
+    for (unsigned int row = 0; row < from.n_rows(); ++row)
+      for (int k = from.begin[row]; k < from.begin[row + 1]; ++k)
+        {
+          places.push_back(
+            to.find(row, to.column_number(from.column_index(from.column[k]))));
+          Assert(places.back() >= 0, ExcInternalError());
+        }
   }
 
 
@@ -94,11 +71,8 @@ namespace Ricochet
       matrix = 0.;
     Assert(matrix.n_nonzero_elements() == united.n_nonzero_elements(),
            ExcMessage("The matrix is on another pattern."));
-    int    *begin = nullptr, *columns = nullptr;
-    double *from = nullptr, *to = nullptr;
-    body.trilinos_matrix().ExtractCrsDataPointers(begin, columns, from);
-    const_cast<Epetra_CrsMatrix &>(matrix.trilinos_matrix())
-      .ExtractCrsDataPointers(begin, columns, to);
+    const double *from = MatrixEntries(body).value;
+    double       *to   = entry_values(matrix);
     for (std::size_t k = 0; k < places.size(); ++k)
       to[places[k]] = from[k];
   }

@@ -39,10 +39,6 @@ namespace Ricochet
     embed(const Matrix &body, Matrix &matrix) const;
 
   private:
-    void
-    find_places(const dealii::TrilinosWrappers::SparsityPattern &body,
-                const Matrix                                    &united_matrix);
-
     std::uint64_t                             version = 0;
     dealii::TrilinosWrappers::SparsityPattern united;
     // Where each entry of the body's matrix lies in the united one, on this rank.

@@ -67,7 +67,7 @@ namespace Ricochet
   CondensedStage::Unknowns
   CondensedStage::read(const Vector &vector)
   {
-    const double *values = vector.trilinos_vector()[0];
+    const double *values = local_values(vector);
     const auto    n      = vector.locally_owned_size() - 1;
     return {{values, values + n}, values[n]};
   }
@@ -77,7 +77,7 @@ namespace Ricochet
   void
   CondensedStage::write(const Unknowns &unknowns, Vector &vector)
   {
-    double *values = vector.trilinos_vector()[0];
+    double *values = local_values(vector);
     std::copy(unknowns.coefficients.begin(),
               unknowns.coefficients.end(),
               values);

@@ -250,9 +250,9 @@ BOOST_AUTO_TEST_CASE(finest_level_in_single_precision)
   const auto multiply = [&]() {
     level->matvec->func_ptr(level,
                             6,
-                            vector.trilinos_vector()[0],
+                            local_values(vector),
                             6,
-                            found.trilinos_vector()[0]);
+                            local_values(found));
   };
   for (const double size : {1., 1e-60, 1e60})
     {
@@ -262,7 +262,7 @@ BOOST_AUTO_TEST_CASE(finest_level_in_single_precision)
       matrix.Tvmult(transposed, vector);
       product.sadd(.5, .5, transposed);
       SingleFinestLevel single(aggregation,
-                               matrix.trilinos_matrix(),
+                               MatrixEntries(matrix),
                                3,
                                MPI_COMM_WORLD);
       multiply();

@@ -10,6 +10,7 @@
 #include "meshes.h"
 
 #include <base/exceptions.h>
+#include <base/vector_operations.h>
 #include <contact/kinematics/points_before_triangles.h>
 #include <contact/surfaces/contact_surface.h>
 #include <contact/surfaces/facet_search.h>
@@ -1088,8 +1089,7 @@ BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
             Vector along = balls.impact->uniform(Tensor<1, 3>({.01, 0., 0.}));
             for (unsigned int i = 0; i < parts.size(); ++i)
               if (parts[i] == 0)
-                solution.trilinos_vector()[0][i] +=
-                  along.trilinos_vector()[0][i];
+                local_values(solution)[i] += local_values(along)[i];
             check_tangent(balls,
                           solution,
                           treatment.find("mortar") == std::string::npos ? 1.

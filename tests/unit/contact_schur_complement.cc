@@ -9,6 +9,7 @@
 
 #include <base/exceptions.h>
 #include <base/ghosted_vector.h>
+#include <base/vector_operations.h>
 #include <discretization/linear_bulk.h>
 #include <solvers/contact_schur_complement.h>
 #include <solvers/known_product.h>
@@ -94,7 +95,7 @@ namespace
                    const double                                 tolerance)
   {
     std::vector<double> forward, solution(matrix.m());
-    factor.forward(right_hand_side.trilinos_vector()[0], forward);
+    factor.forward(local_values(right_hand_side), forward);
     factor.backward(forward, solution.data());
     Ricochet::Vector as_vector(right_hand_side), rest(right_hand_side);
     std::copy(solution.begin(), solution.end(), as_vector.begin());
@@ -129,7 +130,7 @@ BOOST_DATA_TEST_CASE(triangular_solves,
     make_some_negative(matrix);
   SparseCholesky cholesky(is_single ? SparseCholesky::Kind::frozen_tangent
                                     : SparseCholesky::Kind::exact);
-  BOOST_REQUIRE(cholesky.factorise(matrix.trilinos_matrix()));
+  BOOST_REQUIRE(cholesky.factorise(matrix));
   const TriangularSolves &factor    = cholesky.factor();
   const double            tolerance = is_single ? 1e-5 : 1e-12;
 
@@ -163,7 +164,7 @@ BOOST_DATA_TEST_CASE(triangular_solves,
 
       // In a region.
       std::vector<double> forward, part;
-      factor.forward(right_hand_side.trilinos_vector()[0], forward);
+      factor.forward(local_values(right_hand_side), forward);
       const std::vector<TriangularSolves::Index> unknowns(left.index.begin(),
                                                           left.index.end());
       factor.backward(forward, factor.region_of(unknowns), part);
@@ -220,7 +221,7 @@ BOOST_AUTO_TEST_CASE(full_matrices)
           matrix.set(i, j, columns[i][j] + (i == j ? 1. : 0.));
       matrix.compress(VectorOperation::insert);
       SparseCholesky cholesky(SparseCholesky::Kind::exact);
-      BOOST_REQUIRE(cholesky.factorise(matrix.trilinos_matrix()));
+      BOOST_REQUIRE(cholesky.factorise(matrix));
       Vector right_hand_side(dealii::complete_index_set(n), MPI_COMM_WORLD);
       randomise(right_hand_side, 1., 3);
       checked_solution(matrix, cholesky.factor(), right_hand_side, 1e-11);
@@ -239,7 +240,7 @@ BOOST_AUTO_TEST_CASE(other_matrices)
   matrix.reinit(body.sparsity_pattern());
   assemble_mass_matrix(body, 1.).add_to(20., matrix);
   const auto factorise = [&](const SparseCholesky::Kind kind) {
-    return SparseCholesky(kind).factorise(matrix.trilinos_matrix());
+    return SparseCholesky(kind).factorise(matrix);
   };
   BOOST_CHECK(factorise(SparseCholesky::Kind::exact));
   auto entry = matrix.begin();
@@ -253,7 +254,7 @@ BOOST_AUTO_TEST_CASE(other_matrices)
   matrix.set(entry->row(), entry->row(), -1.);
   matrix.compress(VectorOperation::insert);
   SparseCholesky cholesky(SparseCholesky::Kind::exact);
-  BOOST_REQUIRE(cholesky.factorise(matrix.trilinos_matrix()));
+  BOOST_REQUIRE(cholesky.factorise(matrix));
   Vector right_hand_side = body.make_vector();
   randomise(right_hand_side, 1., 3);
   checked_solution(matrix, cholesky.factor(), right_hand_side, 1e-10);
@@ -411,7 +412,7 @@ BOOST_AUTO_TEST_CASE(norms_of_sums_of_rows)
   std::vector<double>           coefficients;
   Vector                        sum = body.make_vector(), scaling(sum);
   for (unsigned int i = 0; i < scaling.locally_owned_size(); ++i)
-    scaling.trilinos_vector()[0][i] = 1. + i % 7;
+    local_values(scaling)[i] = 1. + i % 7;
   for (unsigned int f = 0; f < n; ++f)
     {
       coefficients.push_back(f == 2 ? 0. : 1.5 - f);
@@ -446,7 +447,7 @@ BOOST_AUTO_TEST_CASE(ghosted_values_are_those_of_the_vector)
     some.add_index(i);
   for (const auto &indices : {body.owned_indices(), some})
     {
-      GhostedVector ghosted(indices, body.communicator);
+      GhostedVector ghosted(indices);
       for (const double factor : {1., -.5})
         {
           for (const auto i : body.owned_indices())
@@ -469,7 +470,7 @@ BOOST_AUTO_TEST_CASE(products_are_those_of_the_vector)
   const KnownProduct      momentum(mass);
   Vector                  velocity = body.make_vector(), product(velocity);
   for (unsigned int i = 0; i < velocity.locally_owned_size(); ++i)
-    velocity.trilinos_vector()[0][i] = .01 * i - 1.;
+    local_values(velocity)[i] = .01 * i - 1.;
   const auto check = [&]() {
     mass.vmult(product, velocity);
     product -= momentum.with(velocity);
@@ -478,7 +479,7 @@ BOOST_AUTO_TEST_CASE(products_are_those_of_the_vector)
   check();
   check();
   const unsigned int last = velocity.locally_owned_size() - 1;
-  velocity.trilinos_vector()[0][last] += 1e-3;
+  local_values(velocity)[last] += 1e-3;
   check();
 }
 

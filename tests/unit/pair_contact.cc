@@ -10,6 +10,7 @@
 #include "meshes.h"
 
 #include <base/exceptions.h>
+#include <base/vector_operations.h>
 #include <discretization/boundary_load.h>
 #include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/neo_hookean.h>
@@ -270,7 +271,7 @@ BOOST_AUTO_TEST_CASE(tangents_are_quotients_of_differences)
           Vector     along = disks.impact->uniform(Tensor<1, 2>({.01, 0.}));
           for (unsigned int i = 0; i < parts.size(); ++i)
             if (parts[i] == 0)
-              solution.trilinos_vector()[0][i] += along.trilinos_vector()[0][i];
+              local_values(solution)[i] += local_values(along)[i];
           contact.begin_stage({disks.state.solution,
                                disks.state.contact_force,
                                disks.state.mean_velocity,

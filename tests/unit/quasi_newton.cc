@@ -3,6 +3,7 @@
 // Nonlinear bodies with a frozen tangent: steps of the force that are mixed, tangents that serve several steps, and
 // regions with the tangent of today.
 
+#include <base/vector_operations.h>
 #include <solvers/force_mixing.h>
 #include <solvers/contact_schur_complement.h>
 #include <solvers/tangent_region.h>
@@ -85,14 +86,14 @@ namespace
   public:
     explicit Symmetric(const Matrix &matrix)
     {
-      BOOST_REQUIRE(cholesky.factorise(matrix.trilinos_matrix()));
+      BOOST_REQUIRE(cholesky.factorise(matrix));
     }
 
     void
     solve(const Vector &right_hand_side, Vector &solution)
     {
-      cholesky.factor().forward(right_hand_side.trilinos_vector()[0], forward);
-      cholesky.factor().backward(forward, solution.trilinos_vector()[0]);
+      cholesky.factor().forward(local_values(right_hand_side), forward);
+      cholesky.factor().backward(forward, local_values(solution));
     }
 
   private:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <contact/kinematics/point_evaluator.h>
 
 #include <deal.II/base/mpi.h>
@@ -103,7 +104,7 @@ namespace Ricochet
                                          const Value        &value,
                                          Vector             &vector) const
   {
-    double *const values = vector.trilinos_vector()[0];
+    double *const values = local_values(vector);
     for (unsigned int k = point.begin; k < point.end; ++k)
       // Most of them are here, and need not be looked for.
       if (owned_index[k] >= 0)

@@ -202,7 +202,7 @@ namespace Ricochet
     indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
     IndexSet to_know(owned.size());
     to_know.add_indices(indices.begin(), indices.end());
-    ghosted = GhostedVector(to_know, communicator);
+    ghosted = GhostedVector(to_know);
     multiplier_index.clear();
 
     const auto find = [&](const ContactSurface<dim>         &surface,

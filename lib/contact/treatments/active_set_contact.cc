@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <contact/treatments/active_set_contact.h>
 #include <contact/treatments/active_set_signature.h>
+#include <solvers/matrix_entries.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -359,7 +360,8 @@ namespace Ricochet
     // In place, on the rows of the active nodes, which have the same columns in the
     // same order, because cells couple all components.
     const ContactPoints &coefficients = evaluator.coefficients();
-    const auto          &epetra       = tangent.trilinos_matrix();
+    const MatrixEntries  entries(tangent);
+    double *const        values = entry_values(tangent);
     for (unsigned int p = 0; p < nodes.size(); ++p)
       {
         if (!is_active(p))
@@ -369,18 +371,15 @@ namespace Ricochet
         std::array<double *, 3> rows{};
         std::array<int, 3>      own_columns{};
         int                     n_entries = 0;
-        int                    *columns   = nullptr;
+        const int              *columns   = nullptr;
         for (unsigned int a = 0; a < n_rows; ++a)
           {
-            const auto unknown =
-              static_cast<dealii::TrilinosWrappers::types::int_type>(
-                coefficients.index[point.begin + a]);
-            const int error = epetra.ExtractMyRowView(epetra.LRID(unknown),
-                                                      n_entries,
-                                                      rows[a],
-                                                      columns);
-            AssertThrow(error == 0, dealii::ExcTrilinosError(error));
-            own_columns[a] = epetra.LCID(unknown);
+            const auto unknown = coefficients.index[point.begin + a];
+            const int  row     = entries.row_number(unknown);
+            rows[a]            = values + entries.begin[row];
+            columns            = entries.column + entries.begin[row];
+            n_entries          = entries.begin[row + 1] - entries.begin[row];
+            own_columns[a]     = entries.column_number(unknown);
           }
 
         // What multiplies the old rows in the new ones, and what stands in the

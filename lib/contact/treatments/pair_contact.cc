@@ -558,7 +558,7 @@ namespace Ricochet
     clear_multipliers(force);
     copy_values(solution, point_of_change);
     for (unsigned int f = 0; f < skin.size(); ++f)
-      skin_values[f] = solution.trilinos_vector()[0][own_place[f]];
+      skin_values[f] = local_values(solution)[own_place[f]];
   }
 
 
@@ -570,8 +570,7 @@ namespace Ricochet
     const std::vector<double> & /*excess*/)
   {
     for (unsigned int f = 0; f < skin.size(); ++f)
-      point_of_change.trilinos_vector()[0][own_place[f]] =
-        skin_values[f] + change[f];
+      local_values(point_of_change)[own_place[f]] = skin_values[f] + change[f];
     evaluate(point_of_change);
     clear_multipliers(force);
   }
@@ -604,9 +603,9 @@ namespace Ricochet
       change_worst_only();
 
     // Elsewhere they are zero.
-    double *const forces = force.trilinos_vector()[0];
+    double *const forces = local_values(force);
     double *const friction_forces =
-      has_friction ? friction_part.trilinos_vector()[0] : nullptr;
+      has_friction ? local_values(friction_part) : nullptr;
     for (const unsigned int place : own_place)
       forces[place] = 0.;
     if (has_friction)
@@ -625,7 +624,7 @@ namespace Ricochet
     // Less what open points make of their multipliers.
     for (unsigned int f = 0; f < skin.size(); ++f)
       skin_force[f] = weight * forces[own_place[f]];
-    const double *const values_now = solution.trilinos_vector()[0];
+    const double *const values_now = local_values(solution);
     for (const PointState &state : states)
       for_each_multiplier(state, [&](const types::global_dof_index index) {
         const unsigned int f = skin_place(index);
@@ -683,7 +682,7 @@ namespace Ricochet
   void
   PairContact<dim>::clear_multipliers(Vector &vector) const
   {
-    double *entries = vector.trilinos_vector()[0];
+    double *entries = local_values(vector);
     for (unsigned int i = n_displacements_owned;
          i < vector.locally_owned_size();
          ++i)

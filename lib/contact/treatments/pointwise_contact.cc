@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/vector_operations.h>
 #include <contact/laws/closing.h>
 #include <contact/treatments/active_set_signature.h>
 #include <contact/treatments/pointwise_contact.h>
@@ -140,7 +141,7 @@ namespace Ricochet
   void
   PointwiseContact::clear_multipliers(Vector &vector) const
   {
-    double *values = vector.trilinos_vector()[0];
+    double *values = local_values(vector);
     for (unsigned int i = n_displacements_owned;
          i < vector.locally_owned_size();
          ++i)
