@@ -181,13 +181,16 @@ namespace Ricochet
     displacement_dofs.distribute_dofs(*displacement_element);
     number_multipliers();
 
-    clamped =
+    IndexSet clamped =
       owned_system_indices(boundary_dofs(displacement_dofs, clamped_ids));
     for (const auto &[id, components] : held)
       for (unsigned int c = 0; c < dim; ++c)
         if (components[c])
           clamped.add_indices(boundary_displacements(id, c));
-    clamped.compress();
+    for (const IndexSet &of_rank :
+         Utilities::MPI::all_gather(communicator, clamped))
+      prescribed.add_lines(of_rank);
+    prescribed.close();
     contact_displacements =
       owned_system_indices(boundary_dofs(displacement_dofs, contact_ids));
 

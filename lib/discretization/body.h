@@ -5,6 +5,7 @@
 #include <base/types.h>
 #include <solvers/block_matrix.h>
 #include <solvers/coarse_space.h>
+#include <solvers/constraints.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/quadrature.h>
@@ -221,11 +222,11 @@ namespace Ricochet
     boundary_displacements(const dealii::types::boundary_id id,
                            const unsigned int               component) const;
 
-    /// Owned system indices whose displacement is prescribed.
-    const dealii::IndexSet &
-    clamped_indices() const
+    /// Prescribed displacements, by their system indices.
+    const Constraints &
+    constraints() const
     {
-      return clamped;
+      return prescribed;
     }
 
     /// Owned system indices of all displacements of nodes on the contact
@@ -283,8 +284,8 @@ namespace Ricochet
     std::map<dealii::types::global_dof_index, dealii::types::global_dof_index>
       multiplier_index;
 
-    dealii::IndexSet owned, relevant, clamped, contact_displacements,
-      owned_multipliers;
+    dealii::IndexSet owned, relevant, contact_displacements, owned_multipliers;
+    Constraints      prescribed;
     mutable dealii::TrilinosWrappers::SparsityPattern pattern,
       component_pattern;
     mutable std::shared_ptr<const BlockPattern> blocks;

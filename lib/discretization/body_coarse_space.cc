@@ -84,9 +84,7 @@ namespace Ricochet
     const IndexSet &coarse_owned = dofs.locally_owned_dofs();
     IndexSet        coarse_relevant;
     DoFTools::extract_locally_relevant_dofs(dofs, coarse_relevant);
-    space.clamped     = boundary_dofs(dofs, clamped_ids) & coarse_owned;
-    Vector is_clamped = make_ghosted_vector();
-    flag_with_ghosts(clamped, is_clamped);
+    space.clamped = boundary_dofs(dofs, clamped_ids) & coarse_owned;
     Vector is_coarse_clamped(coarse_owned, coarse_relevant, communicator);
     flag_with_ghosts(space.clamped, is_coarse_clamped);
     space.rigid_body_modes = rigid_body_modes(*geometry, dofs, communicator);
@@ -122,7 +120,7 @@ namespace Ricochet
         for (unsigned int i = 0; i < nodes.size(); ++i)
           {
             auto &row = rows[relevant.index_within_set(indices[i])];
-            if (!row.empty() || is_clamped(indices[i]) != 0.)
+            if (!row.empty() || prescribed.is_constrained(indices[i]))
               continue;
             for (unsigned int j = 0; j < n_coarse; ++j)
               if (const double value = element.shape_value(j, nodes[i]);

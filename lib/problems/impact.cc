@@ -641,7 +641,7 @@ namespace Ricochet
              {parameters.redistributed_mass()
                 ? body.contact_indices()
                 : IndexSet(body.contact_indices().size()),
-              body.clamped_indices(),
+              &body.constraints(),
               body.multiplier_indices(),
               dim,
               [this]() -> const TrilinosWrappers::SparsityPattern & {

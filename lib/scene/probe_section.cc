@@ -80,8 +80,9 @@ namespace Ricochet
         held[c] = IndexSet(impact.body.owned_indices().size());
         for (const auto &surface : surfaces.find(body, name_of("Body")))
           for (const auto id : surface.ids)
-            held[c].add_indices(impact.body.boundary_displacements(id, c) &
-                                impact.body.clamped_indices());
+            held[c].add_indices(
+              constrained_indices(impact.body.constraints(),
+                                  impact.body.boundary_displacements(id, c)));
         n += held[c].n_elements();
       }
     if (Utilities::MPI::sum(n, impact.body.communicator) == 0)

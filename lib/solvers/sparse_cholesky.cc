@@ -102,8 +102,7 @@ namespace Ricochet
     find_pattern(const MatrixEntries &matrix);
 
     /// Fill #symmetric, with other signs in rows with a negative entry on the diagonal, if
-    /// so wanted. @return whether the matrix is symmetric, except for the columns of
-    /// unknowns with equations of their own.
+    /// so wanted. @return whether the matrix is symmetric.
     bool
     fill(const double *values, const bool with_signs);
 
@@ -121,9 +120,7 @@ namespace Ricochet
     Eigen::SparseMatrix<double> symmetric;
     std::vector<Place>          places;
     std::vector<int>            diagonal;
-    // Whether the equation of an unknown knows no other one.
-    std::vector<bool>   is_own_equation;
-    std::vector<double> sign;
+    std::vector<double>         sign;
     // Whether an entry is between unknowns of both signs.
     bool    couples_signs = false;
     Cholmod cholesky;
@@ -196,15 +193,6 @@ namespace Ricochet
     // Rows of multipliers may be negative definite.
     for (std::size_t i = 0; i < sign.size(); ++i)
       sign[i] = with_signs && values[diagonal[i]] < 0. ? -1. : 1.;
-    is_own_equation.assign(sign.size(), true);
-    for (const Place &place : places)
-      if (place.row != place.column)
-        {
-          if (values[place.below] != 0.)
-            is_own_equation[place.row] = false;
-          if (values[place.above] != 0.)
-            is_own_equation[place.column] = false;
-        }
     double *entry        = symmetric.valuePtr();
     bool    is_symmetric = true;
     couples_signs        = false;
@@ -216,11 +204,6 @@ namespace Ricochet
         entry[k]           = .5 * (below + above);
         if (place.row == place.column)
           continue;
-        if (is_own_equation[place.row] || is_own_equation[place.column])
-          {
-            entry[k] = 0.;
-            continue;
-          }
         couples_signs = couples_signs ||
           (sign[place.row] != sign[place.column] &&
            (below != 0. || above != 0.));

@@ -15,9 +15,6 @@ namespace Ricochet
    * LL^T where that is faster.
    *
    * Multipliers may have a negative matrix of their own that couples to nothing else.
-   * Couplings of one side are allowed where they lead from unknowns that have equations
-   * of their own (prescribed displacements, whose rows are cleared and whose columns are
-   * not): they are left out, as right-hand sides are zero there.
    */
   class SparseCholesky
   {

@@ -12,38 +12,26 @@ namespace Ricochet
 
   namespace
   {
-    /// Clamped unknowns (@p clamped of this rank) have equations of their own,
-    /// in which contact has no part.
+    /// Prescribed displacements have equations of their own, in which contact has no
+    /// part.
     ContactStructure
     contact_structure(const ContactOperator &contact,
-                      const IndexSet        &my_clamped,
-                      const MPI_Comm         communicator)
+                      const Constraints     &constraints)
     {
       ContactStructure structure = contact.structure();
       if (structure.functionals)
         {
-          IndexSet   clamped(my_clamped.size());
-          const auto lists = Utilities::MPI::all_gather(
-            communicator,
-            std::vector<types::global_dof_index>(my_clamped.begin(),
-                                                 my_clamped.end()));
-          for (const auto &list : lists)
-            clamped.add_indices(list.begin(), list.end());
           const Functionals &all = structure.functionals->functionals;
           Functionals        free;
           for (unsigned int f = 0; f < all.size(); ++f)
             {
               for (std::size_t k = all.begin[f]; k < all.begin[f + 1]; ++k)
-                if (!clamped.is_element(all.index[k]))
+                if (!constraints.is_constrained(all.index[k]))
                   free.add(all.index[k], all.value[k]);
               free.end_functional();
             }
           structure.functionals->functionals = std::move(free);
         }
-      // Rows of clamped unknowns are cleared, columns are not.
-      if (Utilities::MPI::max(my_clamped.n_elements() > 0 ? 1 : 0,
-                              communicator) == 1)
-        structure.is_symmetric = false;
       return structure;
     }
   } // namespace
@@ -99,18 +87,17 @@ namespace Ricochet
     , mass(mass)
     , momenta(mass)
     , invertible_mass(invertible_mass)
-    , clamped_list(unknowns.clamped.begin(), unknowns.clamped.end())
+    , clamped(constrained_indices(*unknowns.constraints,
+                                  mass.locally_owned_range_indices()))
     , load(std::move(load))
     , follower(follower)
     , newton(newton_parameters)
     , condensed_newton(with_margin(newton_parameters))
     , quasi_newton(newton_parameters)
     , linear_solver(solver_parameters,
-                    contact_structure(contact,
-                                      unknowns.clamped,
-                                      mass.get_mpi_communicator()),
+                    contact_structure(contact, *unknowns.constraints),
                     bulk.is_linear(),
-                    unknowns.clamped,
+                    clamped,
                     unknowns.coarse_space,
                     unknowns.dim,
                     mass.m(),
@@ -153,7 +140,7 @@ namespace Ricochet
         follower->step_force(solution, solution, time, time, work);
         result -= work;
       }
-    set_clamped_to_zero(clamped_list, result);
+    set_clamped_to_zero(clamped, result);
   }
 
   double
@@ -179,7 +166,7 @@ namespace Ricochet
     if (!mass_solver)
       {
         // Multipliers have no mass; their equation is their own.
-        auto own = clamped_list;
+        std::vector<MassSolver::Index> own(clamped.begin(), clamped.end());
         own.insert(own.end(),
                    unknowns.multipliers.begin(),
                    unknowns.multipliers.end());
@@ -198,8 +185,8 @@ namespace Ricochet
     state.time     = time;
     state.solution = displacement;
     state.velocity = velocity;
-    set_clamped_to_zero(clamped_list, state.solution);
-    set_clamped_to_zero(clamped_list, state.velocity);
+    set_clamped_to_zero(clamped, state.solution);
+    set_clamped_to_zero(clamped, state.velocity);
     if (unknowns.impose)
       {
         unknowns.impose(time, state.solution);
@@ -363,7 +350,8 @@ namespace Ricochet
                           bulk,
                           contact,
                           linear_solver,
-                          clamped_list,
+                          *unknowns.constraints,
+                          clamped,
                           static_cast<unsigned int>(
                             unknowns.multipliers.n_elements()),
                           unknowns.pattern,
@@ -473,7 +461,7 @@ namespace Ricochet
     else
       frozen_tangent.forget();
     // A support that moves would do work that is in no balance.
-    for (const auto i : clamped_list)
+    for (const auto i : clamped)
       {
         (void)i;
         Assert(solution(i) == safe_guess(i), ExcInternalError());
@@ -488,7 +476,7 @@ namespace Ricochet
   SemiDiscreteSystem::imposed_work(const Vector &way) const
   {
     double sum = 0.;
-    for (const auto i : clamped_list)
+    for (const auto i : clamped)
       sum += reaction(i) * way(i);
     return Utilities::MPI::sum(sum, mass.get_mpi_communicator());
   }

@@ -80,8 +80,9 @@ namespace Ricochet
     {
       /// Without inertia.
       dealii::IndexSet massless;
-      /// Of prescribed displacement: zero, unless #impose says otherwise.
-      dealii::IndexSet clamped;
+      /// Displacements that are prescribed: zero, unless #impose says otherwise. They
+      /// outlive the system.
+      const Constraints *constraints = nullptr;
       /// Multipliers.
       dealii::IndexSet multipliers;
       /// Dimension of the body.
@@ -321,10 +322,11 @@ namespace Ricochet
     const BodyMatrix  &mass;
     const KnownProduct momenta;
     const BodyMatrix  &invertible_mass;
-    std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type> clamped_list;
-    const Load                                                     load;
-    const FollowerLoad                                            *follower;
-    NewtonSolver                                                   newton;
+    /// Prescribed displacements of this rank.
+    const dealii::IndexSet clamped;
+    const Load             load;
+    const FollowerLoad    *follower;
+    NewtonSolver           newton;
     // Of condensed systems: it keeps its vectors.
     NewtonSolver condensed_newton;
     QuasiNewton  quasi_newton;

@@ -113,6 +113,7 @@ namespace Ricochet
       add_bulk_tangent(kept, matrix, &unknowns);
       matrix *= -1.;
       add_bulk_tangent(here(), matrix, &unknowns);
+      eliminate(parts.constraints, matrix, 0.);
     };
     const Tangent current = tangent(here(), true);
     region.find(residual,
@@ -242,7 +243,7 @@ namespace Ricochet
       return [this, add](Matrix &matrix) {
         const Stopwatch stopwatch(parts.tangent_seconds);
         (parts.contact.*add)(matrix);
-        matrix.clear_rows(parts.clamped, 1.);
+        eliminate(parts.constraints, matrix);
       };
     };
     tangent.add_contact      = complete(&ContactOperator::add_tangent);
@@ -328,9 +329,7 @@ namespace Ricochet
   }
 
   void
-  set_clamped_to_zero(
-    const std::vector<TrilinosWrappers::SparseMatrix::size_type> &clamped,
-    Vector                                                       &vector)
+  set_clamped_to_zero(const IndexSet &clamped, Vector &vector)
   {
     for (const auto i : clamped)
       vector(i) = 0. * vector(i);

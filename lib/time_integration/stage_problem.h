@@ -32,9 +32,9 @@ namespace Ricochet
       const BulkOperator &bulk;
       ContactOperator    &contact;
       LinearSolver       &linear_solver;
-      /// Unknowns of zero displacement on this rank.
-      const std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type>
-        &clamped;
+      /// Prescribed displacements, and which of them are of this rank.
+      const Constraints      &constraints;
+      const dealii::IndexSet &clamped;
       /// Of this rank; they are the last of its unknowns.
       unsigned int n_multipliers = 0;
       /// Of the tangents.
@@ -175,10 +175,7 @@ namespace Ricochet
   /// Set the @p clamped entries of @p vector to zero. What is not a number stays
   /// so: it may be the mark of an element that is turned inside out.
   void
-  set_clamped_to_zero(
-    const std::vector<dealii::TrilinosWrappers::SparseMatrix::size_type>
-           &clamped,
-    Vector &vector);
+  set_clamped_to_zero(const dealii::IndexSet &clamped, Vector &vector);
 } // namespace Ricochet
 
 #endif

@@ -62,7 +62,7 @@ namespace
     tangent() const
     {
       return {body.owned_indices(),
-              body.clamped_indices(),
+              constrained_indices(body.constraints(), body.owned_indices()),
               Functionals(),
               MPI_COMM_WORLD};
     }

@@ -410,7 +410,7 @@ BOOST_AUTO_TEST_CASE(inverted_elements_next_to_clamped_unknowns)
       SemiDiscreteSystem::Unknowns unknowns;
       unknowns.massless    = dealii::IndexSet(mass.m());
       unknowns.multipliers = dealii::IndexSet(mass.m());
-      unknowns.clamped     = body.clamped_indices();
+      unknowns.constraints = &body.constraints();
       unknowns.dim         = 2;
       unknowns.pattern =
         [&body]() -> const dealii::TrilinosWrappers::SparsityPattern & {

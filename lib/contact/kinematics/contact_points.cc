@@ -299,7 +299,7 @@ namespace Ricochet
         positive = positive && point.weight > 0.;
         for (unsigned int k = point.begin; k < point.end; ++k)
           clamped =
-            clamped || body.clamped_indices().is_element(points.index[k]);
+            clamped || body.constraints().is_constrained(points.index[k]);
       }
     if (Utilities::MPI::max(clamped ? 1 : 0, body.communicator) == 1)
       throw InputError(

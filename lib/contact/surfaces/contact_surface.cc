@@ -322,13 +322,6 @@ namespace Ricochet
         "A contact has no surface: the mesh has no boundary "
         "with one of its ids.");
 
-    std::set<types::global_dof_index> held;
-    for (const auto &list : Utilities::MPI::all_gather(
-           body.communicator,
-           std::vector<types::global_dof_index>(body.clamped_indices().begin(),
-                                                body.clamped_indices().end())))
-      held.insert(list.begin(), list.end());
-
     std::map<types::global_dof_index, unsigned int> number_of_node;
     std::vector<std::vector<unsigned int>>          nodes_of_messages;
     for (const Message<dim> &message : messages)
@@ -346,11 +339,12 @@ namespace Ricochet
               node.reference_position[c] = end.position[c];
             node.unknowns    = end.unknowns;
             node.multipliers = end.multipliers;
-            node.is_held     = std::all_of(end.unknowns.begin(),
-                                       end.unknowns.end(),
-                                       [&](const auto index) {
-                                         return held.count(index) > 0;
-                                       });
+            node.is_held =
+              std::all_of(end.unknowns.begin(),
+                          end.unknowns.end(),
+                          [&](const auto index) {
+                            return body.constraints().is_constrained(index);
+                          });
             nodes.push_back(node);
           }
       }
