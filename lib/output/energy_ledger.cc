@@ -68,7 +68,7 @@ namespace Ricochet
       check(const long long result)
       {
         if (result < 0)
-          throw ComputationError("HDF5 cannot make the table of energies.");
+          throw ComputationError("HDF5 cannot make the energy table.");
       }
 
     private:
@@ -87,8 +87,7 @@ namespace Ricochet
     AssertThrow(row_list.empty(), ExcMessage("Columns come before rows."));
     for (const Column &column : column_list)
       if (column.name == name)
-        throw InputError("The table of energies would have two columns '" +
-                         name +
+        throw InputError("The energy table would have two columns '" + name +
                          "'. Give the body, contact or probe that it is of "
                          "another name.");
     column_list.push_back({name, unit, may_be_empty});

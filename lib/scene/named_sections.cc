@@ -109,7 +109,7 @@ namespace Ricochet
         if (!is_new)
           throw InputError(section.where + ": '" + full + "' and '" +
                            other->second +
-                           "' would be the same in the table of energies; give "
+                           "' would be the same in the energy table; give "
                            "them names that differ more.");
         sections.push_back(found);
       }

@@ -93,7 +93,7 @@ namespace Ricochet
       "Units",
       units_text,
       "Units of length, mass and time of all numbers in this file. Any three will "
-      "do, since nothing is converted; the table of energies is headed by them. "
+      "do, since nothing is converted; the energy table is headed by them. "
       "What is said of units here and in messages means the ones of the SI, and "
       "stands for yours.",
       Patterns::Anything());

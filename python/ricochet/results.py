@@ -76,7 +76,7 @@ class Run:
         table = read_table(self.folder / "energy.csv")
         if "time" not in table or "energy" not in table:
             raise NotARun(
-                f"The file '{self.folder / 'energy.csv'}' is no table of energies: it has no "
+                f"The file '{self.folder / 'energy.csv'}' is no energy table: it has no "
                 "columns 'time' and 'energy'."
             )
         if len(table) == 0:

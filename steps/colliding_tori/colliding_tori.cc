@@ -194,7 +194,7 @@ CollidingTori::add_parameters(ParameterHandler &prm)
   prm.add_parameter(
     "Self",
     touch_themselves,
-    "Whether the tori feel themselves: all of their surfaces, outside "
+    "Self-contact of the tori: all of their surfaces, outside "
     "and inside, touch each other and themselves. Otherwise the nodes "
     "of the left one's outside touch that of the right one, and "
     "walls pass through each other inside.",
@@ -542,5 +542,5 @@ main(int argc, char **argv)
     argc,
     argv,
     "colliding_tori",
-    "Two hollow tori collide, and feel themselves.");
+    "Two hollow tori collide, with self-contact.");
 }

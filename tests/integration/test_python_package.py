@@ -255,7 +255,7 @@ class PythonPackage(ProgramTest):
         with self.assertRaisesRegex(ricochet.NotARun, "holds no run"):
             ricochet.Run(self.folder)
         (self.folder / "energy.csv").write_text("a [m],b [s]\n1,2\n")
-        with self.assertRaisesRegex(ricochet.NotARun, "no table of energies"):
+        with self.assertRaisesRegex(ricochet.NotARun, "no energy table"):
             ricochet.Run(self.folder).table
         (self.folder / "energy.csv").write_text("time [s],energy [J]\n1,2\n3,four\n")
         with self.assertRaisesRegex(ricochet.NotARun, "not a number in row 2"):

@@ -690,7 +690,7 @@ class BadScenes(Refusal):
                 ("Obstacle wall", "Obstacle wa/ll", "should be 'Obstacle NAME'"),
                 ("Obstacle wall", "Obstacle ball", "a body is called 'ball', too"),
                 ("Contact ball and brick", "Contact brick_at wall",
-                 "would be the same in the table"),
+                 "would be the same in the energy table"),
                 ("set Dimension = 2", "", "set Dimension = 2"),
                 ("set Dimension = 2", "set Dimension = 4",
                  "Dimension is 2 or 3, not '4'"),

@@ -17,8 +17,8 @@ namespace Ricochet
         .means("Parameter gamma_a",
                "Pa",
                " of the proximal augmented Lagrangian (paper C, (18)). For the "
-               "other treatments it steers Newton's method, best with about "
-               "Young's modulus, and leaves the solution alone.")
+               "other treatments it affects Newton's method, best with about "
+               "Young's modulus, and not the solution.")
         .at_least(1e-30)
         .by_scale([](const Scales &scales, const ParameterValues &) {
           return scales.young_modulus;

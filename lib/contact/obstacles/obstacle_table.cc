@@ -163,10 +163,11 @@ namespace Ricochet
       "noticeably (m); differences that replace second "
       "derivatives are taken over a thousandth of it.",
       Patterns::Double(1e-30));
-    parameters.add_parameter("Translation",
-                             translation,
-                             "Way of the obstacle (m), expressions of the time "
-                             "t separated by semicolons.");
+    parameters.add_parameter(
+      "Translation",
+      translation,
+      "Displacement of the obstacle (m), expressions of the time "
+      "t separated by semicolons.");
     parameters.add_parameter("Rotation",
                              rotation,
                              "Angle (rad) by which the obstacle is turned, an "
