@@ -345,7 +345,7 @@ private:
     SparseCholesky cholesky(SparseCholesky::Kind::frozen_tangent);
     const double   before    = heap();
     const auto     factorise = [&]() {
-      if (!cholesky.factorise(tangent.trilinos_matrix()))
+      if (!cholesky.factorise(tangent))
         throw ComputationError("The matrix of a cube cannot be factored.");
     };
     factorise();
@@ -373,7 +373,8 @@ private:
     const BodyMatrix    mass =
       assemble_mass_matrix(body, {1.}, MatrixStorage::blocks);
     TangentOperator tangent(body.owned_indices(),
-                            body.clamped_indices(),
+                            constrained_indices(body.constraints(),
+                                                body.owned_indices()),
                             Functionals(),
                             MPI_COMM_WORLD);
     MatrixSum       terms = bulk.step_tangent_terms(.1);
