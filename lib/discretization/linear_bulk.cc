@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <base/kept.h>
 #include <base/vector_operations.h>
 #include <discretization/linear_bulk.h>
 
@@ -198,35 +197,9 @@ namespace Ricochet
   void
   LinearBulk<dim>::force(const Vector &solution, Vector &force) const
   {
-    copy_values(known_force(solution).force, force);
-  }
-
-
-
-  template <int dim>
-  typename LinearBulk<dim>::KnownForce &
-  LinearBulk<dim>::known_force(const Vector &solution) const
-  {
-    // The old, a middle and the new state of a step, and a guess.
-    constexpr unsigned int n_known = 4;
-    const auto             n       = solution.locally_owned_size();
-    const double          *values  = local_values(solution);
-    // Comparison to the last digit, so that reuse does not change results.
-    const auto is_same = [&](const KnownForce &known) {
-      const double *own = local_values(known.displacement);
-      return Utilities::MPI::min(std::equal(values, values + n, own) ? 1 : 0,
-                                 communicator) == 1;
-    };
-    const auto fill = [&](KnownForce &entry) {
-      copy_values(solution, entry.displacement);
-      copy_values(solution, work);
-      if (entry.force.size() == 0)
-        entry.force.reinit(work);
-      remove_translation();
-      stiffness.vmult(entry.force, work);
-      entry.energies.clear();
-    };
-    return find_or_refill(known_forces, n_known, is_same, fill);
+    copy_values(solution, work);
+    remove_translation();
+    stiffness.vmult(force, work);
   }
 
 
@@ -260,11 +233,9 @@ namespace Ricochet
                               const double  time_step,
                               Vector       &force) const
   {
-    // The force of the mean is the mean of those at both ends, of which the balance of
-    // the last step asked for the first, and that of this one will for the second.
-    const Vector &old_force = known_force(old_solution).force;
-    const Vector &new_force = known_force(new_solution).force;
-    entries(force)          = .5 * (entries(old_force) + entries(new_force));
+    entries(work) = .5 * (entries(old_solution) + entries(new_solution));
+    remove_translation();
+    stiffness.vmult(force, work);
     if (has_viscosity)
       {
         copy_values(new_solution, work);
@@ -366,31 +337,10 @@ namespace Ricochet
 
 
   template <int dim>
-  const std::vector<double> &
-  LinearBulk<dim>::known_energies(const Vector &solution) const
-  {
-    KnownForce &known = known_force(solution);
-    if (!known.energies.empty())
-      return known.energies;
-    copy_values(solution, work);
-    remove_translation();
-    known.energies.assign(n_parts, 0.);
-    for (const Run &run : runs)
-      known.energies[run.part] += .5 *
-        entries(known.force)
-          .segment(run.begin, run.end - run.begin)
-          .dot(entries(work).segment(run.begin, run.end - run.begin));
-    Utilities::MPI::sum(known.energies, communicator, known.energies);
-    return known.energies;
-  }
-
-
-
-  template <int dim>
   double
   LinearBulk<dim>::energy(const Vector &solution) const
   {
-    const std::vector<double> &energies = known_energies(solution);
+    const std::vector<double> energies = energies_of_parts(solution);
     return std::accumulate(energies.begin(), energies.end(), 0.);
   }
 
@@ -400,7 +350,15 @@ namespace Ricochet
   std::vector<double>
   LinearBulk<dim>::energies_of_parts(const Vector &solution) const
   {
-    return known_energies(solution);
+    force(solution, product);
+    std::vector<double> energies(n_parts, 0.);
+    for (const Run &run : runs)
+      energies[run.part] += .5 *
+        entries(product)
+          .segment(run.begin, run.end - run.begin)
+          .dot(entries(work).segment(run.begin, run.end - run.begin));
+    Utilities::MPI::sum(energies, communicator, energies);
+    return energies;
   }
 
 

@@ -7,8 +7,6 @@
 #include <materials/material.h>
 #include <solvers/body_matrix.h>
 
-#include <list>
-
 namespace Ricochet
 {
   /**
@@ -114,23 +112,6 @@ namespace Ricochet
     double              scale = 0.;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector work, product;
-    /// The forces of the last few displacements, the latest first: a scheme, its
-    /// balance of energy and the step after it ask for the same ones.
-    struct KnownForce
-    {
-      Vector displacement, force;
-      /// Energies of the parts (J); empty until they are requested.
-      std::vector<double> energies;
-    };
-    mutable std::list<KnownForce> known_forces;
-
-    /// The stored entry, or a new one.
-    KnownForce &
-    known_force(const Vector &solution) const;
-
-    /// KnownForce::energies at that displacement.
-    const std::vector<double> &
-    known_energies(const Vector &solution) const;
   };
 
   /// Consistent mass matrix (kg) of @p body with the constant @p densities of its
