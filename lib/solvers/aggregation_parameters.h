@@ -10,18 +10,18 @@
 
 namespace Ricochet
 {
-  /// The rigid body modes of @p space as ML wants them: mode by mode, the owned
-  /// entries.
+  /// The rigid body modes of @p space in the form that ML takes: mode by mode,
+  /// the owned entries.
   std::vector<double>
   values_of_modes(const CoarseSpace &space);
 
-  /// What ML is told for elasticity.
+  /// ML's parameters for elasticity.
   /// @param modes values_of_modes(), which must stay where they are.
   Teuchos::ParameterList
   aggregation_parameters(const CoarseSpace &space, std::vector<double> &modes);
 
-  /// ML starts its own estimates of eigenvalues from random vectors; a resumed run
-  /// shall have the same. To be called right before it is set up.
+  /// ML starts its own estimates of eigenvalues from random vectors; they have to
+  /// be the same in a resumed run. To be called right before it is set up.
   void
   seed_aggregation(const unsigned int rank);
 } // namespace Ricochet

@@ -11,7 +11,7 @@ namespace Ricochet
 
   namespace
   {
-    /// The number on this rank of each column of @p matrix.
+    /// The local number of each column of @p matrix.
     std::vector<unsigned int>
     local_columns(const MatrixEntries               &matrix,
                   const Utilities::MPI::Partitioner &partitioner)
@@ -45,7 +45,7 @@ namespace Ricochet
     : dim(dim)
   {
     const IndexSet owned = matrices.front().row_indices();
-    // Ghosts, each node with all of its unknowns.
+    // Ghosts, with all unknowns of each node.
     std::vector<types::global_dof_index> ghosts;
     const auto add_ghost = [&](const types::global_dof_index unknown) {
       if (!owned.is_element(unknown))
@@ -75,7 +75,8 @@ namespace Ricochet
           local_columns(matrix, *partitioner);
         for (unsigned int r = 0; r < n * dim; ++r)
           for_each_entry(matrix, r, [&](const int entry_column, double) {
-            // To the right of the diagonal, from either side of it.
+            // Blocks to the right of the diagonal, from entries on either side
+            // of it.
             const unsigned int node = columns[entry_column] / dim;
             const auto [i, j]       = std::minmax({node, r / dim});
             if (rows[i].empty() || rows[i].back() != j)
@@ -211,7 +212,8 @@ namespace Ricochet
                             ExcMessage("A block has no place."));
                 target = blocks.data() + place * dim * dim;
               }
-            // Half from each side of the diagonal, and all of what is one-sided.
+            // Half from each side of the diagonal, and all of entries on one
+            // side only.
             const double half = j >= n ? 1. : .5;
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int d = 0; d < dim; ++d)
@@ -259,7 +261,7 @@ namespace Ricochet
                                 const FullMatrix<double>        &cell_matrix)
   {
     const unsigned int dim = places->dim, n = places->n_rows();
-    // Where the components of each node of the cell are.
+    // Indices of the components of each node of the cell.
     std::vector<unsigned int> nodes, rows;
     for (unsigned int i = 0; i < unknowns.size(); ++i)
       {
@@ -342,7 +344,7 @@ namespace Ricochet
         }
     }
 
-    /// The same with the transposed block.
+    /// As above, with the transposed block.
     template <int dim, typename Number>
     inline void
     add_transposed_block(const Number *block,
@@ -358,7 +360,7 @@ namespace Ricochet
         }
     }
 
-    /// The same with a multiple of the identity.
+    /// As above, with a multiple of the identity.
     template <int dim, typename Number>
     inline void
     add_multiple(const Number factor, const Number *vector, Number *result)
@@ -387,7 +389,7 @@ namespace Ricochet
                 Number(0));
       for (unsigned int i = first; i < last; ++i)
         {
-          // In registers, whatever else the vectors share.
+          // A local copy stays in registers, even if the vectors may alias.
           Number own[dim], sum[dim];
           for (int c = 0; c < dim; ++c)
             {
@@ -411,7 +413,7 @@ namespace Ricochet
     std::fill(to + std::size_t(n) * dim,
               to + places->partitioner->locally_owned_size(),
               Number(0));
-    // Bodies, each on a thread.
+    // Bodies, each on one thread.
     Threads::for_each_balanced_part(places->separate,
                                     places->blocks_before,
                                     4000,
@@ -472,7 +474,7 @@ namespace Ricochet
                                     const Number      *from,
                                     Number            *to) const
   {
-    // The block of the sum, which the compiler keeps in registers.
+    // The block of the sum, kept in registers by the compiler.
     const auto sum_of = [factor, isotropic_factor](const Number *block,
                                                    const Number  multiple,
                                                    Number       *sum) {

@@ -16,20 +16,20 @@
 namespace Ricochet
 {
   /**
-   * Which nodes a symmetric matrix couples. The dim unknowns of a node stand
-   * together. On a rank, nodes have numbers: first its own, in the order of their
-   * unknowns, then those of other ranks that they couple to (ghosts). Where there are
-   * no ghosts, other unknowns may stand behind those of the nodes: multipliers, whose
-   * rows and columns are zero.
+   * The pairs of nodes that a symmetric matrix couples. The dim unknowns of a node
+   * are consecutive. On a rank, nodes have numbers: first its own, in the order of
+   * their unknowns, then those of other ranks that they couple to (ghosts). Where
+   * there are no ghosts, other unknowns may follow those of the nodes: multipliers,
+   * whose rows and columns are zero.
    */
   struct BlockPattern
   {
     /**
-     * For the entries of some matrices.
+     * The pattern for the entries of some matrices.
      *
      * @param matrices all with the same rows; those of a rank are contiguous, and a
      * multiple of @p dim.
-     * @param others unknowns of other ranks that are to be known besides.
+     * @param others unknowns of other ranks that are added to the ghosts.
      * Collective.
      */
     BlockPattern(const std::vector<MatrixEntries>                   &matrices,
@@ -38,14 +38,14 @@ namespace Ricochet
                  const MPI_Comm communicator);
 
     /// @param rows for each own node the numbers of those that it couples to, in
-    /// any order; what is not to the right of the diagonal is left out. They are
-    /// used up.
+    /// any order; those not to the right of the diagonal are left out. They are
+    /// moved from.
     BlockPattern(
       std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner,
       std::vector<std::vector<unsigned int>>                   &&rows,
       const unsigned int                                         dim);
 
-    /// Of the place of a block, or that of its end where there is none.
+    /// Index of a block, or that of the row's end where there is none.
     std::size_t
     find(const unsigned int row, const unsigned int column) const;
 
@@ -56,16 +56,17 @@ namespace Ricochet
     }
 
     const unsigned int dim;
-    /// Of the unknowns; ghosts are those of whole nodes.
+    /// Partitioner of the unknowns; ghosts are those of whole nodes.
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     /// The blocks to the right of the diagonal of row i begin[i] <= k < begin[i+1]
     /// are in the columns #column[k], in ascending order; those from #ghosts_begin[i]
-    /// on are ghosts. What is to the left of the diagonal is what is to the right of
-    /// it in another row, or in one of another rank.
+    /// on are ghosts. Blocks to the left of the diagonal are those to the right of it
+    /// in another row, or in one of another rank.
     std::vector<std::size_t>  begin, ghosts_begin;
     std::vector<unsigned int> column;
-    /// Rows that no block couples to one before, without ghosts to couple to, and how many
-    /// blocks there are before them. The last one is the end.
+    /// Rows at which independent parts begin: no block couples them to earlier rows,
+    /// and they have no ghosts; and the number of blocks before each. The last one is
+    /// the end.
     std::vector<unsigned int> separate;
     std::vector<double>       blocks_before;
 
@@ -75,10 +76,10 @@ namespace Ricochet
   };
 
   /**
-   * A symmetric matrix of blocks between nodes, half of which is stored: for bodies
-   * in space with 4-byte numbers and nodes of degree 2 a sixth of the bytes of a
-   * matrix of entries. deal.II 9.4 and Trilinos have no such matrix (theirs know neither
-   * blocks of fixed size in single precision nor symmetry).
+   * A symmetric matrix of blocks between nodes, half of which is stored: for bodies in
+   * 3D with 4-byte numbers and nodes of degree 2 a sixth of the bytes of a matrix of
+   * entries. deal.II 9.4 and Trilinos have no such matrix (theirs have neither blocks
+   * of fixed size in single precision nor symmetry).
    */
   template <typename Number>
   class BlockMatrix
@@ -86,15 +87,16 @@ namespace Ricochet
   public:
     using VectorType = dealii::LinearAlgebra::distributed::Vector<Number>;
 
-    /// Zero.
+    /// A matrix of zeros.
     /// @param isotropic blocks are multiples of the identity, of which one number is
     /// stored, as those of a mass matrix.
     explicit BlockMatrix(std::shared_ptr<const BlockPattern> pattern,
                          const bool                          isotropic = false);
 
-    /// Add @p factor times the symmetric part of @p matrix (but between ranks, where
-    /// each has its own rows). Its entries have a place in the pattern.
-    /// @pre it is not isotropic; so below.
+    /// Add @p factor times the symmetric part of @p matrix (except for entries
+    /// between ranks, where each rank has its own rows). Its entries have to be in
+    /// the pattern.
+    /// @pre it is not isotropic; as below.
     void
     add(const double factor, const MatrixEntries &matrix);
 
@@ -117,12 +119,14 @@ namespace Ricochet
     void
     vmult(VectorType &result, const VectorType &vector) const;
 
-    /// The same with numbers of this rank; @p from has its ghosts behind its own.
+    /// As above, with local numbers; @p from has its ghosts behind its own
+    /// entries.
     void
     vmult(const Number *from, Number *to) const;
 
-    /// The same for @p factor times this plus @p isotropic_factor times @p isotropic,
-    /// which is so and on the same pattern: both in one sweep. @pre this is not.
+    /// As above, for @p factor times this plus @p isotropic_factor times
+    /// @p isotropic, which is isotropic and on the same pattern: both in one sweep.
+    /// @pre this matrix is not isotropic.
     void
     vmult_sum(const double       factor,
               const double       isotropic_factor,
@@ -134,7 +138,7 @@ namespace Ricochet
     double
     linfty_norm() const;
 
-    /// Entry in row and column @p i, a number of this rank.
+    /// Entry in row and column @p i, a local number.
     Number
     diagonal_entry(const unsigned int i) const
     {
@@ -144,14 +148,14 @@ namespace Ricochet
       return isotropic ? diagonal[i / dim] : diagonal[i * dim + i % dim];
     }
 
-    /// The columns of a row, as numbers of this rank, and the values there.
+    /// The columns of a row, as local numbers, and the values there.
     using RowAction =
       std::function<void(const unsigned int               row,
                          const std::vector<unsigned int> &columns,
                          const std::vector<double>       &values)>;
 
     /// Call @p action for all rows of this rank, the unknowns' one after the other; or
-    /// for some @p numbers of them, which rise.
+    /// for some @p numbers of them, in ascending order.
     void
     for_each_row(const RowAction                 &action,
                  const std::vector<unsigned int> *numbers = nullptr) const;
@@ -177,7 +181,7 @@ namespace Ricochet
     friend class BlockMatrix;
 
     /// Call @p add(k, j, from, to) for each block k (those on the diagonal first) in
-    /// column j, and @p add_transposed for what is to the left of the diagonal.
+    /// column j, and @p add_transposed for the blocks to the left of the diagonal.
     template <int dim,
               typename AddDiagonal,
               typename Add,
@@ -203,9 +207,10 @@ namespace Ricochet
 
     std::shared_ptr<const BlockPattern> places;
     const bool                          isotropic;
-    // Entries of a block.
+    // Number of entries of a block.
     const unsigned int size;
-    // Row by row, #size entries each: on the diagonal, and at #places->column.
+    // Values row by row, #size entries each: on the diagonal, and at
+    // #places->column.
     std::vector<Number> diagonal;
     std::vector<Number> blocks;
   };

@@ -114,8 +114,8 @@ namespace Ricochet
         matrix.add(factor, *by_entries);
         return;
       }
-    // Entries are found by where the matrix has its columns on this rank: to look up
-    // each by its index takes longer than all the rest.
+    // Entries are found by the matrix's own columns on this rank: a search for each
+    // one by its index takes longer than all the rest.
     const MatrixEntries                entries(matrix);
     double *const                      value = entry_values(matrix);
     const Utilities::MPI::Partitioner &partitioner =

@@ -12,19 +12,19 @@ namespace Ricochet
   /// How the matrices of a linear body are stored.
   enum class MatrixStorage
   {
-    /// Entry by entry, as factorisations take them.
+    /// By entries, as for factorisations.
     entries,
     /// By blocks between nodes, half of them: a third of the memory (of a mass
-    /// matrix a sixth), for bodies that are not factored.
+    /// matrix a sixth), for bodies whose matrix is not factored.
     blocks
   };
 
-  /// A matrix of a body that never changes: of stiffness, viscosity or mass. All
-  /// functions are collective.
+  /// A constant matrix of a body: stiffness, viscosity or mass. All functions
+  /// are collective.
   class BodyMatrix
   {
   public:
-    /// None.
+    /// An empty matrix.
     BodyMatrix() = default;
 
     /// Stored by entries.
@@ -72,9 +72,9 @@ namespace Ricochet
     dealii::IndexSet
     locally_owned_range_indices() const;
 
-    /// Columns and values of the row with number @p row on this rank, by their
-    /// indices in the whole matrix. The rows come in their order, all or those with some
-    /// @p numbers, which rise.
+    /// Columns and values of the row with number @p row on this rank, by their indices
+    /// in the whole matrix. The rows are in order: all of them, or those with some
+    /// @p numbers in ascending order.
     using RowAction = std::function<
       void(const unsigned int                                  row,
            const std::vector<dealii::types::global_dof_index> &columns,
@@ -84,7 +84,7 @@ namespace Ricochet
     for_each_row(const RowAction                 &action,
                  const std::vector<unsigned int> *numbers = nullptr) const;
 
-    /// Null if it is not stored so.
+    /// The matrix of blocks; null if it is stored by entries.
     const Matrix *
     entries() const
     {
@@ -108,14 +108,15 @@ namespace Ricochet
     memory_consumption() const;
 
   private:
-    /// Call @p action with the entries of @p vector, its ghosts behind its own.
+    /// Call @p action with the local entries of @p vector, its ghosts behind
+    /// its own.
     void
     with_ghosts(const Vector                                    &vector,
                 const std::function<void(const double *values)> &action) const;
 
     std::unique_ptr<Matrix>              by_entries;
     std::unique_ptr<BlockMatrix<double>> by_blocks;
-    // With ghosts, on several ranks.
+    // Copy of a vector with ghosts, on several ranks.
     mutable BlockMatrix<double>::VectorType ghosted;
   };
 } // namespace Ricochet

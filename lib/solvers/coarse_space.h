@@ -12,26 +12,26 @@
 
 namespace Ricochet
 {
-  /// What multigrid wants to know of a body: its displacements of degree 1.
+  /// Data of a body for multigrid: its displacements of degree 1.
   struct CoarseSpace
   {
-    /// Takes them to the body's own unknowns; empty if they are the same.
+    /// Prolongation to the body's own unknowns; empty if both are the same.
     Matrix prolongation;
-    /// The unknowns that this rank owns or borders on, and the row of the
+    /// Owned and neighbouring unknowns of this rank, and the row of the
     /// prolongation of each, in their order.
     dealii::IndexSet relevant;
     Functionals      parents;
-    /// Of matrices between coarse unknowns.
+    /// Sparsity pattern of matrices between coarse unknowns.
     dealii::TrilinosWrappers::SparsityPattern pattern;
-    /// Owned coarse unknowns that are clamped. The prolongation does not know
-    /// them.
+    /// Owned coarse unknowns that are clamped. The prolongation does not
+    /// include them.
     dealii::IndexSet clamped;
     /// Displacements that move the body without deforming it, to first order:
     /// translations, then rotations about the origin.
     std::vector<Vector> rigid_body_modes;
 
-    /// Unknowns of a node, which stand together: translations among these
-    /// dim (dim + 1) / 2 motions.
+    /// Number of unknowns of a node, which are consecutive: translations among
+    /// these dim (dim + 1) / 2 motions.
     unsigned int
     dim() const
     {

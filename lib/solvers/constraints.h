@@ -9,8 +9,8 @@
 
 namespace Ricochet
 {
-  /// Prescribed displacements of a body, those of all ranks. They are homogeneous:
-  /// iterates begin with the prescribed values, and Newton's updates are zero there.
+  /// Prescribed displacements of a body on all ranks. They are homogeneous: iterates
+  /// begin with the prescribed values, and Newton's updates are zero there.
   using Constraints = dealii::AffineConstraints<double>;
 
   /// Unknowns that are constrained, of those that are @p owned.
@@ -23,9 +23,9 @@ namespace Ricochet
    * A symmetric matrix stays so. Solutions are those with cleared rows alone if the
    * right-hand side is zero there, as it is in homogeneous constraints.
    *
-   * It acts on matrices that are assembled, since the residual has to know the forces in
-   * these rows (reactions), and linear bodies have one matrix for both. deal.II eliminates
-   * columns of its own matrices only (MatrixTools::apply_boundary_values()).
+   * The function acts on assembled matrices, since the residual needs the forces in
+   * these rows (reactions), and linear bodies have one matrix for both. deal.II
+   * eliminates columns of its own matrices only (MatrixTools::apply_boundary_values()).
    */
   void
   eliminate(const Constraints &constraints,

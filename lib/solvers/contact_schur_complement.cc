@@ -88,7 +88,8 @@ namespace Ricochet
       {
         const Stopwatch    stopwatch(spent.factorising);
         const unsigned int row_group = columns[place].size() / group_size;
-        // The order of two groups does not depend on which of them came first.
+        // The order of two groups is independent of which of them was solved
+        // for first.
         const bool is_transposed = group < row_group;
         solves->multiply(forward_of(std::min(group, row_group)),
                          forward_of(std::max(group, row_group)),
@@ -305,7 +306,8 @@ namespace Ricochet
     const unsigned int n = contact_rows.size();
     if (n == 0)
       return;
-    // Coefficients that do not change are known, and seen by the others.
+    // Rows without derivatives have known coefficients, whose effect on the
+    // values of the others is added first.
     std::vector<double> known(coefficients), seen(values);
     for (const ContactRow &row : contact_rows)
       known[row.place] = 0.;

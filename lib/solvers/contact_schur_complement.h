@@ -22,40 +22,40 @@ namespace Ricochet
    *
    * are found by their coefficients z alone.
    *
-   * With the factors of SparseCholesky, W_ij = y_i^T D^{-1} y_j, where the forward solves
-   * y_i = L^{-1} P h_i go through few columns of L. They are made when they are first
+   * With the factors of SparseCholesky, W_ij = y_i^T D^{-1} y_j, where the forward
+   * solves y_i = L^{-1} P h_i go through few columns of L. They are computed when first
    * needed, and kept as long as K.
    *
-   * Rows have places in the order in which contact is expected to spread, so that the
-   * first ones are those near contact; vectors of all rows are by place. Rows that
-   * follow each other there are solved for together, in groups that depend on nothing
-   * else, so that a resumed run repeats its digits. On one rank.
+   * Rows have positions (places) in the order in which contact is expected to spread,
+   * so that the first ones are those near contact; vectors of all rows are by
+   * position. Consecutive rows are solved for together, in groups that depend on the
+   * order alone, so that a resumed run repeats its digits. On one rank.
    */
   class ContactSchurComplement
   {
   public:
     /**
      * @param contact rows and their order; has to outlive this. None of the rows has
-     * unknowns with equations of their own (prescribed displacements).
+     * constrained unknowns (prescribed displacements).
      * @param spent gets the costs.
      */
     ContactSchurComplement(const ContactStructure::ActsThrough &contact,
                            const SparseCholesky::Kind           kind,
                            TangentSolver::Costs                &spent);
 
-    /// K becomes that of @p tangent, with open contact.
+    /// Set K to the matrix of @p tangent with open contact.
     /// @throws NewtonFailure when it cannot be factored.
     void
     factorise(const Tangent &tangent);
 
-    /// K
+    /// The matrix K.
     const Matrix &
     body_matrix() const
     {
       return matrix;
     }
 
-    /// H
+    /// The contact Jacobian H.
     const Functionals &
     rows() const
     {
@@ -68,7 +68,7 @@ namespace Ricochet
       return jacobian.size();
     }
 
-    /// Place of row @p f.
+    /// Position of row @p f.
     unsigned int
     place(const unsigned int f) const
     {
@@ -80,7 +80,7 @@ namespace Ricochet
     void
     begin(const Vector &right_hand_side);
 
-    /// H x_0 in the first places, as many as @p values has.
+    /// The values H x_0 in the first positions, as many as @p values has.
     void
     observe(std::vector<double> &values);
 
@@ -102,14 +102,15 @@ namespace Ricochet
     along_rows(const Vector &vector) const;
 
     /// Add @p factor W @p coefficients to @p values, which may be those of the first
-    /// places only.
+    /// positions only.
     void
     add_compliance(const double               factor,
                    const std::vector<double> &coefficients,
                    std::vector<double>       &values);
 
-    /// The derivatives C of the coefficients with respect to H x, and E with respect to
-    /// the residual along the rows, by row (see Tangent::differentiate_contact).
+    /// Set the derivatives C of the coefficients with respect to H x, and E with
+    /// respect to the residual along the rows, by row (see
+    /// Tangent::differentiate_contact).
     /// @throws NewtonFailure when the matrix of solve_contact() is singular.
     void
     set_contact(const std::vector<FunctionalRow> &change,
@@ -131,7 +132,7 @@ namespace Ricochet
     const TriangularSolves::ForwardColumns &
     forward_of(const unsigned int group);
 
-    /// The first @p n entries at least of a column of W.
+    /// At least the first @p n entries of a column of W.
     const std::vector<double> &
     column(const unsigned int place, const unsigned int n);
 
@@ -141,22 +142,23 @@ namespace Ricochet
     SparseCholesky          cholesky;
     const TriangularSolves *solves = nullptr;
     Matrix                  matrix;
-    // Of each row, and the other way round.
+    // Position of each row, and row at each position.
     std::vector<unsigned int> places, row_at;
-    // By group, and by place; empty where not asked for yet.
+    // Forward solves by group and columns of W by position; empty where not
+    // needed yet.
     std::vector<TriangularSolves::ForwardColumns> forwards;
     std::vector<std::vector<double>>              columns;
-    // L^{-1} P of the right-hand side.
+    // Forward solve L^{-1} P of the right-hand side.
     std::vector<double> forward;
-    // The blocks of the factor that observe() needs for so many places.
+    // The blocks of the factor that observe() needs for that many positions.
     std::vector<int> region;
     unsigned int     region_places = 0;
-    // The unknowns of all rows, the number there of each entry of H, and a sum over rows.
+    // The contact dofs, the index there of each entry of H, and a sum over rows.
     std::vector<unsigned int> contact_dofs, dof_of_entry;
     std::vector<double>       dof_sum;
 
-    // The last set_contact(): the places that change, C and E H H^T there with places in
-    // the place of rows, and how many places C looks at.
+    // The last set_contact(): positions of the rows with derivatives, C and E H H^T
+    // there with columns by position, and the number of positions that C depends on.
     struct ContactRow
     {
       unsigned int  place;

@@ -15,8 +15,8 @@ namespace Ricochet
 
   namespace
   {
-    /// Contact is stiff where it makes this part of an entry on the diagonal. With less
-    /// multigrid alone takes about as many iterations.
+    /// Contact is stiff where its part of an entry on the diagonal exceeds this one.
+    /// With less, multigrid alone takes about as many iterations.
     constexpr double stiff_part = .99;
 
     template <typename T>

@@ -10,11 +10,11 @@
 namespace Ricochet
 {
   /**
-   * The unknowns that contact acts on, where it is so stiff that multigrid takes many
-   * iterations: smoothers damp what is stiff in single unknowns, and functionals couple
-   * those of a cell. The tangent between these unknowns is factored, on all ranks, for
-   * contact is small against bodies; a solution there before and after a cycle leaves
-   * multigrid what it is good at.
+   * The contact dofs where contact is so stiff that multigrid takes many iterations:
+   * smoothers damp stiffness in single unknowns, and rows of the contact Jacobian
+   * couple the unknowns of a cell. The tangent between these unknowns is factored, on
+   * all ranks, as contact is small against bodies; a solution there before and after a
+   * cycle removes the error components that multigrid reduces slowly.
    *
    * Literature: algebraic multigrid with filtering, arXiv:2505.18576 (2025).
    */
@@ -26,10 +26,10 @@ namespace Ricochet
     ~ContactSubspace();
 
     /**
-     * Take contact as it is in @p tangent now. Where it is not stiff, or where the tangent
-     * between its unknowns cannot be factored, the subspace has no unknowns. Collective,
-     * like all functions.
-     * Of a tangent that is not symmetric it is the symmetric part.
+     * Set up for contact as it is in @p tangent now. Where contact is not stiff, or
+     * where the tangent between its unknowns cannot be factored, the subspace has no
+     * unknowns. Of a tangent that is not symmetric the symmetric part is taken.
+     * Collective, like all functions.
      */
     void
     update(const TangentOperator &tangent);
@@ -40,7 +40,8 @@ namespace Ricochet
       return unknowns.empty();
     }
 
-    /// An unknown of this rank: its number here, and its place in the subspace.
+    /// An unknown of this rank: its local number, and its index in the
+    /// subspace.
     struct Own
     {
       unsigned int number, place;
@@ -52,12 +53,12 @@ namespace Ricochet
       return own;
     }
 
-    /// Solve in the subspace. @param values on this rank's places (N), zero elsewhere;
-    /// become the solution in all places (m).
+    /// Solve in the subspace. @param values forces at this rank's indices (N), zero
+    /// elsewhere; become the solution at all indices (m).
     void
     solve(std::vector<double> &values) const;
 
-    /// Number of places.
+    /// Number of unknowns of the subspace.
     unsigned int
     size() const
     {
@@ -67,32 +68,33 @@ namespace Ricochet
   private:
     using Index = dealii::types::global_dof_index;
 
-    /// CHOLMOD's.
+    /// CHOLMOD's factor.
     struct Factor;
 
-    /// Of a matrix between places.
+    /// An entry of a matrix between indices of the subspace.
     struct Entry
     {
       int    row, column;
       double value;
     };
 
-    /// Whether contact makes most of the diagonal somewhere.
+    /// Whether contact dominates the diagonal somewhere.
     static bool
     is_stiff(const TangentOperator &tangent);
 
-    /// The unknowns of this rank's functionals that act or are acted on.
+    /// The unknowns of this rank's rows of the contact Jacobian that enter the
+    /// tangent.
     static std::vector<Index>
     unknowns_of_contact(const TangentOperator &tangent);
 
-    /// What this rank has of the tangent.
+    /// This rank's entries of the tangent.
     std::vector<Entry>
     own_entries(const TangentOperator &tangent) const;
 
     int
     place_of(const Index unknown) const;
 
-    // Sorted; not those that are clamped.
+    // Indices of the unknowns, sorted; without clamped ones.
     std::vector<Index>      unknowns;
     std::vector<Own>        own;
     std::unique_ptr<Factor> factor;

@@ -47,7 +47,7 @@ namespace Ricochet
       return static_cast<EpetraIndex>(map.GID64(row));
     }
 
-    /// @p values of the rows of @p matrix, in the order of its columns on this rank.
+    /// @p values of the rows of @p matrix, in the order of its local columns.
     Epetra_Vector
     in_columns(const Epetra_CrsMatrix &matrix, const Epetra_Vector &values)
     {
@@ -80,8 +80,8 @@ namespace Ricochet
                                                    all.Comm());
       }
 
-    // The number of each row among displacements, or less than zero and among
-    // multipliers. Numbers are whole, which a double holds.
+    // The number of each row among displacements, or a negative one among
+    // multipliers. Numbers are integers, which a double represents exactly.
     Epetra_Vector number(all.RowMap());
     for (int row = 0; row < all.NumMyRows(); ++row)
       number[row] = row < n_displacements
@@ -109,7 +109,7 @@ namespace Ricochet
         values.clear();
         multiplier_columns.clear();
         multiplier_values.clear();
-        // What the constraint's stiffness would be with that of a node.
+        // Compliance of the constraint with the stiffness of its nodes.
         double square = 0.;
         for (int k = 0; k < n_entries; ++k)
           if (const double column = numbers[indices[k]]; column >= 0.)
@@ -223,8 +223,8 @@ namespace Ricochet
     else
       add_springs();
     auto list = aggregation_parameters(space, modes);
-    // Two, of ML's polynomials for all but the lowest twentieth of the spectrum, take
-    // more iterations (162 instead of 136) and each of these longer.
+    // Two of ML's polynomials for all but the lowest twentieth of the spectrum need
+    // more iterations (162 instead of 136), each of which takes longer.
     list.set("smoother: sweeps", 1);
     seed_aggregation(Utilities::MPI::this_mpi_process(
       displacement_part.get_mpi_communicator()));
@@ -329,15 +329,15 @@ namespace Ricochet
           .LeftScale(*scaling->trilinos_vector()(0));
         split();
       }
-    // One set-up serves a stage, while iterations do not become too many; never
-    // beyond, so that results do not depend on what came before.
+    // The preconditioner is set up once for a stage, unless iterations become
+    // too many; never for longer, so that results do not depend on the history.
     const bool is_first = stage_begins;
     stage_begins        = false;
     Vector forces(right_hand_side);
     forces.scale(*scaling);
     const double norm = forces.l2_norm();
-    // With an older tangent the residual falls by about what it fell by in the last
-    // iteration, or not much more: what is better solved is not better.
+    // A frozen tangent reduces the residual by about the factor of the last
+    // iteration, or little more: a smaller tolerance is of no use.
     const double wanted = may_reuse && !is_first
       ? std::max(tolerance, std::min(.01 * norm / last_norm, 1e-2))
       : tolerance;
@@ -353,7 +353,7 @@ namespace Ricochet
       budget.begin(n_iterations, wanted);
     else if (budget.is_exceeded(n_iterations, wanted))
       {
-        // The next solution of this stage will have a better one.
+        // The next solution of this stage has a new preconditioner.
         set_up();
         if (n_iterations < 0)
           n_iterations = go();

@@ -19,8 +19,9 @@ class Epetra_Vector;
 namespace Ricochet
 {
   /**
-   * Solves each system by flexible GMRES, for bodies that touch each other and are too large
-   * to be factored. Displacements come first, on each rank, then multipliers:
+   * Flexible GMRES for each system, for bodies in contact with each other that are too
+   * large for a factorisation. Displacements come first, on each rank, then
+   * multipliers:
    *
    *     T = | A  G |
    *         | H  C |.
@@ -32,15 +33,15 @@ namespace Ricochet
    *     | H  C~ |
    *
    * by its Schur complement A - G C~^-1 H, on which Trilinos' ML acts with the rigid
-   * body modes as what coarse levels must be able to represent, in single precision on
-   * the finest level. This adds springs of
-   * the bodies' stiffness where they touch, which tie them together on all levels, and
-   * leaves the multipliers' own Schur complement well conditioned.
+   * body modes as near null space, in single precision on the finest level. This adds
+   * springs of the bodies' stiffness where they touch, which couple them on all
+   * levels; the multipliers' own Schur complement stays well conditioned.
    */
   class CoupledMultigrid : public TangentSolver
   {
   public:
-    /// @param coarse_space without a prolongation, of displacements of any degree.
+    /// @param coarse_space without a prolongation, for displacements of any
+    /// degree.
     explicit CoupledMultigrid(CoarseSpace coarse_space);
 
     ~CoupledMultigrid() override;
@@ -60,25 +61,25 @@ namespace Ricochet
           const bool     may_reuse,
           const double   tolerance) override;
 
-    /// The preconditioner.
+    /// Apply the preconditioner.
     void
     vmult(Vector &result, const Vector &vector) const;
 
   private:
-    /// Take T apart.
+    /// Split T into its blocks.
     void
     split();
 
-    /// Make A, in its place if the pattern is that of the last one. @param numbers of the
-    /// displacements among the columns of T, less than zero for others.
+    /// Set A, in place if the pattern is that of the last one. @param numbers of the
+    /// displacements among the columns of T, negative for others.
     void
     copy_body(const Epetra_Vector &numbers);
 
-    /// Set ML up for the Schur complement as it is now.
+    /// Set ML up for the present Schur complement.
     void
     set_up();
 
-    /// Make the Schur complement of A and the springs of C~.
+    /// Compute the Schur complement of A and the springs of C~.
     void
     add_springs();
 
@@ -91,26 +92,26 @@ namespace Ricochet
 
     const CoarseSpace   space;
     std::vector<double> modes;
-    // T with all rows in units of force, and what made them so.
+    // T with all rows scaled to forces, and the scaling.
     Matrix        matrix;
     const Vector *scaling = nullptr;
     std::uint64_t pattern = 0;
 
-    // Displacements and multipliers, each numbered by themselves.
+    // Displacements and multipliers, each with numbers of their own.
     std::unique_ptr<Epetra_Map>       displacements, multipliers;
     std::unique_ptr<Epetra_CrsMatrix> body, from_multipliers, to_multipliers;
-    // The pattern of T that A is from, and the place of each entry of T there.
+    // The pattern of T for A, and the index of each entry of A in T.
     std::uint64_t                     pattern_of_body = 0;
     std::vector<unsigned int>         places;
     std::unique_ptr<Epetra_Vector>    inverse_diagonal;
     std::unique_ptr<Epetra_CrsMatrix> schur_complement;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> aggregation;
-    // Refers to both.
+    // Finest level, which refers to #schur_complement and #aggregation.
     std::unique_ptr<SingleFinestLevel> finest_level;
     mutable Vector                     displacement_part, displacement_result;
     mutable std::unique_ptr<Epetra_Vector> multiplier_part, work;
     IterationBudget                        budget;
-    // Norm of the right hand side of the last solve (N).
+    // Norm of the right-hand side of the last solve (N).
     double last_norm = 0.;
   };
 } // namespace Ricochet

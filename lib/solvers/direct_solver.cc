@@ -11,10 +11,10 @@ namespace Ricochet
   namespace
   {
     /// Give the constraints of @p matrix, its rows that have an entry zero in the
-    /// diagonal, a compliance that is small beside that of the body. Constraints may be
-    /// redundant, as those of two held nodes at one place are: their multipliers are not
-    /// unique, and with the compliance that pair is found which is closest to the last
-    /// one. The equations stay as they are, so that this costs nothing but digits of the
+    /// diagonal, a compliance that is small against that of the body. Constraints may
+    /// be redundant, such as those of two fixed nodes at one position: their
+    /// multipliers are not unique, and the compliance selects those closest to the last
+    /// ones. The residual is unchanged, so that the only cost is the accuracy of the
     /// tangent. @return whether there are constraints. Collective.
     bool
     soften_constraints(Matrix &matrix)
@@ -105,7 +105,8 @@ namespace Ricochet
                 .get();
     else if (!may_reuse || !entry->factorisation)
       {
-        // Where contact comes and goes, pivots that were good are so no longer.
+        // Pivots are not kept where contact changes the pattern, since they may
+        // have become poor.
         factorise(tangent, !stage_begins && tangent.pattern == 0, *entry);
         stage_begins = false;
       }

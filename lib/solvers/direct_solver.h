@@ -13,8 +13,8 @@
 
 namespace Ricochet
 {
-  /// Factors a tangent for each state of contact and keeps the last few; tangents
-  /// without a name are factored one by one.
+  /// Factorisation of the tangent for each state of contact, of which the last
+  /// few are kept; tangents without a cache key are factored one by one.
   class DirectSolver : public TangentSolver
   {
   public:
@@ -40,7 +40,7 @@ namespace Ricochet
           const double   tolerance) override;
 
   private:
-    /// A factored tangent and its name.
+    /// A factored tangent and its cache key.
     struct Factored
     {
       std::optional<BodyKey>         body;

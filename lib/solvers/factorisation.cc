@@ -49,9 +49,9 @@ namespace Ricochet
         error = amesos->solver->SymbolicFactorization();
       }
     else if (package == "MUMPS" && !keep_pivots)
-      // MUMPS looks at the values already when it orders the unknowns.
+      // MUMPS already uses the values when it orders the unknowns.
       error = amesos->solver->SymbolicFactorization();
-    // KLU looks at its pivots and chooses others when they are no longer good.
+    // KLU checks its pivots and chooses others when they have become poor.
     Teuchos::ParameterList list;
     list.set("Refactorize", keep_pivots);
     amesos->solver->SetParameters(list);

@@ -10,8 +10,8 @@
 namespace Ricochet
 {
   /**
-   * LU factorisation of one matrix, that may be made anew with other values in the same
-   * places, by KLU or MUMPS of Trilinos' Amesos.
+   * LU factorisation of one matrix, which may be repeated with other values on the same
+   * pattern, by KLU or MUMPS of Trilinos' Amesos.
    */
   class Factorisation
   {
@@ -22,12 +22,12 @@ namespace Ricochet
     ~Factorisation();
 
     /**
-     * Factor @p matrix, the same one each time: a matrix that is made anew needs
-     * a new factorisation.
+     * Factor @p matrix, the same object each time: another object needs a new
+     * factorisation.
      *
-     * @param keep_pivots use the pivots of the last time, which is faster;
-     * without it, the result does not depend on what came before.
-     * @return whether it could be done; if not, the matrix is singular.
+     * @param keep_pivots use the pivots of the last factorisation, which is
+     * faster; without it, the result does not depend on the history.
+     * @return whether it succeeded; if not, the matrix is singular.
      */
     bool
     factorise(const Matrix &matrix, const bool keep_pivots);

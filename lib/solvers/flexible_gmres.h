@@ -10,13 +10,15 @@
 
 namespace Ricochet
 {
-  /// Settings of the flexible GMRES for preconditioners in single precision: what it
-  /// builds its solution from is what the preconditioner gave, with its rounding.
+  /// Settings of the flexible GMRES for preconditioners in single precision: its
+  /// solution is a combination of the preconditioned vectors themselves, with their
+  /// rounding.
   ///
-  /// The modified Gram-Schmidt process, which deal.II had alone before 9.6. Its delayed
+  /// The modified Gram-Schmidt process, the only one in deal.II before 9.6. Its delayed
   /// classical one, the default since, corrects a vector after the preconditioner has
-  /// been applied to it and takes the preconditioner for linear to all digits: with
-  /// rounding in single precision solutions had residuals of 3e-8 where 1e-11 was asked.
+  /// been applied to it and assumes that the preconditioner is linear to all digits:
+  /// with rounding in single precision solutions had residuals of 3e-8 for a tolerance
+  /// of 1e-11.
   inline dealii::SolverFGMRES<Vector>::AdditionalData
   flexible_gmres_settings()
   {

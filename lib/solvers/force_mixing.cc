@@ -21,10 +21,10 @@ namespace Ricochet
 
   namespace
   {
-    // So many entries at once stay near while all columns pass.
+    // Number of entries that stay in the cache while all columns are read.
     constexpr std::size_t stretch = 2048;
 
-    // Eight at once, wherever they lie.
+    // Eight values at once, without alignment.
     using Octet __attribute__((vector_size(32), aligned(4), may_alias)) = float;
 
     inline Octet
@@ -79,7 +79,7 @@ namespace Ricochet
     float
     product(const float *a, const float *b, const std::size_t n)
     {
-      // Several sums do not wait for each other.
+      // Several sums are independent of each other.
       Octet       sums[4] = {};
       std::size_t i       = 0;
       for (; i + 32 <= n; i += 32)
@@ -101,7 +101,7 @@ namespace Ricochet
                         const unsigned int         first) const
   {
     std::vector<double> result(n_changes - first, 0.);
-    // Of about one, whatever the units.
+    // Scaling to numbers of about one, whatever the units.
     const double size  = size_for_single_precision(largest(vector));
     const double scale = 1. / size;
     std::array<float, stretch> values;
@@ -170,7 +170,8 @@ namespace Ricochet
     const double     *r = local_values(residual);
     const std::size_t n = residual.locally_owned_size();
     residual_now.assign(r, r + n);
-    // The plain step for what no change explains, and steps for what they do.
+    // A plain step for the part of the residual outside of the changes, and
+    // former steps for the part in their span.
     step_now.resize(n);
     known_step.assign(n, 0.);
     for (std::size_t i = 0; i < n; ++i)
@@ -178,8 +179,8 @@ namespace Ricochet
     std::vector<double> parts = products(residual_now, 0);
     if (has_last)
       {
-        // The last step, and what it changed, without what earlier ones say of it. In
-        // the same pass, what earlier ones say of this step.
+        // The last step and its change of the residual, orthogonalised against
+        // earlier ones. In the same pass, the projections of this residual.
         std::vector<double> minus_earlier, minus_parts;
         for (unsigned int k = 0; k < n_changes; ++k)
           {
@@ -198,8 +199,8 @@ namespace Ricochet
           {
             if (n_changes == n_kept)
               {
-                // Without the oldest one the others stay orthogonal; this step still
-                // knows of it.
+                // Removal of the oldest one leaves the others orthogonal; this step
+                // still includes it.
                 std::rotate(changes.begin(),
                             changes.begin() + 1,
                             changes.begin() + n_changes);

@@ -12,29 +12,31 @@ namespace Ricochet
   /**
    * Anderson's acceleration (J. ACM 12, 1965; Walker and Ni, SIAM J. Numer. Anal. 49,
    * 2011, with the history in orthogonal form) of an iteration in the space of forces:
-   * the iterate x(f) solves a system near the wanted one with the force f, and the
-   * residual r(f) is what the wanted system leaves over. Plain steps are f - r; mixed
-   * ones begin where the residual would be smallest if it were linear in what the last
-   * steps span, as GMRES does.
+   * the iterate x(f) solves an approximate system with the force f, and r(f) is the
+   * residual of the exact system. Plain steps are f - r; accelerated ones begin where
+   * the residual would be smallest if it were linear in the span of the last steps, as
+   * in GMRES.
    *
-   * What is remembered, and all that is done with it, is in single precision: what is
-   * lost by that, the next residual shows.
+   * The history, and all operations with it, are in single precision: the next
+   * residual includes the error of that.
    */
   class ForceMixing
   {
   public:
-    /// @param n_kept how many steps are remembered; then the oldest one is forgotten.
+    /// @param n_kept number of steps in the history; after that the oldest one is
+    /// dropped.
     explicit ForceMixing(const unsigned int n_kept)
       : n_kept(n_kept)
     {}
 
-    /// Forget all steps.
+    /// Drop the history.
     void
     restart();
 
-    /// The step of the force from the iterate with this @p residual. @p step gets it.
-    /// @param complete makes a plain step, in its place, a better one: a
-    /// linear function, if any.
+    /// The step of the force from the iterate with this @p residual, written to
+    /// @p step.
+    /// @param complete a linear function that improves a plain step in place;
+    /// null for none.
     void
     next(const Vector                                     &residual,
          Vector                                           &step,
@@ -43,12 +45,12 @@ namespace Ricochet
   private:
     using Column = std::vector<float>;
 
-    /// The products of the changes from number @p first on with @p vector.
+    /// The products of the changes from index @p first on with @p vector.
     std::vector<double>
     products(const std::vector<double> &vector, const unsigned int first) const;
 
-    /// Add the sums of @p columns with two sets of factors to two vectors: what is
-    /// read once serves both.
+    /// Add the sums of @p columns with two sets of factors to two vectors, so that
+    /// columns are read once for both.
     void
     add(const std::vector<Column> &columns,
         const std::vector<double> &factors,
@@ -57,10 +59,12 @@ namespace Ricochet
         std::vector<double>       &other_vector) const;
 
     const unsigned int n_kept;
-    // Orthonormal changes of the residual, and the steps of the force that make them.
+    // Orthonormal changes of the residual, and the steps of the force that cause
+    // them.
     std::vector<Column> changes, steps;
     unsigned int        n_changes = 0;
-    // Of the last call, and what the changes have of the residual.
+    // Residual and step of the last call, and the products of that residual
+    // with the changes.
     bool                has_last = false;
     std::vector<double> last_residual, last_step, last_products;
     // Work space.

@@ -22,8 +22,8 @@ namespace Ricochet
       for (const auto &[g, value] : at_unknown.at(functionals.index[k]))
         sums[g] += functionals.value[k] * value;
 
-    // Of orthonormal functionals zeros and ones are exact, so that a row that is taken
-    // out leaves nothing.
+    // Zeros and ones of orthonormal rows are made exact, so that an eliminated row
+    // leaves no residual.
     FunctionalRow &row = known[f];
     for (const auto &[g, sum] : sums)
       if (g == f && std::abs(sum - 1.) < 1e-12)

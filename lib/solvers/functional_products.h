@@ -9,8 +9,9 @@
 namespace Ricochet
 {
   /**
-   * Products f_i . f_j of the functionals of a rank, as sparse vectors: what a force
-   * along one of them has along the others. They are made when asked for.
+   * Products h_i . h_j of the rows of the contact Jacobian (functionals) of a rank:
+   * the components of a force along one row in the others. They are computed when
+   * needed.
    */
   class FunctionalProducts
   {
@@ -20,17 +21,17 @@ namespace Ricochet
       : functionals(functionals)
     {}
 
-    /// The products of functional @p f with all that have one.
+    /// The products of row @p f with all rows for which they are not zero.
     const FunctionalRow &
     of(const unsigned int f);
 
-    /// The sum of rows of products with the entries of @p row.
+    /// The sum of the rows of products, weighted with the entries of @p row.
     FunctionalRow
     times(const FunctionalRow &row);
 
   private:
     const Functionals &functionals;
-    // Functionals with an entry for an unknown, and that entry.
+    // Rows with an entry for an unknown, and that entry.
     std::map<dealii::types::global_dof_index, FunctionalRow> at_unknown;
     std::map<unsigned int, FunctionalRow>                    known;
   };

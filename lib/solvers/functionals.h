@@ -9,8 +9,8 @@
 
 namespace Ricochet
 {
-  /// Linear functionals of the unknowns, as far as this rank holds them: sparse
-  /// vectors, one behind the other.
+  /// Linear functionals of the unknowns (rows of the contact Jacobian H, for
+  /// example), as sparse vectors in compressed rows; those of this rank.
   struct Functionals
   {
     std::vector<std::size_t>                     begin = {0};
@@ -23,7 +23,8 @@ namespace Ricochet
       return begin.size() - 1;
     }
 
-    /// Append an entry to the functional that end_functional() will close.
+    /// Append an entry to the present functional, until end_functional() is
+    /// called.
     void
     add(const dealii::types::global_dof_index unknown, const double coefficient)
     {
@@ -53,8 +54,8 @@ namespace Ricochet
   /// values.
   using FunctionalRow = std::vector<std::pair<unsigned int, double>>;
 
-  /// Of the @p rows of a square matrix, put entries with the same column into one,
-  /// ascending, and leave out those that are zero.
+  /// Merge entries of the @p rows of a square matrix with the same column, in
+  /// ascending order, and drop those that are zero.
   void
   sum_columns(std::vector<FunctionalRow> &rows);
 

@@ -6,8 +6,8 @@
 
 namespace Ricochet
 {
-  /// How many iterations a preconditioner may need that was set up for the first system
-  /// of a stage, before the next one gets a new one.
+  /// Limit of the iterations with a preconditioner that was set up for the first system
+  /// of a stage, beyond which the next system gets a new one.
   class IterationBudget
   {
   public:

@@ -11,7 +11,7 @@ namespace Ricochet
   {
     const unsigned int n      = vector.locally_owned_size();
     const double      *values = local_values(vector);
-    // To the last digit, so that it makes no difference to know it.
+    // Compared to the last digit, so that results do not depend on the cache.
     const bool is_known = product.size() == vector.size() &&
       std::equal(values, values + n, local_values(known));
     if (dealii::Utilities::MPI::min(is_known ? 1 : 0,

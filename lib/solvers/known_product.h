@@ -8,8 +8,8 @@
 namespace Ricochet
 {
   /**
-   * Products of a matrix with vectors, of which the last one is known: what several ask
-   * for one after the other, is made once.
+   * Product of a matrix with a vector, kept for the next call with the same vector, so
+   * that several callers share one product.
    */
   class KnownProduct
   {
@@ -19,7 +19,7 @@ namespace Ricochet
       : matrix(matrix)
     {}
 
-    /// The product with @p vector; stays as it is until the next call with another one.
+    /// The product with @p vector, valid until the next call with another one.
     /// Collective.
     const Vector &
     with(const Vector &vector) const;

@@ -13,8 +13,7 @@ namespace Ricochet
 
   namespace
   {
-    /// The package that factors whole tangents: the one that is @p wanted, or what is
-    /// fastest.
+    /// The package that factors whole tangents: the @p wanted one, or the fastest.
     std::string
     lu_package(const std::string &wanted,
                const unsigned int dim,
@@ -25,23 +24,23 @@ namespace Ricochet
       return dim < 3 && n_unknowns < 20000 ? "KLU" : "MUMPS";
     }
 
-    /// Whether stages are condensed where nobody says how they are to be solved.
+    /// Whether stages are condensed by default.
     bool
     condensing_pays(const ContactStructure &contact,
                     const bool              linear_body,
                     const unsigned int      dim,
                     const std::size_t       n_unknowns)
     {
-      // The tangent of a linear body changes with contact only. Between bodies its
-      // factorisation would be a new one in each iteration.
+      // The tangent of a linear body changes with contact only; between bodies the
+      // whole tangent would be factored in each iteration.
       if (linear_body)
         return n_unknowns > 1000 || contact.couplings_change;
-      // Of nonlinear bodies in 3D, factorisations take more of the time, and multigrid
-      // is faster by itself.
+      // Factorisations dominate for nonlinear bodies in 3D, where multigrid of the
+      // whole tangent is faster.
       return n_unknowns > 1000 && (dim < 3 || !contact.couplings_change);
     }
 
-    /// Whether the reference is multigrid where nobody says so.
+    /// Whether the reference is multigrid by default.
     bool
     multigrid_pays(const LinearSolver::Parameters &parameters,
                    const ContactStructure         &contact,
@@ -51,7 +50,7 @@ namespace Ricochet
                    const unsigned int              n_ranks)
     {
       if (contact.couplings_change && !(linear_body && contact.functionals))
-        // Factorisations of small bodies are faster, but not by much.
+        // Factorisations are slightly faster for small bodies.
         return dim == 3 && parameters.factorisation == "automatic" &&
           n_unknowns > 5000;
       return linear_body &&
@@ -94,7 +93,8 @@ namespace Ricochet
         "direct, multigrid or automatic instead of condensed.");
     if (is_condensed && n_ranks > 1)
       {
-        // Where factorisations grow faster than the ranks do, all of them are taken.
+        // All ranks are taken where the cost of factorisations grows faster than the
+        // number of ranks.
         const std::size_t n_for_one_rank = dim < 3 ? 100000 : 30000;
         if (!parameters.distribute &&
             (!is_automatic || n_unknowns < n_for_one_rank))
@@ -116,7 +116,7 @@ namespace Ricochet
         "Multigrid factors nothing: with Linear solver/Type = multigrid leave "
         "Linear solver/Factorisation at automatic.");
 
-    // Memory of a factorisation in 3D grows faster than the body does.
+    // Memory of a factorisation in 3D grows faster than the number of unknowns.
     constexpr std::size_t largest_factorised = 200000;
     if (has_multigrid && contact.couplings_change)
       solvers.push_back(std::make_unique<CoupledMultigrid>(coarse_space()));
@@ -138,8 +138,8 @@ namespace Ricochet
                                   const std::size_t  n_unknowns,
                                   const unsigned int n_ranks)
   {
-    // Factorisations in three dimensions grow faster than bodies do, and few ranks do
-    // not make up for it.
+    // The cost of factorisations in 3D grows faster than the number of unknowns,
+    // which few ranks do not compensate.
     return parameters.type == "multigrid" ||
       (parameters.type == "automatic" &&
        parameters.factorisation == "automatic" && dim == 3 &&
@@ -215,7 +215,7 @@ namespace Ricochet
                       const bool     may_reuse,
                       const double   tolerance)
   {
-    // After a solver that failed, the next one begins anew. Multigrid that did not
+    // The next solver after one that failed begins anew. Multigrid that did not
     // converge is not tried again in its stage.
     bool         reuse      = may_reuse;
     unsigned int strategies = 0;

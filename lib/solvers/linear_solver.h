@@ -18,19 +18,19 @@
 namespace Ricochet
 {
   /**
-   * The two ways to solve a stage, and which of them a run takes.
+   * The two strategies to solve a stage, and their selection for a run.
    *
    * The reference assembles the whole tangent and solves with it. "direct" factors a
    * tangent for each state of contact and keeps the last few; with nonlinear materials
    * and laws it factors each tangent. "multigrid" solves each system iteratively, for
-   * bodies in 3D whose factorisation takes too long or too much memory; chosen by
-   * "automatic", it leaves systems of less than 200000 unknowns for which it does not
-   * converge to a factorisation.
+   * bodies in 3D whose factorisation takes too long or too much memory; if chosen by
+   * "automatic", systems of less than 200000 unknowns for which it does not converge
+   * are factored.
    *
-   * "condensed" looks at contact alone, by the contact Schur complement of the body: that
-   * of a linear body is made once for each length of the time step, that of another one
-   * with a frozen tangent. It is on one rank; where it does not solve a stage, the
-   * reference takes over.
+   * "condensed" solves for contact alone, by the contact Schur complement of the body:
+   * that of a linear body is computed once for each length of the time step, that of
+   * another one with a frozen tangent. It runs on one rank; where it does not solve a
+   * stage, the reference takes over.
    */
   class LinearSolver
   {
@@ -42,7 +42,7 @@ namespace Ricochet
       /// "automatic", "KLU" or "MUMPS".
       std::string  factorisation = "automatic";
       unsigned int n_kept        = 8;
-      /// Take all MPI ranks, also where one of them is faster.
+      /// Take all MPI ranks, even where one of them is faster.
       bool distribute = false;
 
       void
@@ -51,14 +51,14 @@ namespace Ricochet
 
     /**
      * @param contact how contact enters the tangents.
-     * @param linear_body the body's part of a tangent has a name.
+     * @param linear_body the body's part of a tangent has a cache key.
      * @param clamped unknowns of this rank that are clamped.
      * @param coarse_space Body::coarse_space(), only called for multigrid.
-     * @param dim dimension of the body, on which depends which factorisation is
-     * fast.
+     * @param dim dimension of the body, which determines the fastest
+     * factorisation.
      * @param n_unknowns number of unknowns on all ranks.
      * @throws InputError when the parameters do not go together.
-     * @throws OneRankSuffices when it would condense on one rank.
+     * @throws OneRankSuffices for a condensed solution on several ranks.
      */
     LinearSolver(const Parameters                   &parameters,
                  const ContactStructure             &contact,
@@ -73,10 +73,11 @@ namespace Ricochet
      * Solve @p tangent * @p solution = @p right_hand_side, which must be zero in
      * clamped unknowns.
      *
-     * @param may_reuse the last tangent without a name will do, if there is one.
+     * @param may_reuse the last tangent without a cache key may be used, if
+     * there is one.
      * @param tolerance of the residual, relative to @p right_hand_side, where
      * the solution is iterative.
-     * @return what has solved it, a sum of SolverReport::Strategy.
+     * @return the solvers that were used, a sum of SolverReport::Strategy.
      * @throws NewtonFailure when the matrix cannot be factored.
      */
     unsigned int
@@ -86,8 +87,8 @@ namespace Ricochet
           const bool     may_reuse,
           const double   tolerance);
 
-    /// Whether a linear body without multipliers, against rigid obstacles, is solved
-    /// for by multigrid.
+    /// Whether multigrid is chosen for a linear body without multipliers, against
+    /// rigid obstacles.
     static bool
     chooses_multigrid(const Parameters  &parameters,
                       const unsigned int dim,
@@ -101,27 +102,26 @@ namespace Ricochet
       return is_condensed;
     }
 
-    /// The contact Schur complement of the body of @p tangent; of a body that is not
-    /// linear, that of the first tangent since forget_condensed(). @pre condenses()
+    /// The contact Schur complement of the body of @p tangent; for a nonlinear body,
+    /// that of the first tangent since forget_condensed(). @pre condenses()
     /// @throws NewtonFailure when the body's matrix cannot be factored.
     ContactSchurComplement &
     condensed(const Tangent &tangent);
 
-    /// The next condensed() system of a body that is not linear is that of its own
-    /// tangent.
+    /// Let the next condensed() system of a nonlinear body have its own tangent.
     void
     forget_condensed()
     {
       has_frozen = false;
     }
 
-    /// Between two calls pivots are kept, which is faster; after one, results do
-    /// not depend on what came before, so that a resumed run repeats them digit
-    /// for digit.
+    /// Begin a stage. Pivots are kept between two calls, which is faster; after
+    /// a call, results do not depend on the history, so that a resumed run
+    /// repeats them digit for digit.
     void
     begin_stage();
 
-    /// Number of factorisations, or set-ups of multigrid, made so far.
+    /// Number of factorisations, or set-ups of multigrid, so far.
     unsigned int
     n_factorisations() const;
 
@@ -130,8 +130,8 @@ namespace Ricochet
     double
     factorisation_seconds() const;
 
-    /// Number of solutions with factorisations; those of the rows of contact, which are
-    /// kept, do not count.
+    /// Number of solutions with factorisations; forward solves of contact rows, which
+    /// are kept, do not count.
     unsigned int
     n_back_substitutions() const;
 
@@ -139,7 +139,7 @@ namespace Ricochet
     double
     back_substitution_seconds() const;
 
-    /// Number of solutions that a factorisation has made as multigrid did not converge.
+    /// Number of solutions by a factorisation after multigrid did not converge.
     unsigned int
     n_multigrid_failures() const
     {
@@ -151,7 +151,7 @@ namespace Ricochet
     description() const;
 
   private:
-    /// The sum of one of the costs of all that solves.
+    /// The sum of one of the costs of all solvers.
     template <typename Cost>
     Cost
     sum_of(const Cost TangentSolver::Costs::*cost) const;
@@ -168,19 +168,20 @@ namespace Ricochet
 
     const bool             linear_body;
     const ContactStructure contact;
-    /// Of the LU factorisation of whole tangents.
+    /// Package of the LU factorisation of whole tangents.
     const std::string    package;
     const unsigned int   n_kept;
     bool                 is_condensed = false;
     std::list<Condensed> condensed_bodies;
-    // Of a body that is not linear.
+    // The Schur complement of a nonlinear body with its frozen tangent.
     std::unique_ptr<ContactSchurComplement> frozen;
     bool                                    has_frozen = false;
     TangentSolver::Costs                    condensed_costs;
-    // The reference: one behind the other until one succeeds.
+    // The reference: solvers in order, until one succeeds.
     std::vector<std::unique_ptr<TangentSolver>> solvers;
     bool                                        has_multigrid = false;
-    // In this stage; how often something else has taken over.
+    // Whether multigrid has failed in this stage, and how often another solver
+    // has taken over.
     bool         multigrid_failed = false;
     unsigned int n_taken_over     = 0;
   };

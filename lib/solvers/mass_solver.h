@@ -20,8 +20,8 @@ namespace Ricochet
     using Index = dealii::TrilinosWrappers::SparseMatrix::size_type;
 
     /**
-     * @param mass symmetric and positive definite but for the rows of @p own; it
-     * has to outlive this object.
+     * @param mass symmetric and positive definite except for the rows of @p own;
+     * it has to outlive this object.
      * @param own unknowns of this rank with the equation a = f: clamped ones, whose
      * forces have to be zero, and those without mass that couple to no other.
      * @throws NewtonFailure where an unknown has no mass.
@@ -32,7 +32,7 @@ namespace Ricochet
     void
     solve(const Vector &force, Vector &acceleration) const;
 
-    /// M @p acceleration as the solver sees it.
+    /// The product M @p acceleration in the solver's form.
     void
     vmult(Vector &force, const Vector &acceleration) const;
 

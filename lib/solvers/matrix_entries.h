@@ -9,13 +9,14 @@
 namespace Ricochet
 {
   /**
-   * The rows of a matrix on this rank as they lie in memory, in compressed rows: row r
-   * has the entries begin[r] <= k < begin[r+1] with the values value[k] in the columns
-   * column[k]. Rows and columns have numbers of this rank; columns rise in each row. Loops
-   * over it take a tenth of the time of deal.II's iterators, which copy each row.
+   * The rows of a matrix on this rank as they are stored, in compressed rows: row r has
+   * the entries begin[r] <= k < begin[r+1] with the values value[k] in the columns
+   * column[k]. Rows and columns have local numbers; columns are in ascending order in
+   * each row. Loops over it take a tenth of the time of deal.II's iterators, which copy
+   * each row.
    *
-   * Trilinos' Epetra is behind this class and behind those that hand a matrix to one of
-   * its packages (Factorisation, CoupledMultigrid), and nowhere else.
+   * Access to Trilinos' Epetra is restricted to this class and to those that hand a
+   * matrix to one of its packages (Factorisation, CoupledMultigrid).
    */
   class MatrixEntries
   {
@@ -27,7 +28,7 @@ namespace Ricochet
       : MatrixEntries(matrix.trilinos_matrix())
     {}
 
-    /// The same for a matrix of Trilinos.
+    /// As above, for a matrix of Trilinos.
     explicit MatrixEntries(const Epetra_CrsMatrix &matrix);
 
     /// Rows of this rank.
@@ -61,7 +62,7 @@ namespace Ricochet
     int
     column_number(const Index index) const;
 
-    /// Place of the entry in row @p r and column @p c; -1 where there is none.
+    /// Index of the entry in row @p r and column @p c; -1 where there is none.
     int
     find(const int r, const int c) const;
 

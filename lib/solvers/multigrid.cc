@@ -18,7 +18,7 @@ namespace Ricochet
 
   /**
    * Products with the prolongation P: terms of a tangent between coarse unknowns.
-   * Row by row, so that there is never another large matrix; and by hand, as the
+   * Row by row, without another large matrix; and written out, as the matrix
    * products of deal.II 9.4 write beyond their memory on several ranks.
    */
   class Multigrid::CoarseProducts
@@ -52,7 +52,7 @@ namespace Ricochet
       coarse.compress(VectorOperation::add);
     }
 
-    /// @p coarse += P^T F^T C F P for the functionals F of @p tangent.
+    /// @p coarse += P^T F^T C F P for the rows F of @p tangent.
     void
     add_contact(const TangentOperator &tangent, Matrix &coarse)
     {
@@ -80,7 +80,7 @@ namespace Ricochet
     }
 
   private:
-    /// Add @p value in the column of a relevant unknown, times P.
+    /// Add @p value, in the column of a relevant unknown, times P.
     void
     add_to_row(const unsigned int relevant, const double value)
     {
@@ -120,7 +120,8 @@ namespace Ricochet
     }
 
     const CoarseSpace &space;
-    // A row: where each coarse unknown stands in it, its columns and values.
+    // Data of one row: index of each coarse unknown in it, its columns and
+    // values.
     std::vector<int>                     place;
     std::vector<types::global_dof_index> columns;
     std::vector<double>                  values, scaled;
@@ -203,8 +204,8 @@ namespace Ricochet
     fine.reinit(inverse.locally_owned_elements(), tangent->communicator);
     try
       {
-        // By some iterations of conjugate gradients, from the same start each
-        // time: so that it does not depend on what came before.
+        // Estimated by some iterations of conjugate gradients from the same
+        // start each time, so that it does not depend on the history.
         smoother.initialize(single, data);
         const double largest = smoother.estimate_eigenvalues(single_residual)
                                  .max_eigenvalue_estimate;
@@ -267,7 +268,7 @@ namespace Ricochet
     space.prolongation.Tvmult(coarse_residual, fine);
     aggregation->vmult(coarse_correction, coarse_residual);
     space.prolongation.vmult(fine, coarse_correction);
-    // The coarse levels know the tangent as it is.
+    // The coarse levels use the unscaled tangent.
     for (unsigned int i = 0; i < n; ++i)
       single_result.local_element(i) +=
         static_cast<float>(work[i] / single.factor());
@@ -322,8 +323,8 @@ namespace Ricochet
       cycle();
     else
       {
-        // The cycle gets what is left by the subspace, which then has the last word: a
-        // symmetric preconditioner.
+        // The cycle acts on the residual of the subspace, which is solved again
+        // afterwards, so that the preconditioner is symmetric.
         whole_right_hand_side = single_right_hand_side;
         solve_in_subspace(whole_right_hand_side, true);
         single_start = single_result;

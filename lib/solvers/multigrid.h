@@ -21,41 +21,41 @@ namespace Ricochet
    * Multigrid for elasticity, as a preconditioner of conjugate gradients or
    * GMRES: from the body's own elements to those of degree 1 (with Chebyshev's
    * polynomials as smoothers), and from there by aggregation, with Trilinos' ML
-   * and the rigid body modes as what the coarse levels must be able to
-   * represent.
+   * and the rigid body modes as near null space.
    *
    * On the level of the body's own elements a cycle works in single precision, with
    * half of a symmetric matrix of blocks: a preconditioner need not be exact, and
-   * what a cycle takes is the time to read the matrix. All around it, and the coarse
-   * levels, are in double precision.
+   * the time of a cycle is that to read the matrix. The Krylov method and the coarse
+   * levels are in double precision.
    *
-   * Where contact is stiff there is a direct solution among its unknowns before and
-   * after a cycle (see ContactSubspace).
+   * Where contact is stiff, its unknowns are solved for directly before and after a
+   * cycle (see ContactSubspace).
    */
   class Multigrid
   {
   public:
-    /// @param is_symmetric the tangents are: conjugate gradients will do.
+    /// @param is_symmetric whether tangents are symmetric: conjugate gradients
+    /// are used then.
     Multigrid(CoarseSpace coarse_space, const bool is_symmetric);
 
     /**
-     * A new body: the terms of @p tangent, which must stay where it is. To be
-     * followed by setup(). Collective, like all functions.
+     * Set a new body: the terms of @p tangent, which must stay where it is. To
+     * be followed by setup(). Collective, like all functions.
      *
-     * @param n_constant the first terms, as many as this, never change their
-     * values: what was once computed of them is kept.
+     * @param n_constant the first terms, as many as this, are constant:
+     * products computed from them are kept.
      */
     void
     set_body(const TangentOperator &tangent, const unsigned int n_constant);
 
-    /// Set up for contact as it is in the tangent now. Should it change later,
-    /// the coarse levels are still those of the old one.
+    /// Set up for contact as it is in the tangent now. If it changes later, the
+    /// coarse levels are still those of the old one.
     /// @throws NewtonFailure where the diagonal of the tangent is not positive.
     void
     setup();
 
-    /// Set up for contact as it is now but for the coarse levels, which stay those of
-    /// the last setup().
+    /// Set up for contact as it is now except for the coarse levels, which stay those
+    /// of the last setup().
     /// @throws NewtonFailure as setup() does.
     void
     update_smoother();
@@ -78,7 +78,7 @@ namespace Ricochet
       return single.memory_consumption();
     }
 
-    /// A cycle: the preconditioner.
+    /// Apply one cycle: the preconditioner.
     void
     vmult(Vector &result, const Vector &vector) const;
 
@@ -91,17 +91,18 @@ namespace Ricochet
 
     class CoarseProducts;
 
-    /// A cycle for #single_right_hand_side, in #single_result.
+    /// Apply one cycle to #single_right_hand_side, in #single_result.
     void
     cycle() const;
 
-    /// Add to #single_result what makes the residual of @p right_hand_side zero in the
-    /// subspace of contact. @param starts nothing is in #single_result yet.
+    /// Add to #single_result the correction by which the residual of
+    /// @p right_hand_side is zero in the subspace of contact. @param starts
+    /// #single_result is zero.
     void
     solve_in_subspace(const SingleVector &right_hand_side,
                       const bool          starts) const;
 
-    /// Chebyshev's polynomials for the tangent as it is now.
+    /// Set up Chebyshev's polynomials for the tangent as it is now.
     /// @throws NewtonFailure where its diagonal is not positive.
     void
     initialize_smoother();
@@ -113,14 +114,16 @@ namespace Ricochet
     const TangentOperator *tangent = nullptr;
     SingleTangent          single;
     Smoother               smoother;
-    // Between coarse unknowns: constant terms, the body, and all of the tangent.
+    // Matrices between coarse unknowns: constant terms, the body, and the whole
+    // tangent.
     std::map<const BodyMatrix *, Matrix>                       constant_terms;
     Matrix                                                     coarse_body;
     Matrix                                                     coarse;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> aggregation;
     ContactSubspace                                            subspace;
     mutable SingleVector single_right_hand_side, single_result, single_residual;
-    // With a subspace: all of the right hand side, and what is solved before the cycle.
+    // The whole right-hand side, and the solution before the cycle, if there is a
+    // subspace.
     mutable SingleVector        whole_right_hand_side, single_start;
     mutable std::vector<double> subspace_values;
     mutable Vector              fine, coarse_residual, coarse_correction;

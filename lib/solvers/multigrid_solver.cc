@@ -142,9 +142,9 @@ namespace Ricochet
       const Stopwatch stopwatch(spent.substituting);
       return multigrid.solve(right_hand_side, solution, tolerance);
     };
-    // Tangents share a preconditioner within a stage, but for the smoother of a sum,
-    // which is always its own; never beyond, so that results do not depend on what came
-    // before the stage. A tangent with a name may find the one that was made for it.
+    // Tangents share a preconditioner within a stage, except for the smoother of a sum,
+    // which is always its own; never for longer, so that results do not depend on the
+    // history. A tangent with a cache key may find its own preconditioner.
     const bool is_first = stage_begins || !set_up_in_stage ||
       (is_sum ? !(set_up_name.body == new_name.body)
               : new_name.body && new_name.contact);
@@ -163,7 +163,7 @@ namespace Ricochet
       budget.begin(n_iterations, tolerance);
     else if (budget.is_exceeded(n_iterations, tolerance))
       {
-        // The next solution of this stage will have a better one.
+        // The next solution of this stage has a new preconditioner.
         set_up();
         if (n_iterations < 0)
           n_iterations = iterate();

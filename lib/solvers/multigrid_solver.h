@@ -14,8 +14,8 @@
 
 namespace Ricochet
 {
-  /// Solves each system by multigrid, for bodies in three dimensions whose
-  /// factorisation takes too long or too much memory.
+  /// Multigrid for each system, for bodies in 3D whose factorisation takes too
+  /// long or too much memory.
   class MultigridSolver : public TangentSolver
   {
   public:
@@ -41,7 +41,7 @@ namespace Ricochet
           const double   tolerance) override;
 
   private:
-    /// What a tangent was made of.
+    /// Cache key of a tangent.
     struct Name
     {
       std::optional<BodyKey>       body;
@@ -55,7 +55,7 @@ namespace Ricochet
       }
     };
 
-    /// The tangent as multigrid takes it.
+    /// Update the tangent in the form for multigrid.
     void
     update_tangent(const Tangent          &tangent,
                    const dealii::IndexSet &owned,
@@ -63,21 +63,22 @@ namespace Ricochet
 
     const ContactStructure contact;
     const dealii::IndexSet clamped;
-    // The tangent is the sum of the body's constant terms, of open contact and
-    // of what contact does through its functionals; otherwise one matrix.
+    // Whether the tangent is a sum of the body's constant terms, of open
+    // contact and of contact by the rows of its Jacobian; otherwise it is one
+    // matrix.
     const bool is_sum;
-    // Open contact, or all of it.
+    // Matrix of open contact if the tangent is a sum; otherwise of the whole
+    // tangent.
     BodyMatrix                       matrix{Matrix()};
     std::optional<BodyKey>           body;
     std::unique_ptr<TangentOperator> current;
-    // Smooths with this very tangent, even when it has changed since the setup: a
-    // large body has no room for another one.
+    // Smooths with the present tangent, even when it has changed since the setup:
+    // a large body leaves no memory for another one.
     Multigrid multigrid;
-    // Of the tangent, and of the one that the coarse levels are for.
+    // Keys of the tangent, and of that for which the coarse levels were set up.
     Name name, set_up_name;
     bool smoother_is_current = false;
-    // Whether there was a first system in this stage, and the iterations that it
-    // needed.
+    // Whether there was a first system in this stage, and its iterations.
     bool            set_up_in_stage = false;
     IterationBudget budget;
   };

@@ -53,7 +53,7 @@ namespace Ricochet
     std::ostringstream text;
     text << "Newton's method failed: " << reason << "\n"
          << "  iteration   relative residual   step length   active set\n";
-    // How it began and how it ended.
+    // First and last lines of the table.
     constexpr unsigned int n_first = 4, n_last = 8;
     for (unsigned int k = 0; k < history.size(); ++k)
       if (k == n_first && history.size() > n_first + n_last)
@@ -119,8 +119,8 @@ namespace Ricochet
     problem.accept();
     end = 0;
     history.push_back({norm, 0., problem.active_set()});
-    // The best iterate that was left for a worse one. Where the last one is not much
-    // worse, it is as good a place to go on from, and another one.
+    // The best iterate that was left for a worse one. If the last one is not much
+    // worse, the iteration may as well go on from there, with a different iterate.
     std::optional<unsigned int> best_iteration;
     const auto                  give_up = [&](const std::string &reason) {
       if (best_iteration &&
@@ -145,17 +145,17 @@ namespace Ricochet
           history.size() <= n_full_steps &&
           norm < parameters.reuse_tangent_below *
               history[history.size() - 2].relative_residual;
-        // Iterative linear solvers need not be better than the linearisation,
-        // whose error falls as the square of the residual (Eisenstat and Walker,
-        // SIAM J. Sci. Comput. 17, 1996, choice 2).
+        // Iterative linear solvers need not be more accurate than the
+        // linearisation, whose error falls as the square of the residual
+        // (Eisenstat and Walker, SIAM J. Sci. Comput. 17, 1996, choice 2).
         double tolerance = 1e-2;
         if (history.size() > 1)
           {
             const double ratio =
               norm / history[history.size() - 2].relative_residual;
             tolerance = std::clamp(ratio * ratio, 1e-8, 1e-2);
-            // The last iteration should neither end just below the tolerance nor go
-            // on far below it.
+            // The last iteration should neither end just below the tolerance nor
+            // continue far below it.
             if (norm * tolerance < 100. * parameters.tolerance)
               tolerance =
                 std::clamp(.01 * parameters.tolerance / norm, 1e-8, 1e-2);

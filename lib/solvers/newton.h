@@ -15,18 +15,18 @@ namespace Ricochet
   /**
    * Semi-smooth Newton iteration (for instance Renard, CMAME 256, 2013).
    *
-   * It returns a converged solution or throws; it never returns anything else.
+   * It returns a converged solution or throws an exception.
    */
   class NewtonSolver
   {
   public:
     struct Parameters
     {
-      /// Residual over the norm of the forces that make it up.
+      /// Residual over the norm of the forces that it consists of.
       double       tolerance         = 1e-12;
       unsigned int max_iterations    = 30;
       unsigned int line_search_after = 10;
-      /// A tangent serves again while the residual falls by this factor.
+      /// A tangent is used again while the residual falls by this factor.
       double reuse_tangent_below = .03;
 
       void
@@ -36,13 +36,13 @@ namespace Ricochet
     /// The equations, as functions of the solution.
     struct Problem
     {
-      /// Write the residual at @p solution; remember whatever the tangent at
+      /// Write the residual at @p solution; keep the data that the tangent at
       /// this point needs.
       std::function<void(const Vector &solution, Vector &residual)> residual;
 
       /// Solve tangent * @p update = @p residual at the point of the last
-      /// residual(), iterative solvers to a relative @p tolerance; if @p
-      /// may_reuse, an older tangent of this problem will do.
+      /// residual(), iterative solvers to a relative @p tolerance; if
+      /// @p may_reuse, an older tangent of this problem may be used.
       std::function<void(const Vector &residual,
                          Vector       &update,
                          const bool    may_reuse,
@@ -53,7 +53,7 @@ namespace Ricochet
       std::function<double(const Vector &residual)> norm;
 
       /// Called when the point of the last residual() becomes the next iterate;
-      /// points that a line search only looks at are not.
+      /// trial points of a line search are not accepted.
       std::function<void()> accept;
 
       /// Number of active contact points at the last residual(), for the table.
@@ -65,8 +65,8 @@ namespace Ricochet
       /// Residual (N) that round-off alone can cause, at the last residual().
       std::function<double()> round_off;
 
-      /// Where to begin if the residual at the guess is not finite; null for
-      /// nowhere.
+      /// Initial iterate if the residual at the guess is not finite; null for
+      /// none.
       const Vector *safe_guess = nullptr;
 
       /// force_scale, or 1 if there are no forces.
@@ -74,7 +74,7 @@ namespace Ricochet
       scale() const
       {
         const double size = force_scale();
-        // A size that is not a number must not look like none.
+        // A NaN must not pass as zero.
         return size == 0. ? 1. : size;
       }
 
@@ -87,7 +87,7 @@ namespace Ricochet
       }
     };
 
-    /// What an iteration did.
+    /// Record of an iteration.
     struct Iteration
     {
       /// Residual over force_scale.
@@ -102,19 +102,19 @@ namespace Ricochet
 
     /**
      * Solve @p problem, from @p solution to @p solution. If the residual at the
-     * guess is not finite (an element is turned inside out), the safe guess takes
-     * its place; a step to such a point is shortened, to 1/1024 at most. The
+     * guess is not finite (an element is turned inside out), the safe guess
+     * replaces it; a step to such a point is shortened, to 1/1024 at most. The
      * guess is never accepted as it is, unless its residual is exactly zero:
      * there is at least one linear solve.
      *
-     * @param line_search_at_once shorten steps that do not make the residual smaller
-     * from the first one on, and not only after some full ones.
+     * @param line_search_at_once shorten steps that do not reduce the residual from
+     * the first one on, not only after some full ones.
      * @return one entry for the guess and each iterate after it: the number of linear
      * solves plus one.
-     * @throws NewtonFailure with the table of all iterations in its text: not
-     * converged in the allowed number of iterations, no step length that makes the
-     * residual smaller, or not finite; @p solution is the last iterate then, or the best
-     * one if that has less than half of its residual. And what Problem::solve throws;
+     * @throws NewtonFailure with the table of all iterations in its text: not converged
+     * in the allowed number of iterations, no step length that reduces the residual, or
+     * not finite; @p solution is the last iterate then, or the best one if that has
+     * less than half of its residual. The exceptions of Problem::solve are passed on;
      * @p solution is the last iterate then.
      */
     const std::vector<Iteration> &
@@ -122,23 +122,23 @@ namespace Ricochet
           Vector        &solution,
           const bool     line_search_at_once = false);
 
-    /// What the last solve() returned, or did before it failed.
+    /// The iterations of the last solve(), also if it failed.
     const std::vector<Iteration> &
     iterations() const
     {
       return history;
     }
 
-    /// Which of iterations() the last solve() ended with: the last one, unless it failed
-    /// and went back to a better one.
+    /// Index in iterations() of the last solve()'s result: the last one, unless it
+    /// failed and returned to a better one.
     unsigned int
     end_iteration() const
     {
       return end;
     }
 
-    /// Whether the last solve(), which failed, ended because its iterations had run out,
-    /// while its last step still made the residual smaller, and not just so.
+    /// Whether the last solve() failed at the limit of iterations while its last step
+    /// still reduced the residual by a tenth at least.
     bool
     was_on_its_way() const
     {

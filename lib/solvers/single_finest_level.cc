@@ -55,7 +55,7 @@ namespace Ricochet
     level               = &hierarchy->Amat[hierarchy->ML_finest_level];
     data_of_level       = level->data;
     product_of_level    = level->matvec->func_ptr;
-    // ML asks for rows and diagonals when it is set up only.
+    // ML needs rows and diagonals only when it is set up.
     level->data             = this;
     level->matvec->func_ptr = &SingleFinestLevel::multiply;
   }
@@ -78,7 +78,7 @@ namespace Ricochet
                               double *result)
   {
     auto &self = *static_cast<SingleFinestLevel *>(level->data);
-    // The same on all ranks, which exchange what was divided by it.
+    // The same on all ranks, which exchange scaled values.
     double largest = 0.;
     for (int i = 0; i < n_rows; ++i)
       largest = std::max(largest, std::abs(vector[i]));

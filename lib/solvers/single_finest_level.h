@@ -13,9 +13,9 @@ namespace Ricochet
   /**
    * The finest level of Trilinos' ML in single precision: while this exists, its
    * products (of smoothers and residuals) are those with the symmetric part of the
-   * matrix, half of which is kept, by blocks. What a cycle takes is the time to read the
-   * matrix, and a preconditioner need not be exact. The coarse levels are what ML has
-   * made of the matrix itself.
+   * matrix, half of which is stored, by blocks. The time of a cycle is that to read the
+   * matrix, and a preconditioner need not be exact. The coarse levels are those of ML
+   * for the matrix itself.
    */
   class SingleFinestLevel
   {
@@ -23,7 +23,7 @@ namespace Ricochet
     using VectorType = dealii::LinearAlgebra::distributed::Vector<float>;
 
     /// @param aggregation set up for @p matrix. @param dim unknowns of a node, which
-    /// stand together. Both are to live as long as this. Collective.
+    /// are consecutive. Both have to outlive this. Collective.
     SingleFinestLevel(dealii::TrilinosWrappers::PreconditionAMG &aggregation,
                       const MatrixEntries                       &matrix,
                       const unsigned int                         dim,
@@ -34,11 +34,12 @@ namespace Ricochet
     SingleFinestLevel &
     operator=(const SingleFinestLevel &) = delete;
 
-    /// ML is as it was.
+    /// Restores ML.
     ~SingleFinestLevel();
 
   private:
-    /// What ML calls: @p result = the matrix times @p vector, whose data are this.
+    /// Function for ML: @p result = the matrix times @p vector; its data are this
+    /// object.
     static int
     multiply(ML_Operator *level,
              int          n_columns,
@@ -47,7 +48,7 @@ namespace Ricochet
              double      *result);
 
     BlockMatrix<float> matrix;
-    // What the matrix was divided by, a power of two.
+    // Divisor of the matrix, a power of two.
     double     scale;
     VectorType from, to;
 

@@ -6,9 +6,9 @@
 
 namespace Ricochet
 {
-  /// By what values of which @p largest is the largest are divided so that single
-  /// precision can hold them: the power of two at or below it, so that nothing is
-  /// rounded; 1 where it is zero or not finite.
+  /// Divisor of values, of which @p largest is the largest, for single precision:
+  /// the power of two at or below it, which causes no rounding; 1 where it is
+  /// zero or not finite.
   inline double
   size_for_single_precision(const double largest)
   {

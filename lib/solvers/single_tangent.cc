@@ -17,7 +17,7 @@ namespace Ricochet
                           const unsigned int     dim)
   {
     body.reset();
-    // Blocks have a place for whatever couples in the body.
+    // Blocks have an entry for all couplings of the body.
     pattern.reset();
     std::vector<MatrixEntries> matrices;
     for (const MatrixTerm &term : tangent.terms())
@@ -32,7 +32,8 @@ namespace Ricochet
                                                tangent.communicator);
     body = std::make_unique<BlockMatrix<float>>(pattern);
 
-    // The body's own stiffness decides, which is there without contact.
+    // The scale is that of the body's own stiffness, which does not depend on
+    // contact.
     double largest = 0.;
     for (const MatrixTerm &term : tangent.terms())
       largest =
@@ -105,7 +106,7 @@ namespace Ricochet
   void
   SingleTangent::vmult(VectorType &result, const VectorType &vector) const
   {
-    // Both parts need the ghosts.
+    // The products with body and contact need the ghosts.
     vector.update_ghost_values();
     const float *from = vector.begin();
     float       *to   = result.begin();
@@ -132,7 +133,7 @@ namespace Ricochet
         for (std::size_t k = functional_begin[f]; k < functional_begin[f + 1];
              ++k)
           to[unknown[k]] += coefficient[k] * acting[f];
-    // What acts on unknowns of other ranks.
+    // Contributions to unknowns of other ranks.
     result.compress(VectorOperation::add);
   }
 } // namespace Ricochet

@@ -11,22 +11,22 @@
 namespace Ricochet
 {
   /**
-   * A tangent in single precision, for what only has to be nearly right: its terms
-   * as one symmetric matrix of blocks between nodes, and contact through its
-   * functionals. It is divided by a power of two so that its entries are about one or
-   * below, whatever the units.
+   * A tangent in single precision, for preconditioners: its terms as one symmetric
+   * matrix of blocks between nodes, and contact by the rows of its Jacobian. It is
+   * divided by a power of two so that its entries are about one or below, whatever
+   * the units.
    */
   class SingleTangent : public dealii::Subscriptor
   {
   public:
     using VectorType = dealii::LinearAlgebra::distributed::Vector<float>;
 
-    /// Take the terms of @p tangent, and the clamped unknowns. Collective, like all
+    /// Set the terms of @p tangent, and the clamped unknowns. Collective, like all
     /// functions. @param dim unknowns of a node.
     void
     set_body(const TangentOperator &tangent, const unsigned int dim);
 
-    /// Take contact, and the diagonal, as they are in @p tangent now.
+    /// Set contact, and the diagonal, as they are in @p tangent now.
     void
     set_contact(const TangentOperator &tangent);
 
@@ -34,14 +34,14 @@ namespace Ricochet
     void
     vmult(VectorType &result, const VectorType &vector) const;
 
-    /// Make @p vector one that vmult() takes.
+    /// Initialise @p vector for vmult().
     void
     initialize_dof_vector(VectorType &vector) const
     {
       vector.reinit(pattern->partitioner);
     }
 
-    /// By what the tangent was multiplied.
+    /// Factor of the stored tangent.
     double
     factor() const
     {
@@ -54,7 +54,7 @@ namespace Ricochet
       return diagonal.size();
     }
 
-    /// An entry on the diagonal; deal.II's smoothers ask for it so.
+    /// An entry on the diagonal, in the form for deal.II's smoothers.
     float
     el(const dealii::types::global_dof_index                  i,
        [[maybe_unused]] const dealii::types::global_dof_index j) const
@@ -76,8 +76,8 @@ namespace Ricochet
     double                              scaling = 1.;
     VectorType                          diagonal;
     bool                                some_change = false;
-    // The functionals that act on others or are acted on, with unknowns as numbers
-    // of this rank; and the rows of those that act.
+    // The rows of the contact Jacobian that enter the tangent, with local numbers
+    // of unknowns, and the entries of C.
     std::vector<std::size_t>  functional_begin;
     std::vector<unsigned int> unknown;
     std::vector<float>        coefficient;

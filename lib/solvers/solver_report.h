@@ -8,8 +8,8 @@
 
 namespace Ricochet
 {
-  /// How the nonlinear systems of a step were solved, so that a run that has fallen back
-  /// shows it.
+  /// How the nonlinear systems of a step were solved, so that a run with fallbacks
+  /// shows them.
   struct SolverReport
   {
     /// Strategies and fallbacks. Their numbers are powers of two, so that a sum has
@@ -24,33 +24,35 @@ namespace Ricochet
       condensed = 4,
       /// The stage is condensed to contact, with a frozen tangent of the body.
       frozen_tangent = 8,
-      /// Fallback: the tangent of earlier steps did not serve, and was made anew within
-      /// the step.
+      /// Fallback: the tangent of earlier steps did not converge, and was renewed
+      /// within the step.
       tangent_renewed = 16,
-      /// Fallback: the iterations of a condensed stage began anew, from where they had
-      /// got stuck.
+      /// Fallback: the iterations of a condensed stage were restarted where they
+      /// stagnated.
       condensed_restarted = 32,
-      /// Fallback: the condensed stage was not solved, and the whole system took over.
+      /// Fallback: the condensed stage was not solved, and the whole system replaced
+      /// it.
       condensed_failed = 64,
       /// Fallback: an iterative linear solver did not converge, and the whole tangent was
       /// factored.
       iterative_failed = 128,
-      /// Fallback: Newton's method failed, and the stage began again from the last state.
+      /// Fallback: Newton's method failed, and the stage was restarted from the last
+      /// state.
       stage_repeated = 256
     };
 
     /// Sum of #Strategy.
     unsigned int strategies = 0;
-    /// Iterations of Newton's method: of a linear body that is condensed to contact the
-    /// inner ones, otherwise the outer ones.
+    /// Iterations of Newton's method: the inner ones of a linear body that is condensed
+    /// to contact, otherwise the outer ones.
     unsigned int newton_iterations = 0;
     /// Iterations with the residual of the whole system.
     unsigned int outer_iterations = 0;
     /// Iterations of condensed stages.
     unsigned int inner_iterations = 0;
-    /// Tangents at states of this step. Those of earlier steps that serve again, and those
-    /// that are made of a linear body's constant matrices, are none: so that the number
-    /// is the same in a run that was resumed.
+    /// Tangents at states of this step. Tangents of earlier steps that are used again,
+    /// and those from a linear body's constant matrices, do not count, so that the
+    /// number is the same in a resumed run.
     unsigned int n_tangents = 0;
 
     void
@@ -67,20 +69,20 @@ namespace Ricochet
     static const std::vector<std::pair<unsigned int, std::string>> &
     names();
 
-    /// Whether @p strategies have a fallback.
+    /// Whether @p strategies include a fallback.
     static bool
     has_fallback(const unsigned int strategies)
     {
       return strategies >= tangent_renewed;
     }
 
-    /// The strategies that are no fallbacks in short, and an exclamation mark if there is
-    /// one: "frozen tangent+direct!".
+    /// Abbreviation of the strategies that are no fallbacks, with an exclamation mark
+    /// if there is a fallback: "frozen tangent+direct!".
     static std::string
     short_text(const unsigned int strategies);
 
-    /// How many of the @p steps (their strategies) have each strategy, in words; empty
-    /// where there is none.
+    /// Number of the @p steps (their strategies) with each strategy, in words; empty
+    /// if there are none.
     static std::string
     summary(const std::vector<unsigned int> &steps);
   };

@@ -25,8 +25,8 @@ namespace Ricochet
       }
     };
 
-    /// The columns of a supernodal factor: supernodes are dense matrices of columns with
-    /// the same rows below them.
+    /// The columns of a supernodal factor: supernodes are dense matrices of columns
+    /// with the same rows below the diagonal.
     struct ColumnsOfSupernodes
     {
       explicit ColumnsOfSupernodes(const cholmod_factor &factor)
@@ -50,8 +50,8 @@ namespace Ricochet
       std::vector<int> begin, first_value, n_entries;
     };
 
-    /// The factors of CHOLMOD in the order of solves; null where they are not of the kind
-    /// that is asked for.
+    /// The factors of CHOLMOD in the order of solves; null if they are not of the
+    /// requested kind.
     template <typename Value>
     std::unique_ptr<TriangularSolves>
     make_solves(const cholmod_factor &factor, const double *sign)
@@ -91,8 +91,8 @@ namespace Ricochet
 
   struct SparseCholesky::Workshop
   {
-    /// Where an entry of the lower triangle and its mirror image are among the values of
-    /// the matrix.
+    /// Indices of an entry of the lower triangle and of its mirror image among the
+    /// values of the matrix.
     struct Place
     {
       int row, column, below, above;
@@ -101,13 +101,13 @@ namespace Ricochet
     void
     find_pattern(const MatrixEntries &matrix);
 
-    /// Fill #symmetric, with other signs in rows with a negative entry on the diagonal, if
-    /// so wanted. @return whether the matrix is symmetric.
+    /// Fill #symmetric, with the opposite sign in rows with a negative entry on the
+    /// diagonal, if requested. @return whether the matrix is symmetric.
     bool
     fill(const double *values, const bool with_signs);
 
     /// @param prefer_blocks a supernodal factor of all but small matrices. Without it,
-    /// where it is made faster: never in 2D, always in 3D.
+    /// whichever is computed faster: never in 2D, always in 3D.
     void
     analyse(const bool prefer_blocks)
     {
@@ -133,13 +133,13 @@ namespace Ricochet
   SparseCholesky::Workshop::find_pattern(const MatrixEntries &matrix)
   {
     const int n = matrix.n_rows();
-    // Columns have an order of their own, even on one rank.
+    // Columns may have another order than rows, even on one rank.
     std::vector<int> unknown_of(matrix.n_columns());
     for (unsigned int c = 0; c < unknown_of.size(); ++c)
       unknown_of[c] = matrix.row_number(matrix.column_index(c));
 
-    // Entries on and below the diagonal, by columns. Rows rise in each of them, for they
-    // are passed in their order.
+    // Entries on and below the diagonal, by columns. Rows are in ascending order in
+    // each of them, as they are visited in order.
     symmetric.resize(n, n);
     int *begin = symmetric.outerIndexPtr();
     std::fill_n(begin, n + 1, 0);
@@ -190,7 +190,7 @@ namespace Ricochet
   bool
   SparseCholesky::Workshop::fill(const double *values, const bool with_signs)
   {
-    // Rows of multipliers may be negative definite.
+    // Rows of multipliers may form a negative definite block.
     for (std::size_t i = 0; i < sign.size(); ++i)
       sign[i] = with_signs && values[diagonal[i]] < 0. ? -1. : 1.;
     double *entry        = symmetric.valuePtr();
@@ -207,7 +207,7 @@ namespace Ricochet
         couples_signs = couples_signs ||
           (sign[place.row] != sign[place.column] &&
            (below != 0. || above != 0.));
-        // Round-off is no asymmetry.
+        // The tolerance excludes round-off.
         is_symmetric = is_symmetric &&
           std::abs(below - above) <= 1e-10 *
               std::sqrt(std::abs(values[diagonal[place.row]] *
@@ -240,7 +240,7 @@ namespace Ricochet
         workshop = std::make_unique<Workshop>();
         workshop->find_pattern(entries);
       }
-    // Of a body that is indefinite, unknowns of both signs are coupled.
+    // Unknowns of both signs are coupled in the matrix of an indefinite body.
     bool is_symmetric = workshop->fill(entries.value, true);
     if (workshop->couples_signs)
       is_symmetric = workshop->fill(entries.value, false);
@@ -252,7 +252,7 @@ namespace Ricochet
     cholesky.factorize(workshop->symmetric);
     if (cholesky.info() != Eigen::Success && kind == Kind::exact)
       {
-        // It may be indefinite.
+        // LDL^T, since the matrix may be indefinite.
         workshop->analyse(false);
         cholesky.factorize(workshop->symmetric);
       }
@@ -261,7 +261,7 @@ namespace Ricochet
     solves = kind == Kind::exact
       ? make_solves<double>(cholesky.factor(), workshop->sign.data())
       : make_solves<float>(cholesky.factor(), workshop->sign.data());
-    // The matrix of a linear body is factored once: memory for it is not kept.
+    // The matrix of a linear body is factored once: its memory is freed.
     if (kind == Kind::exact)
       workshop.reset();
     return solves != nullptr;

@@ -11,18 +11,19 @@ namespace Ricochet
 {
   /**
    * Cholesky factorisation by CHOLMOD of the matrix of a body, all of whose rows are on
-   * this rank. It is LDL^T in 2D, which stands an indefinite matrix, and the supernodal
+   * this rank. LDL^T in 2D, which allows for an indefinite matrix, and the supernodal
    * LL^T where that is faster.
    *
-   * Multipliers may have a negative matrix of their own that couples to nothing else.
+   * Multipliers may have a negative definite block of their own that is not coupled
+   * to others.
    */
   class SparseCholesky
   {
   public:
     enum class Kind
     {
-      /// A symmetric matrix in double precision, which is factored once and solved with
-      /// often.
+      /// A symmetric matrix in double precision, which is factored once for many
+      /// solutions.
       exact,
       /// The symmetric part of a matrix in single precision, which is factored every few
       /// steps.
@@ -35,9 +36,9 @@ namespace Ricochet
 
     /**
      * Factor @p matrix, whose pattern is the same each time. The result does not depend
-     * on what came before.
-     * @return whether it could be done; if not, the matrix is singular, or not what this
-     * factorisation is for.
+     * on the history.
+     * @return whether it succeeded; if not, the matrix is singular, or not of the
+     * required kind.
      */
     bool
     factorise(const Matrix &matrix);
@@ -50,7 +51,7 @@ namespace Ricochet
     }
 
   private:
-    /// The matrix as CHOLMOD takes it, and CHOLMOD's factor.
+    /// The matrix in CHOLMOD's form, and CHOLMOD's factor.
     struct Workshop;
 
     const Kind                        kind;

@@ -12,16 +12,17 @@
 
 namespace Ricochet
 {
-  /// How contact enters tangents, the same in all of a run.
+  /// Contact sparsity and properties of contact in tangents, constant in a run.
   struct ContactStructure
   {
     /// All rows that contact may change, the same list on all ranks, in the
     /// order in which contact is expected to spread.
     std::vector<dealii::types::global_dof_index> rows;
 
-    /// The functionals through which contact acts, and the order in which it is
-    /// expected to spread; none if only the rows are known. Those of a contact that
-    /// takes rows are orthonormal.
+    /// The rows of the contact Jacobian H (functionals), and the order in which
+    /// contact is expected to spread over them; none if only the changed rows of
+    /// the tangent are known. Those of a contact that eliminates rows are
+    /// orthonormal.
     struct ActsThrough
     {
       Functionals         functionals;
@@ -31,15 +32,15 @@ namespace Ricochet
 
     /// The part of contact in the tangent is symmetric.
     bool is_symmetric = false;
-    /// It brings unknowns of its own.
+    /// It has unknowns of its own.
     bool has_multipliers = false;
-    /// It couples unknowns that the body does not couple, and not always the same.
+    /// It couples unknowns that the body does not couple, with a variable pattern.
     bool couplings_change = false;
-    /// It takes rows of the body out, and puts its own there.
+    /// It eliminates rows of the body and replaces them by its own.
     bool eliminates_rows = false;
   };
 
-  /// What names the body's part of a tangent: the weights of its terms.
+  /// Cache key of the body's part of a tangent: the weights of its terms.
   struct BodyKey
   {
     double inertia;
@@ -54,33 +55,34 @@ namespace Ricochet
     }
   };
 
-  /// The matrix of one Newton iteration: how it is made, and the names of what
-  /// does not change with every state.
+  /// The matrix of one Newton iteration: its assembly, and the cache keys of
+  /// the parts that do not change with every state.
   struct Tangent
   {
-    /// None if the body is not linear.
+    /// Cache key of the body; none if the body is not linear.
     std::optional<BodyKey> body;
-    /// State of contact; none if the tangent changes with every state.
+    /// Cache key of contact (active-set hash); none if the tangent changes with
+    /// every state.
     std::optional<std::uint64_t> contact;
 
-    /// Another number for another sparsity pattern.
+    /// A number that changes with the sparsity pattern.
     std::uint64_t pattern = 0;
-    /// What makes its rows those of forces: 1 for displacements, a stiffness for
+    /// Scaling of rows to forces: 1 for displacements, a stiffness for
     /// multipliers.
     const Vector *row_scaling = nullptr;
 
     /// Overwrite a matrix with the body's part.
     std::function<void(Matrix &)> assemble_body;
-    /// The body's part as a sum, if it is linear, as if no unknown were clamped.
+    /// The body's part as a sum, if it is linear, without clamping.
     MatrixSum body_terms;
     /// Add contact.
     std::function<void(Matrix &)> add_contact;
-    /// Add the derivatives of open contact alone.
+    /// Add the derivatives of open contact alone (contact-free tangent).
     std::function<void(Matrix &)> add_open_contact;
-    /// The difference of that and add_contact: the rows of matrices C and E between
-    /// the functionals f_i that this rank knows, for the sum of C_ij f_i f_j^T and of what
-    /// other ranks add, and, where contact takes rows, of E_ij f_i f_j^T K with the
-    /// body's matrix K.
+    /// The difference of add_contact and add_open_contact: this rank's rows of matrices
+    /// C and E between the rows h_i of the contact Jacobian, for the sum over all ranks
+    /// of C_ij h_i h_j^T and, where contact eliminates rows, of E_ij h_i h_j^T K with
+    /// the body's matrix K.
     std::function<void(std::vector<FunctionalRow> &,
                        std::vector<FunctionalRow> &)>
       differentiate_contact;

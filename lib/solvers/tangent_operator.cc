@@ -27,7 +27,7 @@ namespace Ricochet
   {
     if (some_clamped)
       free.reinit(owned, communicator);
-    // The functionals of all ranks stand one behind the other.
+    // Rows of all ranks, one rank after the other.
     const IndexSet owned_rows = Utilities::MPI::create_ascending_partitioning(
       communicator,
       functionals.size())[Utilities::MPI::this_mpi_process(communicator)];
@@ -58,7 +58,7 @@ namespace Ricochet
   TangentOperator::set_terms(const MatrixSum &terms)
   {
     sum = terms;
-    // Stiffness and mass, for example, take one sweep.
+    // One sweep for both, for example stiffness and mass.
     const auto find = [&](const bool isotropic) {
       return std::find_if(sum.begin(),
                           sum.end(),
@@ -130,7 +130,7 @@ namespace Ricochet
     if (some_change)
       {
         functional_matrix.vmult(observed, *argument);
-        // Functionals act on those of the same point, so of the same rank.
+        // Rows act on rows of the same point, so of the same rank.
         const double *value  = local_values(observed);
         double       *action = local_values(acting);
         for (unsigned int f = 0; f < rows.size(); ++f)

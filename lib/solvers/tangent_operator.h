@@ -14,29 +14,31 @@
 namespace Ricochet
 {
   /**
-   * A tangent that is not one matrix but a sum: of matrices, and of what
-   * contact does through its functionals,
+   * A tangent as a sum, not one matrix: of matrices, and of contact by the rows
+   * of its Jacobian,
    *
    *     T = sum_k w_k A_k + F^T C F,
    *
-   * with a functional in each row of F; in the rows and columns of clamped
-   * unknowns it is the identity. A large body has no room for another matrix, and
-   * a new state of contact costs no more than its active points.
+   * with a row of the contact Jacobian in each row of F; in the rows and columns
+   * of clamped unknowns T is the identity. A large body leaves no memory for
+   * another matrix, and the cost of a new state of contact is that of its active
+   * points.
    */
   class TangentOperator : public dealii::Subscriptor
   {
   public:
     /**
      * @param owned unknowns of this rank.
-     * @param clamped those of them that are clamped.
-     * @param functionals of this rank; they may have entries of other ranks.
+     * @param clamped clamped ones of these.
+     * @param rows of the contact Jacobian of this rank; they may have entries
+     * of other ranks.
      */
     TangentOperator(const dealii::IndexSet &owned,
                     const dealii::IndexSet &clamped,
                     const Functionals      &functionals,
                     const MPI_Comm          communicator);
 
-    /// The matrices A_k, which must stay where they are, with their values: the
+    /// Set the matrices A_k, which must keep their addresses and values: the
     /// diagonal of their sum is kept. Collective.
     void
     set_terms(const MatrixSum &terms);
@@ -47,7 +49,8 @@ namespace Ricochet
       return sum;
     }
 
-    /// The rows of C, one for each functional of this rank. Collective.
+    /// Set the rows of C, one for each of this rank's functionals().
+    /// Collective.
     void
     set_change(std::vector<FunctionalRow> new_rows);
 
@@ -57,14 +60,14 @@ namespace Ricochet
       return rows;
     }
 
-    /// Those of this rank.
+    /// The rows of the contact Jacobian of this rank.
     const Functionals &
     functionals() const
     {
       return my_functionals;
     }
 
-    /// Those of this rank.
+    /// The clamped unknowns of this rank.
     const dealii::IndexSet &
     clamped_unknowns() const
     {
@@ -92,7 +95,7 @@ namespace Ricochet
       return owned.size();
     }
 
-    /// Of all ranks that own unknowns.
+    /// Communicator of all ranks that own unknowns.
     const MPI_Comm communicator;
 
   private:
@@ -101,11 +104,12 @@ namespace Ricochet
     const Functionals      my_functionals;
     bool                   some_clamped = false;
     MatrixSum              sum;
-    // Two of the terms that are taken together; none if there is no second.
+    // Two of the terms that are multiplied in one sweep; the second one is the
+    // number of terms if there is no such pair.
     std::size_t                block_term = 0, isotropic_term = 0;
     std::vector<FunctionalRow> rows;
     bool                       some_change = false;
-    // F, with a row for each functional of all ranks.
+    // F, with the rows of all ranks.
     Matrix functional_matrix;
     Vector body_diagonal;
     // Work space.

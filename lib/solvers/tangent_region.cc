@@ -15,7 +15,8 @@ namespace Ricochet
 
   namespace
   {
-    /// Of all unknowns. Twice as many save few iterations more, and take longer.
+    /// Size of the region relative to all unknowns. A region of twice the size
+    /// saves few iterations, and takes longer.
     constexpr double region_share = .05;
 
     constexpr unsigned int not_there = numbers::invalid_unsigned_int;
@@ -27,7 +28,7 @@ namespace Ricochet
       double       value;
     };
 
-    /// Place of each unknown in the ascending @p region.
+    /// Index of each unknown in the ascending @p region.
     class Places
     {
     public:
@@ -74,7 +75,8 @@ namespace Ricochet
       return unknowns;
     }
 
-    /// Call @p action with each unknown of a functional, and its coefficient.
+    /// Call @p action with each unknown of a row of the contact Jacobian, and
+    /// its coefficient.
     template <typename Action>
     void
     for_each_unknown(const Functionals &functionals,
@@ -90,7 +92,7 @@ namespace Ricochet
     /// The derivatives C and E of contact, by row.
     using ContactRows = std::array<std::vector<FunctionalRow>, 2>;
 
-    /// Add the unknowns that @p contact couples with those of the @p region.
+    /// Add the unknowns coupled by @p contact with those of the @p region.
     void
     add_contact(const ContactRows &contact,
                 const Functionals &functionals,
@@ -169,8 +171,8 @@ namespace Ricochet
     Eigen::KLU<Eigen::SparseMatrix<double>> factors;
     Eigen::Index                            n = 0;
 
-    /// An unknown in the region: its place there and here, and what makes its
-    /// equation one of forces.
+    /// An unknown in the region: its index there and on this rank, and the
+    /// scaling of its equation to forces.
     struct Own
     {
       unsigned int place, local;
@@ -178,7 +180,7 @@ namespace Ricochet
     };
     std::vector<Own> own;
 
-    /// K - T: rows here, columns by place.
+    /// K - T: rows by local number, columns by index in the region.
     std::vector<Entry> difference;
   };
 

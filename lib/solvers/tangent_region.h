@@ -13,23 +13,22 @@
 namespace Ricochet
 {
   /**
-   * The part of a body where its tangent K differs most from another tangent T, with
-   * which systems are solved in its place. What an impact changes within a step is near
-   * where the bodies touch, and so is what T leaves of a residual; there a small system
-   * with K tells T what it does not know.
+   * The part of a body where its tangent K differs most from a frozen tangent T. The
+   * changes of an impact within a step are near the contact, and so are the residuals
+   * that T leaves; a small system with K in that region corrects them.
    *
-   * With the displacements d of the region R that K and the derivatives C and E of contact
-   * (see Tangent::differentiate_contact) find for a residual r, while all
-   * else is held,
+   * With the displacements d of the region R determined by K and the derivatives C and
+   * E of contact (see Tangent::differentiate_contact) for a residual r, with all other
+   * displacements fixed,
    *
    *     (K + E K + C)_RR d = -r_R,
    *
-   * and a step of T for what they leave over, both steps together are one step of T for
-   * the force
+   * and a step of T for the remaining residual, both steps together are one step of T
+   * for the force
    *
    *     r + (K - T) d,
    *
-   * as contact takes its rows out of what that leaves over.
+   * as contact eliminates its rows from the remaining residual.
    */
   class TangentRegion
   {
@@ -38,13 +37,14 @@ namespace Ricochet
     ~TangentRegion();
 
     /**
-     * Look for the region anew: the unknowns with a twentieth of all entries of @p
-     * residual, the largest ones, and what contact couples with them. There is none if the
+     * Choose the region: the unknowns with the largest twentieth of the entries of
+     * @p residual, and those coupled to them by contact. The region is empty if the
      * small system is singular.
      *
-     * @param residual of the rows of forces (N), after a few steps of T.
-     * @param contact has C and E.
-     * @param kept has T.
+     * @param residual residual in the rows of forces (N), after a few steps of
+     * T.
+     * @param contact provides C and E.
+     * @param kept provides T.
      * @param add_difference adds K - T to a matrix with the pattern of T: the rows and the
      * columns of these unknowns at least.
      */
@@ -61,7 +61,7 @@ namespace Ricochet
     bool
     exists() const;
 
-    /// Make r + (K - T) d of the entries r of a @p force (N). @pre exists().
+    /// Replace the entries r of a @p force (N) by r + (K - T) d. @pre exists().
     void
     complete(std::vector<double> &force) const;
 

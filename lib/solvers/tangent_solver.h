@@ -7,11 +7,12 @@
 
 namespace Ricochet
 {
-  /// One way to solve with the tangents of Newton's method; LinearSolver chooses.
+  /// Interface of solvers for the tangents of Newton's method; LinearSolver
+  /// chooses.
   class TangentSolver
   {
   public:
-    /// What was spent so far.
+    /// Costs so far.
     struct Costs
     {
       /// Factorisations, or set-ups of multigrid.
@@ -30,8 +31,8 @@ namespace Ricochet
     virtual SolverReport::Strategy
     strategy() const = 0;
 
-    /// See LinearSolver::solve(). @return whether @p solution solves; otherwise
-    /// another way has to.
+    /// See LinearSolver::solve(). @return whether it succeeded; otherwise
+    /// another solver is needed.
     virtual bool
     solve(const Tangent &tangent,
           const Vector  &right_hand_side,

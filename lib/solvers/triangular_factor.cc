@@ -13,7 +13,7 @@ namespace Ricochet
 {
   namespace
   {
-    // Two or four at once, wherever they lie.
+    // Two or four values at once, without alignment.
     template <typename Value>
     using Pair __attribute__((vector_size(2 * sizeof(Value)),
                               aligned(sizeof(Value)),
@@ -49,12 +49,12 @@ namespace Ricochet
       return *reinterpret_cast<DoublePair *>(values);
     }
 
-    // Blocks are no wider than this, and no more of what they have is filled up with
-    // zeros: then wide blocks are worth it.
+    // Largest width of a block, and largest part of it that is filled up with zeros:
+    // below that, wider blocks are faster.
     constexpr int    largest_width = 8;
     constexpr double zeros         = .3;
 
-    /// Call @p action with @p width, known when it is compiled.
+    /// Call @p action with @p width as a compile-time constant.
     template <typename Action>
     inline void
     with_width(const int width, const Action &action)
@@ -89,7 +89,7 @@ namespace Ricochet
     double                          n_zeros = 0.;
     for (int first = 0; first < columns.n;)
       {
-        // With the same rows below, as sparse factorisations find them.
+        // Columns with the same rows below, as sparse factorisations find them.
         int end = first + 1;
         while (
           end < columns.n && end - first < largest_width &&
@@ -99,7 +99,8 @@ namespace Ricochet
                      columns.rows + columns.begin[end - 1] + 1))
           ++end;
 
-        // And those before, if all rows below them are here, too, and few are not.
+        // Merge with the block before, if its rows below include this block and
+        // few entries are missing.
         if (!ranges.empty())
           {
             auto &[last_first, last_end] = ranges.back();
@@ -158,8 +159,8 @@ namespace Ricochet
           {
             const bool has_second =
               k + 1 < n_below && below[k + 1] == below[k] + 1;
-            // The last row of a tree stands behind the one before it: what follows is
-            // another thread's, or nothing.
+            // The last row of a tree is paired with the one before it: the next row
+            // belongs to another thread, or does not exist.
             const bool is_second =
               !has_second && columns.n_entries[below[k]] == 1;
             first_rows.push_back(is_second ? below[k] - 1 : below[k]);
@@ -171,7 +172,7 @@ namespace Ricochet
       }
 
     values.assign(n_values, Value(0));
-    // Where in its block the first entry of a row is.
+    // Index of the first entry of a row in its block.
     std::vector<std::size_t> row_at(columns.n);
     for (Block &block : blocks)
       {
@@ -182,7 +183,7 @@ namespace Ricochet
             row_at[first_rows[k]]     = at;
             row_at[first_rows[k] + 1] = at + 1;
           }
-        // The row before the last one of a tree may be among them, too.
+        // The row before the last one of a tree may be among the pairs, too.
         for (int i = 0; i < width; ++i)
           row_at[block.first + i] = block.triangle + i * (i - 1) / 2;
         for (int c = 0; c < width; ++c)
@@ -287,7 +288,7 @@ namespace Ricochet
       block.width,
       [forward, seen = view(block, forward)](const auto width) {
         const auto [own, triangle, below, rows, rows_end] = seen;
-        // As it goes from the last block to the first, so in each of them.
+        // In descending order in each block, as are the blocks.
         const Value *value = below + 2 * width * (rows_end - rows);
         if constexpr (std::is_same_v<decltype(width), const int>)
           {
@@ -371,7 +372,7 @@ namespace Ricochet
   {
     constexpr unsigned int n_columns = TriangularSolves::n_columns;
 
-    /// The columns of a row.
+    /// Values of a row in all columns.
     using Row = Eigen::Matrix<double, n_columns, 1>;
   } // namespace
 
@@ -400,7 +401,7 @@ namespace Ricochet
         for (int c = 0; c < width; ++c, value += 2)
           for (int k = 0; k < 2; ++k)
             sums[k] += value[k] * own_at(c);
-        // A row that fills a pair up may be on no path.
+        // The row that completes a pair may be on no path.
         for (int k = 0; k < 2; ++k)
           if (double *const target = columns_of(*row + k))
             Eigen::Map<Row>(target) -= sums[k];
@@ -511,7 +512,7 @@ namespace Ricochet
       Eigen::Matrix<double, n_columns, n_columns, Eigen::RowMajor>;
     Products sum = Products::Zero();
     Columns  scaled;
-    // Rows that follow each other in both.
+    // Consecutive rows in both.
     const auto add_rows = [&](const double *left,
                               const double *right,
                               const int     first,

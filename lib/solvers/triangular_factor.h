@@ -12,17 +12,17 @@ namespace Ricochet
 {
   /**
    * Solutions with the factors of a symmetric matrix A = P^T L D L^T P, whole or in
-   * part. The forward solve of a sparse right-hand side is made of the few columns of L
-   * on the path of the elimination tree from its unknowns to the last one; entries of
-   * the inverse as seen by two sparse vectors are products of their forward solves.
+   * part. The forward solve of a sparse right-hand side needs the few columns of L on
+   * the path of the elimination tree from its unknowns to the last one; entries b_i^T
+   * A^{-1} b_j for sparse vectors are products of their forward solves.
    */
   class TriangularSolves
   {
   public:
     using Index = dealii::types::global_dof_index;
 
-    /// Columns of a ForwardColumns, one beside the other, so that L is read once for
-    /// all of them.
+    /// Number of columns of a ForwardColumns, stored side by side, so that L is read
+    /// once for all of them.
     static constexpr unsigned int n_columns = 16;
 
     /// Vectors L^{-1} P b of some sparse b: the blocks of L on their paths, ascending, and
@@ -44,7 +44,8 @@ namespace Ricochet
     forward(const double        *right_hand_side,
             std::vector<double> &forward) const = 0;
 
-    /// The same for the rows @p numbers (at most #n_columns) of a sparse matrix.
+    /// As above, for the rows @p numbers (at most #n_columns) of a sparse
+    /// matrix.
     virtual ForwardColumns
     forward(const Functionals               &rows,
             const std::vector<unsigned int> &numbers) const = 0;
@@ -57,14 +58,14 @@ namespace Ricochet
     virtual std::vector<int>
     region_of(const std::vector<Index> &unknowns) const = 0;
 
-    /// P^T L^{-T} D^{-1} @p forward in the blocks of @p region, which holds the paths of
-    /// all its members; elsewhere nothing of meaning. By place, see place_of().
+    /// P^T L^{-T} D^{-1} @p forward in the blocks of @p region, which includes the
+    /// paths of all its members; undefined elsewhere. By position, see place_of().
     virtual void
     backward(const std::vector<double> &forward,
              const std::vector<int>    &region,
              std::vector<double>       &solution) const = 0;
 
-    /// Place of an unknown in the order of the factors.
+    /// Position of an unknown in the order of the factors.
     virtual int
     place_of(const Index unknown) const = 0;
 
@@ -83,35 +84,35 @@ namespace Ricochet
   };
 
   /**
-   * The factors in the order in which solves pass through L, from one end to the other:
-   * it is memory that limits them.
+   * The factors in the order in which solves pass through L, from one end to the other,
+   * whose speed is limited by memory.
    *
-   * Columns of L with the same rows below them, or nearly so, make blocks, with zeros
-   * where a column has nothing. The rows below are stored in pairs of rows that follow
-   * each other, as those of a node do.
+   * Columns of L with the same rows below them, or nearly so, form blocks, with zeros
+   * where a column has no entry. The rows below are stored in pairs of consecutive
+   * rows, such as those of a node.
    *
-   * @tparam Value what L is stored in. In single precision (float) the factors are
-   * those of a matrix that differs from A by as much; for that one, all is done in
-   * double precision.
+   * @tparam Value type in which L is stored. In single precision (float) the
+   * factors are those of a matrix that differs from A by the rounding; for that
+   * matrix, all operations are in double precision.
    */
   template <typename Value>
   class TriangularFactor : public TriangularSolves
   {
   public:
-    /// Columns as sparse factorisations leave them.
+    /// Columns in the form of sparse factorisations.
     struct Columns
     {
       int n;
-      /// Unknown of each place.
+      /// Unknown at each position.
       const int *order;
-      /// Where columns begin among rows and among values, and how many entries they
-      /// have, the one on the diagonal first, rows rising.
+      /// Beginning of columns among rows and among values, and their numbers of
+      /// entries, the one on the diagonal first, rows in ascending order.
       const int    *begin, *first_value, *n_entries, *rows;
       const double *values;
       /// The diagonal is that of L; otherwise it is D, and that of L is 1.
       bool diagonal_is_of_l;
-      /// -1 for unknowns whose rows have been multiplied by that, which couple to no
-      /// others than their like; otherwise 1.
+      /// Sign of unknowns: -1 where rows have been multiplied by -1, which couple
+      /// only to each other; otherwise 1.
       const double *sign;
     };
 
@@ -164,11 +165,11 @@ namespace Ricochet
       int first, width;
       /// Pairs of rows below among #first_rows.
       std::size_t begin, end;
-      /// Of the strict lower triangle in #values, row by row, and of the pairs of rows
-      /// below: of each the two values of one column behind those of the other. A row
-      /// that is not there has zeros.
+      /// Beginning of the strict lower triangle in #values, row by row, and of the
+      /// pairs of rows below: in each pair the two values of one column follow those
+      /// of the other. A row that is missing has zeros.
       std::size_t triangle, below;
-      /// The one of the first row below; -1: none.
+      /// The block of the first row below; -1 for none.
       int parent;
     };
 
@@ -176,8 +177,8 @@ namespace Ricochet
     static std::vector<std::array<int, 2>>
     find_blocks(const Columns &columns);
 
-    /// Where the values of a block of a forward solve are, and what #values and
-    /// #first_rows have for it.
+    /// Values of a block in a forward solve, and its parts of #values and
+    /// #first_rows.
     struct View
     {
       double      *own;
@@ -195,12 +196,12 @@ namespace Ricochet
               first_rows.data() + block.end};
     }
 
-    /// Take @p block out of @p forward.
+    /// Eliminate @p block from @p forward.
     void
     eliminate(const Block &block, double *forward) const;
 
-    /// The same for the columns @p own of a block.
-    /// @param columns_of a function that returns the columns of a row, null for one that is
+    /// As above, for the columns @p own of a block.
+    /// @param columns_of a function that returns the columns of a row, null for a row
     /// on no path.
     template <typename ColumnsOf>
     void
@@ -208,31 +209,32 @@ namespace Ricochet
                       double          *own,
                       const ColumnsOf &columns_of) const;
 
-    /// Take what is known below it out of @p block of @p forward, and solve.
+    /// Subtract the known values below @p block from it in @p forward, and
+    /// solve.
     void
     substitute(const Block &block, double *forward) const;
 
-    /// Add @p block and those after it to @p region, if they are not in it.
+    /// Add @p block and those after it to @p region, if they are missing.
     void
     mark(int block, std::vector<int> &region) const;
 
-    /// Put @p region in order, and unmark it.
+    /// Sort @p region, and unmark it.
     void
     finish(std::vector<int> &region) const;
 
-    /// Call @p action(begin, end) with blocks of trees of their own, on several threads.
+    /// Call @p action(begin, end) with blocks of independent trees, on several threads.
     template <typename Action>
     void
     for_each_part(const Action &action) const;
 
-    /// Of block @p b, or the end of all.
+    /// First position of block @p b, or the end of all.
     int
     first_place(const unsigned int b) const
     {
       return b < blocks.size() ? blocks[b].first : n();
     }
 
-    // Of each unknown, and the other way round.
+    // Position of each unknown, and unknown at each position.
     std::vector<int>   place, unknown;
     std::vector<int>   block_of;
     std::vector<Block> blocks;
@@ -240,8 +242,8 @@ namespace Ricochet
     std::vector<Value> values;
     // 1 / D
     std::vector<double> inverse_diagonal;
-    // No column before a block of #trees has rows in it or behind it; and how many values
-    // there are before it. The last one is the end.
+    // First blocks of independent trees, with no earlier column that has rows in or
+    // behind them, and the number of values before each. The last one is the end.
     std::vector<unsigned int> trees;
     std::vector<double>       values_before;
     // Work space: zero between calls, and -1 between calls.

@@ -11,37 +11,38 @@
 
 namespace Ricochet
 {
-  /// Unknowns that contact couples beyond what the body's matrices couple, and that
-  /// may change in the course of a run.
+  /// Contact sparsity beyond the pattern of the body's matrices, which may change
+  /// during a run.
   struct Couplings
   {
-    /// The unknowns of each list are coupled with each other. Lists of this rank;
+    /// Lists of unknowns that are coupled with each other. Lists of this rank;
     /// the unknowns may be of others.
     std::vector<std::vector<dealii::types::global_dof_index>> lists;
-    /// Another number whenever the lists of any rank have changed.
+    /// A number that changes with the lists of any rank.
     std::uint64_t version = 0;
   };
 
-  /// The sparsity pattern of bodies and of what contact couples, and a matrix of
-  /// the bodies put into it.
+  /// The extended sparsity pattern of bodies and contact, and the copy of the
+  /// bodies' matrix into it.
   class UnitedPattern
   {
   public:
-    /// Unite the pattern of @p body with @p couplings, unless it is done already.
+    /// Unite the pattern of @p body with @p couplings, unless it is up to date.
     /// Collective.
     void
     update(const dealii::TrilinosWrappers::SparsityPattern &body,
            const Couplings                                 &couplings);
 
-    /// Fill @p matrix, which is empty or on the united pattern, with the values of
-    /// @p body, a matrix on the body's pattern. Collective if it is empty.
+    /// Fill @p matrix, which is empty or on the extended pattern, with the values
+    /// of @p body, a matrix on the body's pattern. Collective if it is empty.
     void
     embed(const Matrix &body, Matrix &matrix) const;
 
   private:
     std::uint64_t                             version = 0;
     dealii::TrilinosWrappers::SparsityPattern united;
-    // Where each entry of the body's matrix lies in the united one, on this rank.
+    // Index of each entry of the body's matrix in the extended pattern, on this
+    // rank.
     std::vector<int> places;
   };
 } // namespace Ricochet
