@@ -41,13 +41,14 @@ namespace Ricochet
     data.output_period      = time_step;
     data.relative_tolerance = relative_tolerance;
     data.absolute_tolerance = absolute_tolerance;
-    // Higher orders see less of the kinks of the force in their error estimate.
+    // Error estimates of higher order are less sensitive to the kinks of the
+    // force.
     data.maximum_order = 4;
     SUNDIALS::ARKode<BlockVector> integrator(data);
 
-    // SUNDIALS would stop after 500 steps, which tight tolerances need within one of
-    // ours. The message of a failure is kept instead of printed; from SUNDIALS 7 on
-    // that would need a context that deal.II does not give away.
+    // SUNDIALS would stop after 500 steps, and tight tolerances need more within one
+    // of ours. The message of a failure is kept instead of printed; from SUNDIALS 7
+    // on that would need a context to which deal.II gives no access.
     std::string failure;
     integrator.custom_setup = [&failure](void *memory) {
       ARKStepSetMaxNumSteps(memory, 1000000);
@@ -63,8 +64,9 @@ namespace Ricochet
         &failure);
 #endif
     };
-    // deal.II looks at SUNDIALS' return codes in debug builds only, and would go on
-    // for ever: an integration that has not come to the end has failed.
+    // deal.II checks SUNDIALS' return codes in debug builds only, and would
+    // otherwise repeat the call for ever: an integration that has not reached the
+    // end has failed.
     integrator.solver_should_restart = [&](const double time, BlockVector &) {
       if (data.final_time - time > 1e-8 * time_step)
         throw NewtonFailure(
@@ -116,7 +118,8 @@ namespace Ricochet
     report.contact_work =
       system.contact.potential(new_state.solution, new_state.time) -
       system.contact.potential(old_state.solution, old_state.time);
-    // The trapezoidal rule is exact for the loads that exist: constant ones.
+    // The trapezoidal rule is exact for the available loads, which are
+    // constant.
     Vector mean_load(force), new_load(force);
     system.external_load(old_state.time, mean_load);
     system.external_load(new_state.time, new_load);

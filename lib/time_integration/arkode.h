@@ -12,10 +12,10 @@ namespace Ricochet
    * are Lipschitz differential equations (paper C, (11), and so (15)), so that an
    * independent code can check the hand-written schemes.
    *
-   * It starts afresh in each step of the output, so that a run that is resumed
-   * gives the same numbers. Its work against contact is taken from the
-   * potential of the law; what is then left of the balance is the integration
-   * error.
+   * The integration restarts in each step of the output, so that a resumed run
+   * gives the same numbers. The work against contact is taken from the
+   * potential of the law; the remaining error of the balance is that of the
+   * integration.
    */
   class ARKode : public TimeScheme
   {

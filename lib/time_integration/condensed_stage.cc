@@ -46,8 +46,8 @@ namespace Ricochet
   void
   CondensedStage::look_around(const std::vector<double> &coefficients)
   {
-    // Points far from contact are left as the guess has them, until contact comes
-    // near. The residual of the whole stage tells if they did matter.
+    // Points far from contact keep their values at the guess, until contact comes
+    // near. The residual of the whole stage shows if they were needed.
     const auto        last      = std::find_if(coefficients.rbegin(),
                                    coefficients.rend(),
                                    [](const double z) { return z != 0.; });
@@ -154,8 +154,8 @@ namespace Ricochet
                                const bool    may_reuse)
   {
     Unknowns rest = read(right_hand_side);
-    // Where Newton's method converges fast, its dense system costs more than the one
-    // or two iterations that another one would save.
+    // Reuse of the dense system where Newton's method converges fast: a new one
+    // costs more than the one or two iterations that it would save.
     const std::uint64_t active_set = contact.active_set().hash;
     if (!may_reuse || tangent_active_set != active_set)
       {
@@ -204,11 +204,12 @@ namespace Ricochet
       [this]() { return body_force_scale + contact_force_scale; },
       [this, sufficient]() { return problem.round_off() + sufficient; },
       nullptr};
-    // A line search may get stuck where points pass from facet to facet, and full steps
-    // may lead far away. Iterations cost little here.
+    // A line search may stagnate where points pass from facet to facet, and full steps
+    // may diverge. Iterations are cheap here.
     constexpr unsigned int n_attempts = 8;
     const auto             remember   = [&]() {
-      // Where an attempt begins, one before ended.
+      // The initial iterate of a later attempt is the last one of the attempt
+      // before.
       const auto &latest = newton.iterations();
       report.inner_iterations += latest.empty() ? 0 : latest.size() - 1;
       history.insert(history.end(),
@@ -227,22 +228,22 @@ namespace Ricochet
       catch (const NewtonFailure &)
         {
           remember();
-          // What fails at once will do so again.
+          // An immediate failure would repeat itself.
           if (attempt == n_attempts || newton.iterations().size() < 3 ||
               !std::isfinite(newton.iterations().back().relative_residual))
             throw;
           report.add(SolverReport::condensed_restarted);
-          // Iterates behind the one that is gone back to tell nothing.
+          // Iterates after the one that is restored do not indicate a cycle.
           const unsigned int end = newton.end_iteration();
           if (end + 1 < newton.iterations().size())
             contact.forget_iterates();
-          // Full steps may lead on, unless they led nowhere, or shortened ones are about
-          // to arrive.
+          // Full steps for the next attempt, unless they led nowhere, or shortened ones
+          // are about to converge.
           line_search_at_once = end == 0 || newton.was_on_its_way();
         }
 
     Unknowns result = read(unknowns);
-    // Without a step the guess is the solution, to the last digit.
+    // The guess is the solution to the last digit if there was no step.
     if (result.share == 0.)
       return;
     for (double &coefficient : result.coefficients)

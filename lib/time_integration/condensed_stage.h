@@ -14,47 +14,50 @@
 namespace Ricochet
 {
   /**
-   * The nonlinear system of one stage of a linear body, condensed to the functionals
-   * through which contact acts. With the residual R = K (x - x_0) + f z(f x) all
-   * iterates of Newton's method from a guess x_g are
+   * The nonlinear system of one stage of a linear body, condensed to the rows of the
+   * contact Jacobian H. With the residual R = K (x - x_0) + H^T z(H x) all iterates
+   * of Newton's method from a guess x_g are
    *
    *     x = x_g + s (x_0 - x_g) - K^{-1} f z,
    *
-   * where s = 1 after the first full step; and where contact takes rows and puts others
-   * there, it goes by what the residual without contact leaves over along the functionals,
-   * f ((1 - s) R(x_g) - f z).
+   * where s = 1 after the first full step. Contact that eliminates rows and replaces
+   * them depends on the residual without contact along the rows of H, too, f ((1 - s)
+   * R(x_g) - f z).
    *
-   * So its unknowns are the coefficients z and s: with full steps it makes the same
-   * iterates as NewtonSolver with the whole system, but for round-off, and the body is
-   * solved for once or twice in all. Where steps have to be shortened, it may fail and the
-   * whole system not: norms are the same, but relative to the forces of the body at the guess.
+   * So the unknowns are the coefficients z and s: with full steps the iterates are
+   * those of NewtonSolver with the whole system, except for round-off, and the body is
+   * solved for once or twice in all. Where steps have to be shortened, it may fail
+   * where the whole system does not: norms are the same, but relative to the forces of
+   * the body at the guess.
    */
   class CondensedStage
   {
   public:
-    /// Vectors that serve in all stages: to allocate them takes longer than to fill them.
+    /// Vectors that are shared by all stages: to allocate them takes longer than to
+    /// fill them.
     struct WorkSpace
     {
       Vector                     open_residual, work;
       std::vector<FunctionalRow> change, excess_change;
     };
 
-    /// How forces of contact count in the norms of the whole stage.
+    /// Weights of contact forces in the norms of the whole stage.
     struct ContactForces
     {
-      /// Weight in the residual (1), and what contact has of the problem's force scale at
-      /// the guess (N).
+      /// Weight in the residual (1), and contribution of contact to the problem's force
+      /// scale at the guess (N).
       double weight, scale;
-      /// ContactOperator::row_scaling(); null where all of it is 1.
+      /// ContactOperator::row_scaling(); null if all entries are 1.
       const Vector *row_scaling;
     };
 
     /**
      * @param problem the whole stage.
-     * @param system of its body.
-     * @param contact has begun the stage, and looked at the guess last.
-     * @param residual that of the whole stage there.
-     * @param space is not used by another one as long as this one is.
+     * @param system the contact Schur complement of its body.
+     * @param contact has begun the stage; its last evaluation is that of the
+     * guess.
+     * @param residual residual of the whole stage there.
+     * @param space must not be used by another stage at the same time.
      */
     CondensedStage(const NewtonSolver::Problem &problem,
                    ContactSchurComplement      &system,
@@ -64,13 +67,14 @@ namespace Ricochet
                    WorkSpace                   &space);
 
     /**
-     * Solve with @p newton, from the guess @p solution to @p solution; where it gets
-     * stuck or lost, it begins anew a few times (NewtonSolver::end_iteration()).
+     * Solve with @p newton, from the guess @p solution to @p solution; if it
+     * stagnates or diverges, it is restarted a few times
+     * (NewtonSolver::end_iteration()).
      *
      * @param report gets the iterations, also where it fails.
-     * @param sufficient a residual (N) that will do, besides what Newton's method
-     * tolerates.
-     * @throws NewtonFailure; the guess remains.
+     * @param sufficient a residual (N) that is accepted, in addition to Newton's
+     * tolerance.
+     * @throws NewtonFailure; @p solution is unchanged.
      */
     void
     solve(NewtonSolver &newton,
@@ -78,8 +82,8 @@ namespace Ricochet
           SolverReport &report,
           const double  sufficient = 0.);
 
-    /// Those of solve(), also where it failed: all attempts one behind the other, without
-    /// the iterate of an earlier one that an attempt begins at.
+    /// The iterations of solve(), also if it failed: all attempts in order, without the
+    /// initial iterates of later ones.
     const std::vector<NewtonSolver::Iteration> &
     iterations() const
     {
@@ -87,7 +91,7 @@ namespace Ricochet
     }
 
   private:
-    /// z and s, from and to the small vectors of Newton's method.
+    /// The unknowns z and s, from and to the small vectors of Newton's method.
     struct Unknowns
     {
       std::vector<double> coefficients;
@@ -100,15 +104,15 @@ namespace Ricochet
     static void
     write(const Unknowns &unknowns, Vector &vector);
 
-    /// Coefficients by place.
+    /// Coefficients by position, see ContactSchurComplement::place().
     std::vector<double>
     by_place(const std::vector<double> &coefficients) const;
 
     void
     residual(const Vector &point, Vector &result);
 
-    /// @param may_reuse solve with the tangent of the last call, if contact is in the
-    /// state that it was in there.
+    /// @param may_reuse solve with the tangent of the last call, if the active set is
+    /// the same.
     void
     linear_solve(const Vector &right_hand_side,
                  Vector       &update,
@@ -117,8 +121,8 @@ namespace Ricochet
     double
     norm(const Vector &small_residual);
 
-    /// Make #flight_values reach as far as contact with these @p coefficients, by place,
-    /// may; at least.
+    /// Extend #flight_values at least as far as contact with these @p coefficients, by
+    /// position, may reach.
     void
     look_around(const std::vector<double> &coefficients);
 
@@ -126,19 +130,19 @@ namespace Ricochet
     ContactSchurComplement      &system;
     ContactOperator             &contact;
     const ContactForces          contact_forces;
-    /// Magnitude of all forces but contact's (N), and of contact's.
+    /// Magnitude of all forces except contact (N), and of contact forces (N).
     double body_force_scale, contact_force_scale;
-    // The residual at the guess with open contact (N), and what its solution makes
-    // of the functionals, those near contact.
+    // The residual at the guess with open contact (N), and the values of rows H of
+    // the corresponding solution, near contact.
     Vector             &open_residual, &work;
     std::vector<double> flight_values;
-    // What the former has along the functionals (N), where contact takes rows.
+    // That residual along the rows (N), where contact eliminates rows.
     std::vector<double> open_excess, excess;
     std::vector<double> forces;
-    // The tangent of the last linear_solve(), and the active set that it is for.
+    // The tangent of the last linear_solve(), and its active set.
     std::vector<FunctionalRow>  &change, &excess_change;
     std::optional<std::uint64_t> tangent_active_set;
-    // Of all attempts.
+    // Iterations of all attempts.
     std::vector<NewtonSolver::Iteration> history;
   };
 } // namespace Ricochet

@@ -60,7 +60,7 @@ namespace Ricochet
       return false;
     if (record.last_iterations <= record.first_iterations)
       return true;
-    // States go away from it at an even pace.
+    // States move away from that of the tangent at an even rate.
     const double n_steps   = record.n_steps;
     const double next_more = n_steps / (n_steps - 1.) *
       (record.last_iterations - record.first_iterations);

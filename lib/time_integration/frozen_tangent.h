@@ -7,29 +7,29 @@
 namespace Ricochet
 {
   /**
-   * The tangent of a nonlinear body that served in the last steps: where it was made, and
-   * how well it served. The stage solver has one, and a checkpoint, so that a resumed run
-   * makes the same tangent again.
+   * The frozen tangent of a nonlinear body, used in the last steps: the state for which
+   * it was assembled, and the iterations with it. The stage solver keeps it, and so
+   * does a checkpoint, so that a resumed run assembles the same tangent.
    *
-   * What a tangent costs and the iterations that it takes more, as it grows old, are
-   * shared by the steps in which it serves: a new one is made when the next step's
-   * iterations are expected to be above that mean.
+   * Its cost and the additional iterations as it ages are averaged over the steps in
+   * which it is used: a new one is assembled when the iterations of the next step
+   * are expected to be above that mean.
    */
   struct FrozenTangent
   {
-    /// What making and factoring a tangent takes, in iterations with it: 12 to 14,
-    /// measured with rings of 2000 to 60 000 unknowns.
+    /// Cost of assembling and factoring a tangent, in iterations with it: 12 to
+    /// 14, measured with rings of 2000 to 60 000 unknowns.
     static constexpr double cost = 12.;
 
-    /// What has to be stored besides #solution.
+    /// Data to be stored besides #solution.
     struct Record
     {
       /// End and length of the step for which it was made (s).
       double end_time = 0., time_step = 0.;
-      /// In how many steps it has served; 0: there is none.
+      /// Number of steps in which it was used; 0: there is none.
       unsigned int n_steps = 0;
-      /// Iterations of the first and the last one of them, and what all but the
-      /// first took more than that.
+      /// Iterations of the first and the last one of them, and the sum of the
+      /// additional iterations of all but the first.
       unsigned int first_iterations = 0, last_iterations = 0,
                    more_iterations = 0;
 
@@ -42,13 +42,13 @@ namespace Ricochet
       }
     };
 
-    /// A new one, for a step to @p end_time that begins with @p solution.
+    /// Set a new one, for a step to @p end_time that begins with @p solution.
     void
     begin(const double  end_time,
           const double  time_step,
           const Vector &solution);
 
-    /// It has served in a step with so many iterations.
+    /// Count a step in which it was used, with so many iterations.
     void
     count(const unsigned int n_iterations);
 
@@ -56,11 +56,11 @@ namespace Ricochet
     bool
     serves(const double time_step) const;
 
-    /// Whether both are made for the same step from the same state.
+    /// Whether both are for the same step from the same state.
     bool
     is_same(const FrozenTangent &other) const;
 
-    /// Whether it has served.
+    /// Whether it was used.
     bool
     exists() const
     {
@@ -79,12 +79,12 @@ namespace Ricochet
     FrozenTangent &
     operator=(FrozenTangent &&) = default;
 
-    /// By copy_values().
+    /// Assignment by copy_values().
     FrozenTangent &
     operator=(const FrozenTangent &other);
 
     Record record;
-    /// System vector where it was made (m): the state at the begin of that step.
+    /// System vector of its state (m): that at the beginning of its step.
     Vector solution;
   };
 } // namespace Ricochet

@@ -91,7 +91,7 @@ namespace Ricochet
               increment,
               communicator);
 
-    // Nothing for the trapezoidal rule.
+    // Zero for the trapezoidal rule.
     const double of_increment = gamma - .5, of_jump = beta - .5 * gamma;
     if (of_increment != 0. || of_jump != 0.)
       {
@@ -119,8 +119,8 @@ namespace Ricochet
 
   namespace
   {
-    /// The work (J) of the forces of a body between two states, by Gauss' rule with as
-    /// many points as are exact to round-off for the strains of a step.
+    /// The work (J) of the forces of a body between two states, by Gauss' rule with
+    /// enough points to be exact to round-off for the strains of a step.
     double
     work_on_straight_path(const BulkOperator &bulk,
                           const Vector       &begin,
@@ -176,12 +176,12 @@ namespace Ricochet
           report.works_of_bodies[k] += works[k];
       }
 
-    // The dissipation formulas of the schemes take the trapezoidal rule for the
-    // bulk force too. Of a linear body that is the difference of stored
-    // energies; of another one the rule is not exact, and the scheme takes the
-    // rest. The work itself is integrated on the straight path between both states:
-    // were it the difference of stored energies, the balance could not notice a stored
-    // energy that does not belong to the forces.
+    // The dissipation formulas of the schemes take the trapezoidal rule for the bulk
+    // force too. For a linear body that is the difference of stored energies; for a
+    // nonlinear one the rule is not exact, and the difference is numerical
+    // dissipation. The work itself is integrated on the straight path between both
+    // states: with the difference of stored energies, the balance could not detect a
+    // stored energy that is not the potential of the forces.
     if (!system.bulk.is_linear())
       {
         system.bulk.force(old_state.solution, old_part);

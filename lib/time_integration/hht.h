@@ -102,8 +102,8 @@ namespace Ricochet
 
 
 
-  /// The parts of the energy balance that all schemes with collocated forces
-  /// share: external work and work against contact by the trapezoidal rule.
+  /// The common terms of the energy balance of schemes with collocated forces:
+  /// external work and work against contact by the trapezoidal rule.
   void
   add_trapezoidal_works(const SemiDiscreteSystem &system,
                         const State              &old_state,

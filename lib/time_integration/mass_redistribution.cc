@@ -20,7 +20,7 @@ namespace Ricochet
 
   namespace
   {
-    /// A displacement DoF as the redistribution sees it.
+    /// Data of a displacement DoF for the redistribution.
     template <int dim>
     struct DoF
     {
@@ -32,10 +32,10 @@ namespace Ricochet
     };
 
     /**
-     * Which DoFs hang together through cells: moments are those of a body, and a
-     * mesh may hold several that do not touch. Every DoF gets the smallest index
-     * of its body: within a rank by joining sets, between ranks by exchange until
-     * nothing changes.
+     * Find the DoFs that are connected through cells: moments are those of a
+     * body, and a mesh may contain several that do not touch. Every DoF gets the
+     * smallest index of its body: within a rank by joining sets, between ranks by
+     * exchange until nothing changes.
      *
      * @return number of bodies.
      */
@@ -93,7 +93,7 @@ namespace Ricochet
           changed = Utilities::MPI::max(changed, body.communicator);
         }
 
-      // From labels to numbers, the same on all ranks.
+      // Labels replaced by numbers, the same on all ranks.
       std::set<double>    all_labels;
       std::vector<double> mine;
       for (const auto &entry : smallest)
@@ -223,9 +223,9 @@ namespace Ricochet
     }
 
     /**
-     * Take the inertia from the contact boundary of the body with the number @p
-     * body in @p redistributed, a copy of @p mass, and keep its moments about @p
-     * centre: by the nearest matrix, or, @p in_proportion, with each entry
+     * Remove the inertia of the contact boundary of the body with the number
+     * @p body in @p redistributed, a copy of @p mass, and keep its moments about
+     * @p centre: by the nearest matrix, or, @p in_proportion, with each entry
      * multiplied by a polynomial.
      */
     template <int dim>
@@ -238,7 +238,7 @@ namespace Ricochet
                  const MPI_Comm communicator,
                  Matrix        &redistributed)
     {
-      // What an entry may change, by its own value.
+      // Weight of the change of an entry, by its own value.
       const auto weight = [&](const double value) {
         return in_proportion ? value : 1.;
       };
@@ -385,14 +385,15 @@ namespace Ricochet
     auto               dofs     = describe_dofs(body);
     const unsigned int n_bodies = number_bodies(body, dofs);
 
-    // A body without contact boundary keeps its mass as it is.
+    // The mass of a body without contact boundary is unchanged.
     std::vector<unsigned int> touches(n_bodies, 0);
     for (const auto &entry : dofs)
       if (entry.second.on_contact_boundary)
         touches[entry.second.body] = 1;
     Utilities::MPI::max(touches, body.communicator, touches);
 
-    // About the centre of mass the small system is well conditioned.
+    // The small system is well conditioned with moments about the centre of
+    // mass.
     std::vector<Point<dim>> centres(n_bodies);
     for (unsigned int b = 0; b < n_bodies; ++b)
       {
@@ -404,8 +405,8 @@ namespace Ricochet
 
     // The nearest matrix changes all entries by like amounts, small ones too, and
     // need not be positive where much of the mass sits on the contact boundary.
-    // Then each entry is multiplied by a polynomial of the positions, as if by
-    // another density.
+    // Then each entry is multiplied by a polynomial of the positions, like a
+    // modified density.
     IndexSet no_inertia = body.contact_indices();
     no_inertia.add_indices(body.multiplier_indices());
     for (const bool in_proportion : {false, true})

@@ -39,8 +39,8 @@ namespace Ricochet
     work -= old_state.solution;
     new_state.velocity *= -1.;
     new_state.velocity.add(2. / dt, work);
-    // The mean over the step. That at its end, which would follow from the mean of both
-    // ends, rings with the largest eigenvalue for ever.
+    // The mean over the step. The acceleration at its end, which would follow from the
+    // mean of both ends, oscillates with the largest eigenfrequency without decay.
     copy_values(new_state.velocity, new_state.acceleration);
     new_state.acceleration -= old_state.velocity;
     new_state.acceleration *= 1. / dt;
@@ -51,8 +51,8 @@ namespace Ricochet
     // The scheme dissipates nothing: M (v_new - v_old)/dt times u_new - u_old
     // is the difference of kinetic energies.
     if (const Vector *friction_force = system.contact.friction_force())
-      // What a moving obstacle drags along is work of contact, as all that it
-      // does to the body.
+      // Friction on a moving obstacle does work, which counts as contact work
+      // like all of its forces on the body.
       report.friction_work = system.contact.traits().has_moving_obstacles
         ? system.contact.friction_dissipation()
         : *friction_force * work;

@@ -13,12 +13,12 @@ namespace Ricochet
    *     (u_new - u_old)/dt = (v_old + v_new)/2,
    *
    * where the bulk force is the discrete derivative of the stored energy
-   * (Gonzalez' stress for hyperelastic bodies) plus the viscous force.
-   * Two-point treatments look at both ends of the step: improved normal
-   * compliance and Hauret-Le Tallec are discrete derivatives, persistent contact
-   * is a condition on the change of the gap, and with Nitsche-hybrid this is the
-   * hybrid scheme of paper C. All other treatments are enforced at the end of
-   * the step, where Signorini, penalty and standard compliance only dissipate.
+   * (Gonzalez' stress for hyperelastic bodies) plus the viscous force. Two-point
+   * treatments depend on both ends of the step: improved normal compliance and
+   * Hauret-Le Tallec are discrete derivatives, persistent contact is a condition
+   * on the change of the gap, and with Nitsche-hybrid this is the hybrid scheme
+   * of paper C. All other treatments are enforced at the end of the step, where
+   * Signorini, penalty and standard compliance only dissipate.
    */
   class Midpoint : public TimeScheme
   {

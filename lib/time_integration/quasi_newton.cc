@@ -8,21 +8,21 @@ namespace Ricochet
 {
   namespace
   {
-    /// Within so many iterations the residual has to fall by some factor; otherwise
-    /// Newton's method is faster.
+    /// Number of iterations within which the residual has to fall by a factor;
+    /// otherwise Newton's method is faster.
     constexpr unsigned int patience        = 12;
     constexpr double       required_factor = .1;
     constexpr unsigned int max_iterations  = 100;
 
-    /// Of the residual of an iterate, what contact in the near system may leave over. Ten
-    /// times and a hundred times as much take as many iterations; without it, what stiff
-    /// laws make of round-off may be more than the tolerance, while the residual is large.
+    /// Tolerance of contact in the condensed system, relative to the residual of an
+    /// iterate. Values ten and a hundred times as large take as many iterations; with
+    /// zero, round-off that stiff laws amplify may exceed the tolerance while the
+    /// residual is large.
     constexpr double rest_of_contact = 1e-3;
 
-    /// A region where the tangent has changed is looked for when there are so many
-    /// residuals, as the first iterates are too far from the solution, and again after some
-    /// more. It takes as long as some three iterations; where so few are to come, they do
-    /// without.
+    /// Numbers of residuals at which a region with a changed tangent is chosen, and
+    /// chosen again; the first iterates are too far from the solution. The region costs
+    /// about three iterations, so that it is left out if only few are expected.
     constexpr unsigned int first_look = 4, look_again = 12;
     constexpr double       few_iterations = 6.;
   } // namespace
@@ -76,7 +76,8 @@ namespace Ricochet
                required_factor * history[n - 1 - patience].relative_residual)))
           return false;
 
-        // Residuals are compared as forces, whatever the equations of multipliers are.
+        // Residuals are compared as forces, whatever the units of the multipliers'
+        // equations.
         problem.rows_to_forces(residual);
         if (region_is_worth_while())
           problem.find_region(residual, kept, region);

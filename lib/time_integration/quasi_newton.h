@@ -12,18 +12,19 @@
 namespace Ricochet
 {
   /**
-   * The nonlinear system of one stage of a nonlinear body: contact as it is, the body
-   * by a tangent T of another state. With the residual R = B(x) + C(x) of body and
-   * contact, each iterate solves
+   * The nonlinear system of one stage of a nonlinear body: contact exactly, the body
+   * by a frozen tangent T of another state. With the residual R = B(x) + C(x) of body
+   * and contact, each iterate solves
    *
    *     T (x_new - x) + C(x_new) - C(x) = -s
    *
    * for a step s of the force, which is a CondensedStage: Newton's method for the
-   * coefficients of contact alone. Plain steps are s = R; ForceMixing makes better ones,
-   * and a TangentRegion, where the body's tangent is far from T. Whatever contact does, the
-   * iterate depends on the force with the norm of T^{-1} at most (C is monotone but for
-   * friction), so that only the body's tangents have to be near T. There is one solution
-   * with T an iteration.
+   * coefficients of contact alone. Plain steps are s = R; ForceMixing (Anderson
+   * acceleration) makes better ones, and so does a TangentRegion, where the body's
+   * tangent is far from T. Whatever the contact forces, the iterate depends on the
+   * force with the norm of T^{-1} at most (C is monotone except for friction), so that
+   * only the body's tangents have to be near T. There is one solution with T an
+   * iteration.
    */
   class QuasiNewton
   {
@@ -32,7 +33,8 @@ namespace Ricochet
       : parameters(parameters)
     {}
 
-    /// Not where a new tangent is asked for in each iteration.
+    /// Whether tangents may be reused at all; not if a new one is required in
+    /// each iteration.
     bool
     is_allowed() const
     {
@@ -41,12 +43,12 @@ namespace Ricochet
 
     /**
      * Solve @p problem, from @p solution to @p solution, to the tolerance of Newton's
-     * method; the first iterate should be where T was made, as that is.
+     * method; the first iterate should be the state for which T was assembled.
      *
      * @param condensed_newton for the condensed stages.
-     * @param kept where T was made.
-     * @return whether it is solved; if it converges slowly or not at all, it gives up,
-     * and the solution is not finite or nearer than it was.
+     * @param kept state for which T was assembled.
+     * @return whether it has converged; it stops if it converges slowly or not at all,
+     * and @p solution is then not finite, or nearer to the solution than the guess.
      * @throws NewtonFailure when a condensed stage cannot be solved.
      */
     bool
@@ -56,7 +58,7 @@ namespace Ricochet
           const StageProblem::TangentPoint &kept,
           Vector                           &solution);
 
-    /// One entry per residual of the last solve(), as NewtonSolver has it.
+    /// One entry per residual of the last solve(), as in NewtonSolver.
     const std::vector<NewtonSolver::Iteration> &
     iterations() const
     {
@@ -64,14 +66,14 @@ namespace Ricochet
     }
 
   private:
-    /// Whether to look for the region where the tangent has changed, anew.
+    /// Whether the region with a changed tangent is to be chosen anew.
     bool
     region_is_worth_while() const;
 
     const NewtonSolver::Parameters       parameters;
     std::vector<NewtonSolver::Iteration> history;
-    // Steps are few thousand times shorter at the end than at the beginning: all of a
-    // stage are remembered, but for very slow ones.
+    // History of all iterates of a stage, except for very slow ones: their steps
+    // become some thousand times shorter, and the first ones remain relevant.
     ForceMixing   mixing{40};
     TangentRegion region;
     Vector        residual, step;

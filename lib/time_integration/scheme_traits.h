@@ -7,17 +7,17 @@
 
 namespace Ricochet
 {
-  /// What the other parts of the library may know of a time scheme.
+  /// Properties of a time scheme for other parts of the library.
   struct SchemeTraits
   {
     std::string name;
     /// Contact acts over a step between two states, and its work over a step is
-    /// force times way: laws may look at both ends, and friction at the slip
-    /// between them.
+    /// force times displacement increment: laws may depend on both ends, and
+    /// friction on the slip between them.
     bool contact_over_step = false;
     /// The scheme integrates a differential equation whose forces are functions
-    /// of the state, with an invertible mass, and reads the work of contact off a
-    /// potential.
+    /// of the state, with an invertible mass, and takes the work of contact from
+    /// a potential.
     bool needs_potential = false;
   };
 
@@ -25,7 +25,7 @@ namespace Ricochet
   std::vector<SchemeTraits>
   all_scheme_traits();
 
-  /// Those of the scheme @p name.
+  /// The traits of the scheme @p name.
   SchemeTraits
   scheme_traits(const std::string &name);
 } // namespace Ricochet

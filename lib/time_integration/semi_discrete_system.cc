@@ -12,8 +12,8 @@ namespace Ricochet
 
   namespace
   {
-    /// Prescribed displacements have equations of their own, in which contact has no
-    /// part.
+    /// Contact structure without prescribed displacements, which contact does not
+    /// affect.
     ContactStructure
     contact_structure(const ContactOperator &contact,
                       const Constraints     &constraints)
@@ -59,8 +59,8 @@ namespace Ricochet
 
   namespace
   {
-    /// What solves the condensed system has to solve the whole one, too, whose residual
-    /// has other round-off.
+    /// Parameters for condensed systems: their solutions have to solve the whole
+    /// system, too, whose residual has other round-off.
     NewtonSolver::Parameters
     with_margin(NewtonSolver::Parameters parameters)
     {
@@ -165,7 +165,7 @@ namespace Ricochet
   {
     if (!mass_solver)
       {
-        // Multipliers have no mass; their equation is their own.
+        // Multipliers have no mass; they have equations of their own.
         std::vector<MassSolver::Index> own(clamped.begin(), clamped.end());
         own.insert(own.end(),
                    unknowns.multipliers.begin(),
@@ -298,8 +298,8 @@ namespace Ricochet
     first_guess = solution;
     for (;;)
       {
-        // Contact may have thrown the body far from free flight, and its tangent there
-        // may be one of elements nearly flat; the last state is a body that exists.
+        // After contact the body may be far from free flight, where its tangent may be
+        // that of nearly flat elements; the last state is an admissible one.
         solution       = safe_guess;
         bool is_solved = false, is_old = false;
         try
@@ -384,7 +384,8 @@ namespace Ricochet
                              stage.time_step,
                              stage.end_time,
                              &old_state.contact_shares};
-    // Not again in this stage where it has failed, which it would do once more.
+    // No second attempt in this stage after a failure, which would repeat
+    // itself.
     bool condenses = linear_solver.condenses() &&
       (bulk.is_linear() || quasi_newton.is_allowed());
     const auto solve_all_passes = [&]() {
@@ -409,8 +410,8 @@ namespace Ricochet
                     continue;
                   problem.report.add(SolverReport::condensed_failed);
                   condenses = bulk.is_linear();
-                  // Where constraints are nearly the same, multipliers may have grown
-                  // beyond all forces, which are what residuals are measured by.
+                  // Multipliers of constraints that are nearly the same may have
+                  // grown beyond all forces, which scale the residuals.
                   if (!bulk.is_linear() && has_multipliers)
                     contact.begin_stage(start, stage.contact_weight_new);
                 }
@@ -418,8 +419,8 @@ namespace Ricochet
                 {
                   problem.report.add(SolverReport::condensed_failed);
                   condenses = false;
-                  // Perhaps the whole system can be solved, which measures its steps
-                  // by all of its forces; if not, it says why.
+                  // The whole system may converge, as its residuals are scaled by
+                  // all forces; if not, its failure is reported.
                   contact.begin_stage(start, stage.contact_weight_new);
                 }
             }
@@ -434,8 +435,8 @@ namespace Ricochet
       }
     catch (const NewtonFailure &)
       {
-        // The guess of a nonlinear body may be so bad, with elements nearly flat,
-        // that there is no way out; the last state is a body that exists.
+        // The guess of a nonlinear body may be so bad, with nearly flat elements,
+        // that the iteration fails; the last state is an admissible one.
         if (bulk.is_linear())
           throw;
         problem.report.add(SolverReport::stage_repeated);
@@ -455,12 +456,12 @@ namespace Ricochet
             throw NewtonFailure(newton_failure.what() + reason + "\n");
           }
       }
-    // Where Newton's method had to take over, the next step needs another tangent.
+    // A failure of the frozen tangent requires another one in the next step.
     if (condenses && !bulk.is_linear() && stage.bulk_step_force)
       frozen_tangent.count(n_iterations_with_tangent);
     else
       frozen_tangent.forget();
-    // A support that moves would do work that is in no balance.
+    // A support that moves would do work that is missing in the balance.
     for (const auto i : clamped)
       {
         (void)i;

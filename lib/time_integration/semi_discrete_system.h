@@ -23,9 +23,9 @@
 
 namespace Ricochet
 {
-  /// Everything that a time scheme needs to go on from an instant. All vectors
-  /// are system vectors without ghost values; the entries of the multipliers
-  /// in velocity, acceleration and forces are zero.
+  /// All data that a time scheme needs to continue from an instant. All vectors
+  /// are system vectors without ghost values; the entries of the multipliers in
+  /// velocity, acceleration and forces are zero.
   struct State
   {
     /// s
@@ -34,19 +34,20 @@ namespace Ricochet
     Vector solution;
     /// m/s
     Vector velocity;
-    /// At this instant; of the midpoint scheme the mean over the last step (m/s^2).
+    /// Acceleration at this instant; for the midpoint scheme the mean over the last
+    /// step (m/s^2).
     Vector acceleration;
     /// Contact force at this instant (two-point treatments: over the last
     /// step), on the side of the internal forces (N).
     Vector contact_force;
-    /// What several contacts have of contact_force (N), see ContactOperator::shares();
-    /// empty where there is only one.
+    /// The parts of contact_force of several contacts (N), see
+    /// ContactOperator::shares(); empty where there is only one.
     std::vector<Vector> contact_shares;
     /// Mean velocity over the last step, (u_new - u_old)/dt (m/s), which
     /// predictors of the gap need; kept by the midpoint scheme.
     Vector mean_velocity;
-    /// -M a as the scheme's own equation of motion gives it (N); only the
-    /// energy balance reads it.
+    /// The force -M a of the scheme's own equation of motion (N); used by the
+    /// energy balance only.
     Vector scheme_force;
 
     State()              = default;
@@ -55,39 +56,39 @@ namespace Ricochet
     State &
     operator=(State &&) = default;
 
-    /// By copy_values().
+    /// Assignment by copy_values().
     State &
     operator=(const State &other);
   };
 
 
   /**
- * The system of ordinary differential equations (or inclusions)
- *
- *     M a + bulk(u) + contact(u) = load(t)
- *
- * that time schemes integrate: paper C, (22), (23). It owns none of its parts
- * and knows neither material nor contact treatment nor scheme.
- */
+   * The system of ordinary differential equations (or inclusions)
+   *
+   *     M a + bulk(u) + contact(u) = load(t)
+   *
+   * that time schemes integrate: paper C, (22), (23). It owns none of its parts
+   * and is independent of material, contact treatment and scheme.
+   */
   class SemiDiscreteSystem
   {
   public:
-    /// External load (N) at a time (s); the argument comes in as zero.
+    /// External load (N) at a time (s); the argument is zero on entry.
     using Load = std::function<void(const double time, Vector &load)>;
 
-    /// What is known of the unknowns of this rank.
+    /// Data of the unknowns of this rank.
     struct Unknowns
     {
-      /// Without inertia.
+      /// Displacements without inertia.
       dealii::IndexSet massless;
       /// Displacements that are prescribed: zero, unless #impose says otherwise. They
-      /// outlive the system.
+      /// have to outlive the system.
       const Constraints *constraints = nullptr;
       /// Multipliers.
       dealii::IndexSet multipliers;
       /// Dimension of the body.
       unsigned int dim = 0;
-      /// Sparsity pattern of the tangents, made when it is asked for. Collective.
+      /// Sparsity pattern of the tangents, set up when first needed. Collective.
       std::function<const dealii::TrilinosWrappers::SparsityPattern &()>
         pattern;
       /// Body::canonical_positions(), for checkpoints.
@@ -105,13 +106,13 @@ namespace Ricochet
     };
 
     /**
-   * @param mass mass matrix of the equation of motion; with redistributed
-   * mass its rows on the contact boundary are zero.
-   * @param invertible_mass consistent mass matrix, for the initial
-   * acceleration.
-   * @param follower a load that depends on where the body is, with schemes whose
-   * forces are those of a step, and bodies that are not linear; null for none.
-   */
+     * @param mass mass matrix of the equation of motion; with redistributed
+     * mass its rows on the contact boundary are zero.
+     * @param invertible_mass consistent mass matrix, for the initial
+     * acceleration.
+     * @param follower a load that depends on the displacement, with schemes whose
+     * forces are those of a step, and bodies that are not linear; null for none.
+     */
     SemiDiscreteSystem(const BodyMatrix               &mass,
                        const BodyMatrix               &invertible_mass,
                        const BulkOperator             &bulk,
@@ -131,16 +132,18 @@ namespace Ricochet
                   const double  time);
 
     /**
-   * Solve @p stage. The solution of @p new_state holds the initial guess and gets
-   * the result, its forces of contact those at the result.
-   *
-   * @return how it was solved.
-   * @throws NewtonFailure
-   */
+     * Solve @p stage. The solution of @p new_state is the initial guess on entry;
+     * it is overwritten with the result, and contact forces with those of the
+     * result.
+     *
+     * @return how it was solved.
+     * @throws NewtonFailure
+     */
     SolverReport
     solve_stage(const Stage &stage, const State &old_state, State &new_state);
 
-    /// The forces of contact at the instant of @p state, from its solution alone.
+    /// Set the contact forces at the instant of @p state, from its solution
+    /// alone.
     void
     set_contact_force(State &state) const;
 
@@ -158,15 +161,15 @@ namespace Ricochet
       return static_cast<bool>(unknowns.impose);
     }
 
-    /// Work (J) on the body of the forces by which displacements are imposed, over
-    /// a step with the displacement @p way, from what the equations of motion of the
-    /// last solve_stage() leave over.
+    /// Work (J) on the body of the forces by which displacements are imposed, over a
+    /// step with the displacement @p way, from the residual of the equations of
+    /// motion in the last solve_stage().
     double
     imposed_work(const Vector &way) const;
 
-    /// The forces (N) on the body by which displacements are prescribed, in the rows of
-    /// these: what the equations of the last solve_stage() leave over. With the midpoint
-    /// scheme they are the means over the step.
+    /// Reactions (N) on the body at prescribed displacements, in their rows: the
+    /// residual of the equations of the last solve_stage(). With the midpoint scheme
+    /// they are means over the step.
     const Vector &
     reaction_forces() const
     {
@@ -181,12 +184,13 @@ namespace Ricochet
       return stage_round_off;
     }
 
-    /// The work (J) of the load that depends on where the body is, over the step between
+    /// The work (J) of the load that depends on the displacement, over the step between
     /// two states; 0 without.
     double
     follower_work(const State &old_state, const State &new_state) const;
 
-    /// The external load at @p time, but for the one that depends on where the body is.
+    /// The external load at @p time, except for the one that depends on the
+    /// displacement.
     void
     external_load(const double time, Vector &load) const;
 
@@ -224,11 +228,11 @@ namespace Ricochet
     ContactOperator    &contact;
     const Unknowns      unknowns;
 
-    /// The record of the stage solver: the tangent that it may go on with, of a body that
-    /// is not linear and schemes whose forces are those of a step. A checkpoint has it.
+    /// The record of the stage solver: the frozen tangent of a nonlinear body, for
+    /// schemes whose forces are those of a step. It is part of a checkpoint.
     FrozenTangent frozen_tangent;
 
-    /// What solves the linear systems, in words.
+    /// The linear solvers in words.
     std::string
     linear_solver_description() const
     {
@@ -242,7 +246,7 @@ namespace Ricochet
       return linear_solver.n_multigrid_failures();
     }
 
-    /// Number of factorisations made so far.
+    /// Number of factorisations so far.
     unsigned int
     n_factorisations() const
     {
@@ -256,7 +260,7 @@ namespace Ricochet
       return linear_solver.n_back_substitutions();
     }
 
-    /// Where the time of all stages went (s).
+    /// Timing of all stages (s).
     struct Shares
     {
       double residual          = 0.;
@@ -272,15 +276,15 @@ namespace Ricochet
     double
     distance(const Vector &from, const Vector &to) const;
 
-    /// What each of several bodies does against a contact force (N) between two solutions
-    /// (J); empty if nobody asks.
+    /// Works of several bodies against a contact force (N) between two solutions (J);
+    /// empty if not needed.
     std::function<std::vector<double>(const Vector &force,
                                       const Vector &begin,
                                       const Vector &end)>
       works_of_bodies;
 
     /// Called after each solution with Newton's table (residuals, step lengths, active
-    /// sets) and with what was solved: the whole system with its tangent, or the one of a
+    /// sets) and with the kind of system: the whole one with its tangent, or that of a
     /// SolverReport::Strategy.
     std::function<void(const std::vector<NewtonSolver::Iteration> &,
                        const std::optional<SolverReport::Strategy> &)>
@@ -294,9 +298,9 @@ namespace Ricochet
                     const NewtonSolver::Problem &newton_problem,
                     Vector                      &solution);
 
-    /// The same for a body that is not linear, with one tangent for all iterates: that
-    /// of earlier steps, if it serves, or one at the begin of this step. If it is not
-    /// solved, @p solution is the guess, or one that is nearer.
+    /// As above for a nonlinear body, with one tangent for all iterates: that of
+    /// earlier steps, if it converges, or one at the beginning of this step. If it is
+    /// not solved, @p solution is the guess, or an iterate nearer to the solution.
     bool
     solve_near_last_state(StageProblem                &problem,
                           const NewtonSolver::Problem &newton_problem,
@@ -304,18 +308,18 @@ namespace Ricochet
                           const ContactStart          &start,
                           Vector                      &solution);
 
-    /// Condense the body for a stage, with the #frozen_tangent, or with a new one if that
-    /// does not serve.
+    /// Condense the body for a stage, with the #frozen_tangent, or with a new one if
+    /// that is not to be used.
     void
     condense_body(StageProblem &problem,
                   const Stage  &stage,
                   const Vector &old_solution);
 
-    /// Where that tangent is made. @pre condense_body()
+    /// The state of that tangent. @pre condense_body()
     StageProblem::TangentPoint
     frozen_point() const;
 
-    /// The forces of contact are those of the operator's last call.
+    /// Take the contact forces from the operator's last evaluation.
     void
     take_shares(State &state) const;
 
@@ -327,26 +331,26 @@ namespace Ricochet
     const Load             load;
     const FollowerLoad    *follower;
     NewtonSolver           newton;
-    // Of condensed systems: it keeps its vectors.
+    // Newton's method for condensed systems; it keeps its vectors.
     NewtonSolver condensed_newton;
     QuasiNewton  quasi_newton;
     LinearSolver linear_solver;
-    // Made when it is first needed.
+    // Set up when first needed.
     std::optional<MassSolver> mass_solver;
     double                    residual_seconds = 0., tangent_seconds = 0.;
     double                    stage_round_off = 0.;
-    /// On any rank.
+    /// Whether any rank has multipliers.
     const bool has_multipliers;
     // Work space, so that nothing is allocated in a time step.
     mutable Vector            work, constant_part, force;
     CondensedStage::WorkSpace condensed_space;
-    // What the equations leave over in prescribed displacements (N), where
-    // Newton's method may begin, the guess where it begins elsewhere, and the residual at
-    // the guess (N).
+    // The residual of the equations at prescribed displacements (N), the iterate where
+    // Newton's method may begin instead of the guess, the guess if it is replaced, and
+    // the residual at the guess (N).
     Vector reaction, safe_guess, first_guess, residual;
-    // The tangent that is factored, and its state with the displacements prescribed at the
-    // end of its step; in this stage, whether that was done, and how many iterations were
-    // made with it.
+    // The tangent that is factored, and its state with the displacements prescribed at
+    // the end of its step; whether it was factored in this stage, and the number of
+    // iterations with it.
     FrozenTangent factored_tangent;
     Vector        frozen_guess;
     bool          body_is_condensed         = false;

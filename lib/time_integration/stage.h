@@ -7,13 +7,13 @@
 namespace Ricochet
 {
   /**
- * One nonlinear system, as every time scheme poses it: find x such that
- *
- *     inertia M (x - inertia_origin) + bulk force + contact force = load,
- *
- * where the forces are either weighted sums of their values at the old and
- * the new point, or those of a whole step between both.
- */
+   * One nonlinear system, as every time scheme poses it: find x such that
+   *
+   *     inertia M (x - inertia_origin) + bulk force + contact force = load,
+   *
+   * where the forces are either weighted sums of their values at the old and
+   * the new point, or those of a whole step between both.
+   */
   struct Stage
   {
     /// 1/s^2
@@ -24,7 +24,7 @@ namespace Ricochet
     /// Length of the step (s); needed by step forces, slip and predictors of the
     /// gap, so by the midpoint scheme only.
     double time_step = 0.;
-    /// Time of the new point (s), at which obstacles are where they are.
+    /// Time of the new point (s), which determines the positions of obstacles.
     double end_time = 0.;
 
     /// The bulk force is that of a step; its weights are not used.

@@ -22,7 +22,7 @@ namespace Ricochet
     , solution(solution)
     , safe_guess(safe_guess)
   {
-    // What does not change during the iteration: old forces and load.
+    // Constant terms of the iteration: old forces and load.
     Vector &constant_part = parts.constant_part;
     constant_part         = 0.;
     if (!stage.bulk_step_force && stage.bulk_weight_old != 0.)
@@ -39,11 +39,11 @@ namespace Ricochet
   double
   StageProblem::round_off()
   {
-    // The forces that nearly cancel in a residual are what "small" is measured
-    // against: inertia, bulk, contact and what is constant. Inertia and bulk
-    // forces are small differences of large numbers when the step is short or
-    // the body far from where it started, and so is a small gap; their
-    // round-off remains, whatever Newton's method does.
+    // The scale of a small residual is that of the forces that nearly cancel:
+    // inertia, bulk, contact and constant terms. Inertia and bulk forces are
+    // small differences of large numbers when the step is short or the body is
+    // far from its initial position, and so is a small gap; Newton's method
+    // cannot reduce their round-off.
     if (!bulk_round_off)
       {
         parts.mass.vmult(parts.work, stage.inertia_origin);
@@ -106,7 +106,8 @@ namespace Ricochet
                             const TangentPoint &kept,
                             TangentRegion      &region)
   {
-    // Masses are the same, and so are loads that follow the body, nearly.
+    // The mass terms of both tangents are equal, and those of follower loads
+    // are nearly so.
     const auto add_difference = [&](const UnknownList &unknowns,
                                     Matrix            &matrix) {
       const Stopwatch stopwatch(parts.tangent_seconds);
@@ -279,8 +280,8 @@ namespace Ricochet
                                                    update,
                                                    reuse,
                                                    tolerance);
-    // Iterative solvers leave something of their tolerance in clamped unknowns, too,
-    // which no residual would ever show.
+    // Iterative solvers leave errors within their tolerance in clamped unknowns,
+    // which no residual shows.
     set_clamped_to_zero(parts.clamped, update);
   }
 

@@ -19,44 +19,46 @@
 namespace Ricochet
 {
   /**
- * The nonlinear system of one stage, as Newton's method sees it: residual,
- * tangent, norms, and what "small" is measured against.
- */
+   * The nonlinear system of one stage in the form for Newton's method: residual,
+   * tangent, norms, and the scale of a small residual.
+   */
   class StageProblem
   {
   public:
-    /// What stays the same for all stages. All of it must outlive the problem.
+    /// Constant data of all stages, which must outlive the problem.
     struct Parts
     {
       const BodyMatrix   &mass;
       const BulkOperator &bulk;
       ContactOperator    &contact;
       LinearSolver       &linear_solver;
-      /// Prescribed displacements, and which of them are of this rank.
+      /// Prescribed displacements, and those of this rank.
       const Constraints      &constraints;
       const dealii::IndexSet &clamped;
-      /// Of this rank; they are the last of its unknowns.
+      /// Number of multipliers of this rank, which are the last of its
+      /// unknowns.
       unsigned int n_multipliers = 0;
-      /// Of the tangents.
+      /// Sparsity pattern of the tangents.
       const std::function<const dealii::TrilinosWrappers::SparsityPattern &()>
         &pattern;
-      /// s, summed up.
+      /// Timings of all stages (s).
       double &residual_seconds, &tangent_seconds;
-      /// Where contact couples what the body does not.
+      /// Extended pattern, where contact couples unknowns that the body does
+      /// not.
       UnitedPattern &united_pattern;
       // Work space, so that nothing is allocated in a time step.
       Vector                    &work, &force, &constant_part;
       CondensedStage::WorkSpace &condensed_space;
-      /// Gets what the equations leave over in clamped unknowns (N).
+      /// Residual of the equations in clamped unknowns (N), an output.
       Vector &reaction;
       Matrix &body_matrix;
-      /// Null for none.
+      /// Load that depends on the displacement; null for none.
       const FollowerLoad *follower = nullptr;
     };
 
-    /// @param solution the iterate: residuals are looked at elsewhere, too, but
-    /// tangents are those of this vector.
-    /// @param safe_guess where to begin if the residual at @p solution is not
+    /// @param solution the iterate: residuals are evaluated at other points,
+    /// too, but tangents at this vector only.
+    /// @param safe_guess initial iterate if the residual at @p solution is not
     /// finite.
     StageProblem(const Parts  &parts,
                  const Stage  &stage,
@@ -65,21 +67,20 @@ namespace Ricochet
                  const Vector &solution,
                  const Vector &safe_guess);
 
-    /// What NewtonSolver::solve() takes.
+    /// The problem for NewtonSolver::solve().
     NewtonSolver::Problem
     for_newton();
 
-    /// Begin anew: no tangent of another stage may be used, so that a resumed run
-    /// does the same.
+    /// Drop the tangents of other stages, so that a resumed run does the same.
     void
     forget_tangents();
 
-    /// The same system condensed to contact, for the guess at which the residual was
-    /// looked at last: @p residual. @pre Parts::linear_solver condenses.
+    /// The same system condensed to contact, for the guess of the last evaluation of
+    /// the residual, @p residual. @pre Parts::linear_solver condenses.
     CondensedStage
     condensed(const NewtonSolver::Problem &for_newton, const Vector &residual);
 
-    /// Where a tangent is that of a step.
+    /// A pair of states for the tangent of a step.
     struct TangentPoint
     {
       const Vector &old_solution, &solution;
@@ -92,28 +93,28 @@ namespace Ricochet
     void
     condense_at(const TangentPoint &point);
 
-    /// Find the region where the tangent at the iterate, which has left the @p residual
-    /// (N), differs from that at the @p kept point.
+    /// Find the region where the tangent at the iterate, which has the @p residual (N),
+    /// differs from that at the @p kept point.
     /// @pre condense_at() with that point.
     void
     find_region(const Vector       &residual,
                 const TangentPoint &kept,
                 TangentRegion      &region);
 
-    /// Give the clamped unknowns of an iterate their prescribed values again, from which
-    /// solvers may leave by their tolerance, and which no residual would show.
+    /// Reset the clamped unknowns of an iterate to their prescribed values, from which
+    /// solvers may deviate by their tolerance, which no residual shows.
     void
     hold_clamped(Vector &iterate) const;
 
-    /// Make the rows of a residual those of forces, whatever the equations of
-    /// multipliers are; and the other way round.
+    /// Scale the rows of a residual to forces, whatever the units of the
+    /// multipliers' equations; and the inverse.
     void
     rows_to_forces(Vector &result) const;
 
     void
     forces_to_rows(Vector &forces) const;
 
-    /// How the stage was solved so far, attempts that failed included.
+    /// Report on the solution of the stage so far, failed attempts included.
     SolverReport report;
 
   private:
@@ -126,7 +127,7 @@ namespace Ricochet
           const bool    may_reuse,
           const double  tolerance);
 
-    /// That of this stage, at the iterate.
+    /// The tangent point of this stage, at the iterate.
     TangentPoint
     here() const
     {
@@ -142,14 +143,14 @@ namespace Ricochet
                      Matrix             &matrix,
                      const UnknownList  *near = nullptr) const;
 
-    /// @param condenses contact is looked at by its functionals alone.
+    /// @param condenses contact is evaluated by the rows of its Jacobian alone.
     Tangent
     tangent(const TangentPoint &point, const bool condenses = false);
 
     double
     norm(const Vector &result);
 
-    /// That of rows_to_forces().
+    /// The norm of the residual with rows_to_forces().
     double
     norm_of_forces(const Vector &result);
 
@@ -166,14 +167,14 @@ namespace Ricochet
     const Stage  &stage;
     const Vector &old_solution, &solution, &safe_guess;
     double        constant_scale = 0., force_scale = 0., contact_scale = 0.;
-    // Known when asked for.
+    // Computed when first needed.
     std::optional<double> bulk_round_off;
-    // Which points are active in the tangent without a name, if there is one.
+    // The active set of the tangent without a cache key, if there is one.
     std::optional<std::uint64_t> factored_active_set;
   };
 
-  /// Set the @p clamped entries of @p vector to zero. What is not a number stays
-  /// so: it may be the mark of an element that is turned inside out.
+  /// Set the @p clamped entries of @p vector to zero. A NaN is kept, since it
+  /// may mark an inverted element.
   void
   set_clamped_to_zero(const dealii::IndexSet &clamped, Vector &vector);
 } // namespace Ricochet

@@ -13,8 +13,8 @@ namespace Ricochet
     , a_rate((1. - gamma) / (2. - gamma))
     , trapezoidal_rule(0.)
   {
-    // At gamma = 2 - sqrt(2) both stages have the same matrix, if round-off does
-    // not come between them.
+    // At gamma = 2 - sqrt(2) both stages have the same matrix, except for
+    // round-off.
     if (std::abs(a_rate - .5 * gamma) < 1e-14)
       a_rate = .5 * gamma;
   }

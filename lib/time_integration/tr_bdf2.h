@@ -30,7 +30,8 @@ namespace Ricochet
     static OwnParameters
     parameters()
     {
-      // To round-off: both stages share a matrix only if gamma is 2 - sqrt(2).
+      // Default exact to round-off: both stages share a matrix only if gamma is
+      // 2 - sqrt(2).
       return {OwnParameter("TR-BDF2 gamma", 0.5857864376269049)
                 .means("Fraction of the step that the trapezoidal rule takes "
                        "(paper C: gamma tilde); at 2 - sqrt(2) both stages "
