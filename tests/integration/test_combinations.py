@@ -11,7 +11,7 @@ import itertools
 
 from common import *
 
-# Of the column solver, see SolverReport.
+# Numbers of the column solver, see SolverReport.
 CONDENSED, CONDENSED_FAILED = 4, 64
 
 

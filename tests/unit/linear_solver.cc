@@ -259,7 +259,7 @@ namespace
 
 
 
-// Of a clamped body: symmetric without the columns of what is prescribed, and with the
+// Tangents of a clamped body: symmetric without prescribed columns, and with the
 // solution of cleared rows alone, whose matrix is not symmetric.
 BOOST_AUTO_TEST_CASE(constraints_leave_tangents_symmetric)
 {
