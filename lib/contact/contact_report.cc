@@ -30,7 +30,7 @@ namespace Ricochet
   {
     const double whole = area + other.area;
     const auto   mean  = [&](double &own, const double its) {
-      // What is not known of one part is that of the other.
+      // A mean that is unknown for one part is that of the other.
       if (std::isnan(own) || area == 0.)
         own = its;
       else if (!std::isnan(its) && whole > 0.)

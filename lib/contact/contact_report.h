@@ -11,7 +11,7 @@
 
 namespace Ricochet
 {
-  /// What the ledger wants to know of one part of the contact boundary.
+  /// Summary of one part of the contact boundary for the ledger.
   struct ContactSummary
   {
     /// Area of the part (m^(dim-1)); 1 in 1D.
@@ -24,8 +24,8 @@ namespace Ricochet
     double smallest_gap = std::numeric_limits<double>::infinity();
     /// Largest penetration (m), 0 without.
     double max_penetration = 0.;
-    /// Mean of the pressure that the treatment itself stands for (Pa): [P_N]_-
-    /// for Nitsche, the multiplier, the reaction over the boundary mass.
+    /// Mean of the pressure of the treatment itself (Pa): [P_N]_- for Nitsche,
+    /// the multiplier, the reaction over the boundary mass.
     double contact_pressure = 0.;
     /// Mean of the pressure of the body's own stress, -sigma_n(u_h) (Pa).
     double stress_pressure = 0.;
@@ -40,29 +40,31 @@ namespace Ricochet
         const double        point_force,
         const bool          is_active);
 
-    /// Become that of both this part of the boundary and another one.
+    /// Become the summary of both this part of the boundary and another one.
     void
     unite(const ContactSummary &other);
   };
 
-  /// A solved state, as far as what is told of contact depends on it.
+  /// A solved state, as far as reports on contact depend on it.
   struct ContactInstant
   {
     /// Unknowns.
     const Vector &solution;
-    /// Contact force (N); of two-point treatments that over the last step.
+    /// Contact force (N); for two-point treatments, the mean over the last
+    /// step.
     const Vector &contact_force;
     /// s
     double time = 0.;
-    /// What several contacts have of contact_force; none where there is only one.
+    /// The parts of contact_force that belong to several contacts; null where
+    /// there is only one.
     const std::vector<Vector> *shares = nullptr;
   };
 
-  /// By boundary id.
+  /// Summaries by boundary id.
   using ContactSummaries = std::map<dealii::types::boundary_id, ContactSummary>;
 
-  /// What can be told of contact at a solved state, outside of any step; what
-  /// was begun of a step is over. All functions are collective.
+  /// Reports on contact at a solved state, outside of any step: a step that was
+  /// begun ends. All functions are collective.
   class ContactReport
   {
   public:
@@ -78,10 +80,10 @@ namespace Ricochet
     virtual double
     potential(const Vector &solution, const double time) = 0;
 
-    /// Contact pressure (Pa), as a field for pictures: the average around each
-    /// node of the contact boundary, in the place of the node's first
+    /// Contact pressure (Pa), as a field for visualisation: the average around
+    /// each node of the contact boundary, at the index of the node's first
     /// displacement; zero elsewhere. It depends on the arguments alone: in nodes
-    /// it is read off the force, elsewhere it is the law's pressure at the
+    /// it follows from the force, elsewhere it is the law's pressure at the
     /// solution.
     virtual Vector
     pressure_field(const ContactInstant &instant) = 0;

@@ -119,7 +119,7 @@ namespace Ricochet
       all[id] = step;
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
       return all;
-    // Few numbers, as lists of doubles: id, amounts, place, counts.
+    // Few numbers, sent as lists of doubles: id, amounts, position, counts.
     std::vector<double> numbers;
     for (const auto &[id, step] : mine)
       numbers.insert(numbers.end(),

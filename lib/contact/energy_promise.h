@@ -16,7 +16,7 @@ namespace Ricochet
    *     total = energy + contact potential - works from outside + dissipation,
    *
    * where dissipation is that of friction, viscosity and the time scheme. The balance
-   * of energy cannot show it: there, whatever contact makes is contact work.
+   * of energy cannot show it, as all energy from contact is contact work there.
    */
   struct EnergyPromise
   {
@@ -31,7 +31,7 @@ namespace Ricochet
     };
 
     Kind kind = Kind::none;
-    /// The identity from which it follows; of none, why there is none.
+    /// The identity from which it follows; if nothing is promised, the reason.
     std::string reason = "no contact";
 
     /// Kind as a verb: "keeps", "never gains", "promises nothing".
@@ -53,7 +53,7 @@ namespace Ricochet
   EnergyPromise
   falls_by_complementarity();
 
-  /// What one contact has made of the energy over a step.
+  /// The change of energy by one contact over a step.
   struct ContactStep
   {
     /// Change of the potential, and work of the pressures along the gap (J): 0 where the
@@ -63,29 +63,29 @@ namespace Ricochet
     /// point was in the undeformed body (m).
     double           made_at_point = 0.;
     dealii::Point<3> place;
-    /// The part of the body that the point is on, if that is known.
+    /// The part of the body with the point, if known.
     unsigned int part = static_cast<unsigned int>(-1);
     /// Points that were pressed over the step and face no facet at its end: their force
-    /// has ended, and what they stored is lost.
+    /// has ended, and their stored energy is lost.
     unsigned int n_dropped = 0;
     /// Points that were not pressed over the step and are behind a facet at its end.
     unsigned int n_entered = 0;
-    /// Points that have gone through what they should have touched, and one of them (m).
+    /// Points that have passed through a surface without contact, and one of them (m).
     unsigned int     n_passed = 0;
     dealii::Point<3> place_passed;
 
-    /// Add the amount that one point has made.
+    /// Add the amount of one point.
     void
     add_point(const double            amount,
               const dealii::Point<3> &where,
               const unsigned int part_of_point = static_cast<unsigned int>(-1));
 
-    /// Become that of two parts of a step, or of two parts of the boundary.
+    /// Become the sum of two parts of a step, or of two parts of the boundary.
     void
     unite(const ContactStep &other);
   };
 
-  /// By boundary id, as ContactSummaries.
+  /// Steps by boundary id, as ContactSummaries.
   using ContactSteps = std::map<unsigned int, ContactStep>;
 
   /// The steps of all ranks, from those of each. Collective.

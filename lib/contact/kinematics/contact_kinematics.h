@@ -11,7 +11,7 @@
 
 namespace Ricochet
 {
-  /// The beginning of a step or stage, as far as contact looks back.
+  /// The beginning of a step or stage: the history that contact needs.
   struct ContactStart
   {
     /// Unknowns at the beginning of the step.
@@ -25,29 +25,30 @@ namespace Ricochet
     double time_step = 0.;
     /// The end of the step, or the instant (s).
     double end_time = 0.;
-    /// What several contacts have of contact_force; none where there is only one.
+    /// The parts of contact_force that belong to several contacts; null where
+    /// there is only one.
     const std::vector<Vector> *shares = nullptr;
   };
 
-  /// What laws and conditions may know of the geometry in a point, over a step.
-  /// Derivatives are those with respect to the point at the end of the step.
+  /// Geometry in a point over a step, as laws and conditions may use it.
+  /// Derivatives are with respect to the point at the end of the step.
   struct PointGeometry
   {
     /// Unit vector along the contact force, towards the body.
     dealii::Tensor<1, 3> normal;
-    /// Derivative of the direction D = |D| normal of the force (1/m): what
-    /// Newton's method needs beside the stiffness of the law.
+    /// Derivative of the direction D = |D| normal of the force (1/m), needed by
+    /// Newton's method beside the stiffness of the law.
     dealii::Tensor<2, 3> direction_derivative;
-    /// |D|: 1, but for terms of second order in the step.
+    /// |D|: 1, except for terms of second order in the step.
     double direction_length = 1.;
     /// Gradient of the gap.
     dealii::Tensor<1, 3> gap_gradient;
     /// Change of the gap (m).
     double gap_increment = 0.;
-    /// Way of the point less that of the obstacle there (m); slip is its part
-    /// across the normal.
+    /// Displacement increment of the point less that of the obstacle there (m);
+    /// slip is its part across the normal.
     dealii::Tensor<1, 3> relative_way;
-    /// Its derivative.
+    /// Derivative of #relative_way (1).
     dealii::Tensor<2, 3> relative_way_derivative;
 
     /// Derivative of #normal (1/m).
@@ -76,13 +77,13 @@ namespace Ricochet
 
   /**
    * The geometry of contact: how gap, slip and the direction of the force follow
-   * from the unknowns, for laws and conditions that never ask where they come
-   * from.
+   * from the unknowns, for laws and conditions that are independent of how they
+   * are computed.
    *
    * The force of a point is its pressure times a direction D, and its work over a
-   * step the pressure times D . way. So D . way (less the way of a moving
-   * obstacle) is the gap increment that belongs to it. All kinematics keep that
-   * to round-off, and their increment is the difference of the gaps.
+   * step the pressure times D . way. So the gap increment that belongs to it is D
+   * . relative_way, which is relative to a moving obstacle. All kinematics
+   * satisfy that to round-off, and their increment is the difference of the gaps.
    */
   class ContactKinematics
   {
@@ -91,7 +92,7 @@ namespace Ricochet
 
     virtual ~ContactKinematics() = default;
 
-    /// Whether directions are the same for ever: then what contact adds to a
+    /// Whether directions are constant: then the contribution of contact to a
     /// tangent depends on the laws' branches alone.
     virtual bool
     has_constant_rows() const = 0;
@@ -107,8 +108,8 @@ namespace Ricochet
     begin_step(const ContactStart               &start,
                std::vector<ContactPointState<>> &old_states);
 
-    /// Let the @p mean_velocity (m/s) of the step before go on, see predicted_gap();
-    /// after begin_step().
+    /// Extrapolate with the @p mean_velocity (m/s) of the step before, see
+    /// predicted_gap(); after begin_step().
     void
     predict(const Vector &mean_velocity);
 
@@ -121,7 +122,7 @@ namespace Ricochet
     void
     evaluate(const Vector &solution, std::vector<ContactPointState<>> &states);
 
-    /// The same with @p values of the observables of all points.
+    /// As above, with @p values of the observables of all points.
     void
     evaluate(const std::vector<PointVector>   &values,
              std::vector<ContactPointState<>> &states);
@@ -133,9 +134,9 @@ namespace Ricochet
       return current;
     }
 
-    /// Count in @p steps the points that go through an obstacle from @p begin to @p end
-    /// (m), at @p begin_time and @p end_time (s), and are in front of it at both: no
-    /// plane can be gone through.
+    /// Count in @p steps the points that pass through an obstacle from @p begin to
+    /// @p end (m), at @p begin_time and @p end_time (s), and are in front of it at
+    /// both. Planes are left out, as no path leads through them.
     virtual void
     add_passing(const Vector & /*begin*/,
                 const Vector & /*end*/,
@@ -144,13 +145,13 @@ namespace Ricochet
                 ContactSteps & /*steps*/)
     {}
 
-    /// The gap in the middle of the step, if the mean velocity of the step
-    /// before goes on (B (3.7)); after predict().
+    /// The gap in the middle of the step by extrapolation with the mean
+    /// velocity of the step before (B (3.7)); after predict().
     virtual double
     predicted_gap(const unsigned int p) const = 0;
 
-    /// Bring geometry() of the point @p p to the state of the last evaluate(). That of
-    /// most points is never needed: they are far away.
+    /// Bring geometry() of the point @p p to the state of the last evaluate(). The
+    /// geometry of most points is never needed, as they are far away.
     void
     update_geometry(const unsigned int p)
     {
@@ -160,7 +161,7 @@ namespace Ricochet
       compute_geometry(p);
     }
 
-    /// After update_geometry().
+    /// Valid after update_geometry().
     const PointGeometry &
     geometry(const unsigned int p) const
     {
@@ -171,7 +172,7 @@ namespace Ricochet
     virtual double
     gap_round_off(const unsigned int p, const double gap) const = 0;
 
-    /// Round-off (m) in the way of point @p p.
+    /// Round-off (m) in the displacement increment of point @p p.
     virtual double
     way_round_off(const unsigned int p) const = 0;
 
@@ -198,7 +199,7 @@ namespace Ricochet
       end
     };
 
-    /// Put the obstacles where they are from the beginning to the end of the step.
+    /// Place the obstacles as at the beginning and the end of the step.
     virtual void
     place_obstacles()
     {}
@@ -225,7 +226,7 @@ namespace Ricochet
       return displacement_of(old[p]);
     }
 
-    // Of the step (s); no length in an instant.
+    // Length and end of the step (s); the length is zero in an instant.
     double                     time_step = 0., end_time = 0.;
     std::vector<PointGeometry> geometries;
     // Observables at the end and the beginning of the step, and predicted rates.
@@ -241,8 +242,8 @@ namespace Ricochet
     std::vector<bool> up_to_date;
   };
 
-  /// The kinematics that fits the obstacles of the @p points: planes at rest, or
-  /// any rigid obstacles.
+  /// The kinematics for the obstacles of the @p points: planes at rest, or any
+  /// rigid obstacles.
   template <int dim>
   std::unique_ptr<ContactKinematics>
   make_kinematics(const Body<dim> &body, ContactPoints points);

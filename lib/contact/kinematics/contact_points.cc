@@ -21,7 +21,8 @@ namespace Ricochet
       return entry->second;
     }
 
-    /// What a point at @p x knows of the obstacle of its boundary.
+    /// Set the data of a point at @p x that come from the obstacle of its
+    /// boundary.
     void
     set_obstacle(const Obstacles         &obstacles,
                  const types::boundary_id boundary_id,
@@ -136,8 +137,8 @@ namespace Ricochet
                       body.multiplier_system_index(multiplier_indices[i]);
                     const double value = multiplier_values->shape_value(i, q);
 
-                    // Multipliers off the contact boundary do not exist, and
-                    // the shape functions of the others sum up to 1 on it.
+                    // Multipliers exist on the contact boundary only, and the
+                    // shape functions of the others sum up to 1 on it.
                     if (index == numbers::invalid_dof_index || value == 0.)
                       continue;
                     points.add_multiplier(index, value);
@@ -160,9 +161,9 @@ namespace Ricochet
   {
     const FiniteElement<dim> &element = body.dof_handler().get_fe();
 
-    // What is known of each owned node, by the system index of its first
-    // displacement. Ghost cells are visited too: an owned node may lie on
-    // contact faces of cells of other ranks only.
+    // Data of each owned node, by the system index of its first displacement.
+    // Ghost cells are visited, too: an owned node may lie only on contact faces
+    // of cells of other ranks.
     struct Node
     {
       ContactPoint                                 point;
@@ -170,8 +171,8 @@ namespace Ricochet
     };
     std::map<types::global_dof_index, Node> nodes;
 
-    // The lumped boundary mass, on the first displacement of each node.
-    // Its terms without their signs tell zero from round-off.
+    // The lumped boundary mass, on the first displacement of each node. The sum
+    // of their moduli distinguishes zero from round-off.
     Vector lumped_boundary_mass = body.make_vector();
     Vector sum_of_moduli        = body.make_vector();
 
@@ -201,7 +202,7 @@ namespace Ricochet
             if (with_multipliers)
               body.multiplier_cell(cell)->get_dof_indices(multiplier_indices);
 
-            // The element's own has_support_on_face() says yes to all shape
+            // The element's own has_support_on_face() is true for all shape
             // functions of simplices.
             std::vector<types::global_dof_index> face_indices(
               element.n_dofs_per_face(f));

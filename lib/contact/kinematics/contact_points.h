@@ -23,7 +23,7 @@ namespace Ricochet
    */
   struct ContactPoint
   {
-    /// Area that the point stands for (m^(dim-1)): JxW of a quadrature point,
+    /// Area associated with the point (m^(dim-1)): JxW of a quadrature point,
     /// lumped boundary mass of a node.
     double weight = 0.;
     /// Gap at zero displacement and time 0 (m).
@@ -53,8 +53,8 @@ namespace Ricochet
   }
 
   /**
-   * All contact points of this rank, with their coefficients in flat
-   * arrays that the hot loops run through. Made once.
+   * All contact points of this rank, with their coefficients in flat arrays for
+   * the inner loops. Made once.
    */
   struct ContactPoints
   {
@@ -64,8 +64,8 @@ namespace Ricochet
     std::vector<dealii::types::global_dof_index> index;
     std::vector<double>                          stress_pressure_coefficient;
     std::vector<double>                          multiplier_coefficient;
-    /// Which component of the displacement of the point the unknown belongs to
-    /// and with which factor (0 for multipliers).
+    /// The component of the point's displacement to which the unknown
+    /// contributes, and its factor (0 for multipliers).
     std::vector<unsigned int> component;
     std::vector<double>       shape_value;
 
@@ -103,10 +103,10 @@ namespace Ricochet
     const dealii::SymmetricTensor<2, dim> &)>;
 
   /**
-   * The direction along which laws take the body's stress: the pressure is
-   * direction . sigma n, n being the @p outward_normal of the body. Before a plane
-   * at rest it is the obstacle's normal @p obstacle_normal, elsewhere -n, so that
-   * the pressure is a linear function of the unknowns that stays the same.
+   * The direction for the body's stress in laws: the pressure is direction . sigma
+   * n, n being the @p outward_normal of the body. Against a plane at rest it is
+   * the obstacle's normal @p obstacle_normal, elsewhere -n, so that the pressure
+   * is a linear function of the unknowns with constant coefficients.
    */
   dealii::Tensor<1, 3>
   stress_direction(const RigidObstacle        &obstacle,
@@ -130,7 +130,7 @@ namespace Ricochet
    * Owned nodes of the contact boundary, each with its lumped boundary mass,
    * which is zero in vertices of quadratic tetrahedra.
    *
-   * @param with_multipliers each node has the multiplier of that node; nodes know
+   * @param with_multipliers each node has the multiplier of that node; nodes have
    * no stress pressure.
    */
   template <int dim>
@@ -140,7 +140,7 @@ namespace Ricochet
                      const bool       with_multipliers);
 
   /**
-   * The same for treatments that live in nodes.
+   * As above, for treatments in nodes.
    *
    * @param with_multipliers as above: a body may have multipliers that are not for
    * its obstacles.

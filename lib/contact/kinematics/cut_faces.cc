@@ -93,7 +93,7 @@ namespace Ricochet
       return indices;
     }
 
-    /// The faces with one of the @p ids, those of all ranks. Cells are known
+    /// The faces with one of the @p ids on all ranks. Cells are known
     /// everywhere, but their unknowns are not.
     template <int dim>
     std::vector<Face<dim>>
@@ -138,8 +138,8 @@ namespace Ricochet
       return faces;
     }
 
-    /// A part of a face of the slave and what is before it: both by coordinates
-    /// along the faces, from 0 to 1.
+    /// A part of a face of the slave and the face of the master opposite to it,
+    /// in coordinates along the faces from 0 to 1.
     template <int dim>
     struct Cut
     {
@@ -147,8 +147,8 @@ namespace Ricochet
       const Face<dim> *master;
     };
 
-    /// The point of the line of @p face that is on the normal of the point @p x: its
-    /// distance and its coordinate along the face.
+    /// The intersection of the line of @p face with the normal in the point @p x:
+    /// its distance and its coordinate along the face.
     template <int dim>
     std::pair<double, double>
     before(const Point<dim>     &x,
@@ -172,7 +172,7 @@ namespace Ricochet
       std::vector<double>            places = {0., 1.};
       for (const Face<dim> &face : master)
         {
-          // What is nearly at right angles is not before the face.
+          // A face that is nearly at right angles does not face the slave.
           if (!(face.outward * slave.outward < -.1))
             continue;
           double begin = (face.ends[0] - slave.ends[0]) * e / e.norm_square();
@@ -198,7 +198,7 @@ namespace Ricochet
             {
               const auto [distance, along] =
                 before(slave.ends[0] + middle * e, slave.outward, *face);
-              // What is deep inside is the far side of a body.
+              // A face deep inside is the far side of a body.
               if (along < 0. || along > 1. || distance < -slave.length() ||
                   distance >= nearest)
                 continue;
@@ -314,7 +314,7 @@ namespace Ricochet
                            (material.stress(shape.values[displacement]
                                               .symmetric_gradient(i, 0)) *
                             slave.outward));
-                        // Off the face they are zero, but for round-off.
+                        // Values off the face are zero, except for round-off.
                         double value = sign * shape.values.shape_value(i, 0);
                         if (std::abs(value) < 1e-12)
                           value = 0.;
@@ -367,7 +367,7 @@ namespace Ricochet
     for (const ContactPair &pair : pairs)
       for (const auto id : pair.slave)
         slave_area[id] = Utilities::MPI::sum(slave_area[id], body.communicator);
-    // The same on all ranks.
+    // The same result on all ranks.
     using Parts = std::vector<std::pair<unsigned int, unsigned int>>;
     for (const Parts &list :
          Utilities::MPI::all_gather(body.communicator,

@@ -15,11 +15,11 @@ namespace Ricochet
 
   namespace
   {
-    /// Cuts that are nearer to each other than this part of a facet are one.
+    /// Cuts at a smaller distance than this part of a facet are one.
     constexpr double smallest_part = 1e-9;
 
-    /// Facets are cut as far as so many of their lengths from the master; what is
-    /// farther than half of that does not pass vertices either.
+    /// Largest distance from the master at which facets are cut, in their
+    /// lengths; beyond half of it they pass no vertices.
     constexpr double reach = 2.;
   } // namespace
 
@@ -35,8 +35,8 @@ namespace Ricochet
       throw InputError(
         "A surface that may touch itself goes with Contact/Coupling "
         "= points only.");
-    // The facets between the nodes of degree 2 have other shares of a uniform pressure
-    // than the displacements.
+    // The facets between the nodes of degree 2 have weights for a uniform pressure
+    // other than those of the displacements.
     if (body.dof_handler().get_fe().degree > 1)
       throw InputError(
         "Mortar contact takes displacements of degree 1. With degree 2 take "
@@ -104,7 +104,7 @@ namespace Ricochet
         lower[c] = std::min(a[c], b[c]) - reach * length;
         upper[c] = std::max(a[c], b[c]) + reach * length;
       }
-    // Where a function that is linear along the facet is zero.
+    // The zero of a function that is linear along the facet.
     const auto add_zero = [&](const double at_a, const double at_b) {
       if ((at_a < 0.) != (at_b < 0.))
         cuts.push_back(at_a / (at_a - at_b));
@@ -123,7 +123,7 @@ namespace Ricochet
               FacetChain<double>::past_vertex<double>({b, begin, end, behind},
                                                       0));
           }
-        // The surface ends where the end of its last facet is.
+        // The end of the surface is that of its last facet.
         const auto along = [&](const Position &y, const Position &from) {
           return (end[0] - begin[0]) * (y[0] - from[0]) +
             (end[1] - begin[1]) * (y[1] - from[1]);
@@ -169,7 +169,7 @@ namespace Ricochet
           facing.reset();
         interval.may_pass = facing &&
           gap_before(work, facing->chain, facing->facet) < .5 * reach * length;
-        // All of it is between the bisectors, unless a cut was missed.
+        // The whole interval is between the bisectors, unless a cut was missed.
         for (const double s : {.999 * interval.begin + .001 * interval.end,
                                .001 * interval.begin + .999 * interval.end})
           if (interval.may_pass)
@@ -178,7 +178,7 @@ namespace Ricochet
                      facing->chain,
                      old_positions.master),
               facing->facet);
-        // What will be before the master soon, and is in front of it now.
+        // A part that is in front of the master now and will face it soon.
         if (!facing && later)
           {
             facing =
@@ -250,9 +250,9 @@ namespace Ricochet
                    new_positions.master),
             old_facet);
         };
-        // From one end to the other, over the bisectors between them. Parts that are
-        // round-off, where a cut of the beginning is one of the end, are left to
-        // their neighbour.
+        // Pieces from one end to the other, over the bisectors between them. Pieces
+        // of round-off size, where a cut of the beginning is one of the end, are
+        // merged with their neighbour.
         const unsigned int first = facet_at(interval.begin);
         const unsigned int last  = facet_at(interval.end);
         const int          way   = last > first ? 1 : -1;
@@ -582,7 +582,7 @@ namespace Ricochet
   std::vector<SurfacePair<2>::Index>
   MortarPair::unknowns_nearby(const unsigned int p) const
   {
-    // A step of several facets leads away from those around the old place.
+    // A step over several facets leads beyond the neighbours of the old facet.
     std::vector<Index> indices = rows(p).unknowns;
     const auto         add     = [&](const auto &node) {
       indices.insert(indices.end(), node.unknowns.begin(), node.unknowns.end());

@@ -11,31 +11,31 @@
 namespace Ricochet
 {
   /**
-   * Contact of two surfaces in the plane in the weak sense (mortar): a pressure
-   * that is a sum of shape functions psi_j of the slave's nodes, and in each node j
-   * the mean of the gap with the weight psi_j,
+   * Contact of two surfaces in 2D in the weak sense (mortar): a pressure that is a
+   * sum of shape functions psi_j of the slave's nodes, and in each node j the mean
+   * of the gap with the weight psi_j,
    *
    *     gap_j = 1/m_j int psi_j gap ds,   m_j = int psi_j ds   (undeformed lengths).
    *
-   * The facets of the slave are cut where another facet of the master begins to be
-   * before them, on the bisectors of its vertices. Between the cuts gap and rows are
-   * polynomials along the facet, and two Gauss points integrate them exactly: a
-   * uniform pressure passes whatever the meshes are.
+   * The facets of the slave are cut where the opposite facet of the master changes,
+   * on the bisectors of its vertices. Between the cuts gap and rows are polynomials
+   * along the facet, and two Gauss points integrate them exactly: a uniform pressure
+   * passes whatever the meshes are.
    *
    * Points of the slave pass vertices during a step as in FacetChain. Facets are cut
    * where that happens at the beginning of the step and at its end. So in each Gauss
    * point D . change is the change of the gap, and, since both integrals are exact,
-   * in each node that of gap_j, which depends on where the bodies are and on nothing
-   * else. Only where a part of a facet comes off the end of the master the gap at the
-   * end of a step is not that at the beginning of the next one.
+   * in each node that of gap_j, which depends on the positions of the bodies alone.
+   * Only where a part of a facet leaves the end of the master, the gap at the end of
+   * a step differs from that at the beginning of the next one.
    *
-   * What the cuts depend on is left out of the derivatives: rows do not jump there,
-   * so that nothing is missing but the error of the quadrature where a vertex is
-   * passed.
+   * The dependence of the cuts on the displacement is left out of the derivatives:
+   * rows are continuous there, so that only the error of the quadrature is missing
+   * where a vertex is passed.
    *
    * Literature: A. Popp, M. Gitterle, M. Gee, W. Wall, A dual mortar approach for 3D
    * finite deformation contact with consistent linearization, Int. J. Numer. Meth.
-   * Engng 83 (2010); here without condensation.
+   * Engng 83 (2010); here without condensation of the multipliers.
    */
   class MortarPair : public PairBeforeChains<2>
   {
@@ -70,22 +70,22 @@ namespace Ricochet
     static constexpr unsigned int max_coordinates = 14;
     using Differentiable = Sacado::Fad::SLFad<double, max_coordinates>;
 
-    /// A part of a facet of the slave that is before one facet of the master at the
+    /// A part of a facet of the slave that faces one facet of the master at the
     /// beginning of the step. Coordinates along the facet go from 0 to 1.
     struct Interval
     {
       double begin = 0., end = 1.;
       Chain  chain;
-      /// Its place in the chain.
+      /// Index of the facet of the master in the chain.
       unsigned int old_facet = 0;
-      /// It may pass vertices.
+      /// The interval may pass vertices.
       bool may_pass = false;
     };
 
     /// A Gauss point: its rows are on the point and some nodes of a chain.
     struct GaussPoint
     {
-      /// Among those of its facet.
+      /// Index among the intervals of its facet.
       unsigned int interval = 0;
       double       s        = 0.;
       /// m
@@ -102,9 +102,9 @@ namespace Ricochet
       unsigned int            number = 0;
       std::vector<Interval>   intervals;
       std::vector<GaussPoint> points;
-      /// How many of #points are in use.
+      /// Number of #points in use.
       unsigned int n_points = 0;
-      /// All of it is before the master.
+      /// The whole facet faces the master.
       bool is_covered = false;
     };
 
@@ -123,7 +123,8 @@ namespace Ricochet
     double
     psi(const SlaveFacet &facet, const unsigned int end, const double s) const;
 
-    /// Where @p facet has to be cut, at @p positions: 0, ..., 1.
+    /// The positions of the cuts of @p facet, for the nodes at @p positions: 0,
+    /// ..., 1.
     void
     find_cuts(const SlaveFacet     &facet,
               const Positions      &positions,
@@ -149,7 +150,7 @@ namespace Ricochet
     void
     place_points(SlaveFacet &facet) const;
 
-    /// Mean of the gap of a point, of the Gauss points as they are.
+    /// Mean of the gap of a point, by the present Gauss points.
     double
     mean_gap(const unsigned int p,
              const Positions   &positions,
@@ -173,7 +174,7 @@ namespace Ricochet
                      const GaussPoint &point,
                      const Function   &add) const;
 
-    /// The place of an unknown in @p rows, which gets it if it has it not.
+    /// Index of an unknown in @p rows; an unknown that is missing is appended.
     static unsigned int
     place_of(const Index unknown, Rows &rows);
 

@@ -9,8 +9,8 @@ namespace Ricochet
   {
     /// psi_j is the hat function of the node.
     standard,
-    /// psi_j is orthogonal to the hat functions of other nodes (on facets that are
-    /// before the master as a whole).
+    /// psi_j is orthogonal to the hat functions of other nodes (on facets that
+    /// face the master as a whole).
     dual
   };
 } // namespace Ricochet

@@ -21,16 +21,16 @@ namespace Ricochet
     /// Pieces smaller than this part of a triangle are round-off.
     constexpr double smallest_piece = 1e-12;
 
-    /// As far from the master triangles are cut: two of their lengths. @param
-    /// parallelogram twice the triangle's area (m^2).
+    /// The farthest distance from the master at which triangles are cut: two of
+    /// their lengths.
     double
     reach_of_triangle(const double parallelogram)
     {
       return 2. * std::sqrt(parallelogram);
     }
 
-    /// Triangles that are steeper against each other do not face each other: the
-    /// projection of one on the other says nothing about where they touch.
+    /// Triangles with a larger angle between them do not face each other: the
+    /// projection of one on the other is unrelated to where they touch.
     constexpr double smallest_cosine = .2;
 
     constexpr unsigned int no_place = numbers::invalid_unsigned_int;
@@ -48,8 +48,8 @@ namespace Ricochet
       throw InputError(
         "A surface that may touch itself goes with Contact/Coupling "
         "= points only.");
-    // The facets between the nodes of degree 2 have other shares of a uniform pressure
-    // than the displacements.
+    // The facets between the nodes of degree 2 have weights for a uniform pressure
+    // other than those of the displacements.
     if (body.dof_handler().get_fe().degree > 1)
       throw InputError(
         "Mortar contact takes displacements of degree 1. With degree 2 take "
@@ -66,7 +66,7 @@ namespace Ricochet
     std::map<unsigned int, unsigned int> point_of_node;
     for (unsigned int p = 0; p < own_points.size(); ++p)
       point_of_node[own_points[p].nodes[0].first] = p;
-    // Triangles around one mean are one face.
+    // Triangles around one mean node belong to one face.
     std::map<unsigned int, unsigned int> face_of_mean;
     for (unsigned int f = 0; f < slave.facets.size(); ++f)
       {
@@ -130,8 +130,8 @@ namespace Ricochet
   MortarTriangles::make_dual_coefficients(Face &face) const
   {
     // int psi_j N_k = 0 for j != k, int psi_j N_j = int N_j: the integrals of the shape
-    // functions times the inverse of those of their products. The rule is that of
-    // the middles of the edges.
+    // functions times the inverse of those of their products. The quadrature points are
+    // the midpoints of the edges.
     const unsigned int  n = face.nodes.size();
     FullMatrix<double>  products(n, n);
     std::vector<double> integrals(n, 0.);
@@ -217,7 +217,7 @@ namespace Ricochet
               -(normal * normal_of_own) / (normal.norm() * std::sqrt(square));
             if (!(cosine > smallest_cosine))
               continue;
-            // Along the normal of the slave on its plane.
+            // Projection along the normal of the slave on its plane.
             std::array<ClippedTriangle::Point, 3> projected;
             for (unsigned int v = 0; v < 3; ++v)
               {
@@ -240,7 +240,7 @@ namespace Ricochet
             pieces.push_back({opposite, std::abs(gap), polygon});
             covered += polygon.area();
           }
-        // Where the master lies before the slave in several layers, the closest one.
+        // The closest one, where several layers of the master face the slave.
         if (covered > .5 * (1. + 1e-9))
           {
             std::stable_sort(pieces.begin(),
@@ -351,7 +351,7 @@ namespace Ricochet
       {
         Gaps &gap     = gaps[p];
         up_to_date[p] = false;
-        // Of the weight, how much is before the master, and what is there without signs.
+        // The part of the weight that faces the master, and the sum of moduli there.
         double part = 0., size = 0.;
         for (const Support &support : supports[p])
           {
@@ -450,7 +450,7 @@ namespace Ricochet
     unsigned int &place = places[number];
     if (place != no_place)
       return place;
-    // A node on the edge of both surfaces is in the rows once.
+    // A node on the edge of both surfaces enters the rows once.
     place =
       std::find(rows.unknowns.begin(), rows.unknowns.end(), node.unknowns[0]) -
       rows.unknowns.begin();

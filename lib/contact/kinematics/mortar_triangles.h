@@ -14,35 +14,37 @@ namespace Ricochet
   class FacetSearch;
 
   /**
-   * Contact of two surfaces in space in the weak sense (mortar): in each node j of the
+   * Contact of two surfaces in 3D in the weak sense (mortar): in each node j of the
    * slave the mean of the gap with the weight psi_j,
    *
    *     gap_j = 1/m_j int psi_j gap dA,   m_j = int psi_j dA   (undeformed areas);
    *
-   * see MortarPair, which is the same in the plane.
+   * see MortarPair for 2D.
    *
    * Triangles of the master are projected on a triangle of the slave, along the normal
-   * of the slave, and clip it (see ClippedTriangle). Before each piece there is one
-   * triangle of the master; gap and rows are linear there, times a linear psi_j, and
-   * three points integrate them exactly: a uniform pressure passes whatever the meshes
-   * are. Faces with four corners are four triangles around the mean of their nodes,
-   * which may be warped.
+   * of the slave, and clip it (see ClippedTriangle). Each piece faces one triangle of
+   * the master; gap and rows are linear there, times a linear psi_j, and three points
+   * integrate them exactly: a uniform pressure passes whatever the meshes are. Faces
+   * with four corners are four triangles around the mean of their nodes, which may be
+   * warped.
    *
-   * Pieces are cut where the bodies will be in the middle of the step, if the mean
-   * velocity of the step before goes on, and kept for the step: so points do not pass
-   * from one triangle to another, rows are smooth, and the work of a pressure is exactly
-   * that times the change of the gap_j of these pieces. In the next step there are
-   * others. Between flat surfaces gap_j does not depend on the cuts; between curved ones
-   * the gap at the end of a step is that at the beginning of the next one but for the
-   * angles that points slide past and for what comes off the end of the master. A
-   * potential of that gap is therefore not what was stored (two coarse balls: energy 1.17
-   * and 3.6 times the first), and treatments that give it back are not for it.
+   * Pieces are cut at positions extrapolated to the middle of the step with the mean
+   * velocity of the step before, and kept for the step: so points do not pass from one
+   * triangle to another, rows are smooth, and the work of a pressure is exactly the
+   * pressure times the change of the gap_j of these pieces. The next step has other
+   * pieces. Between flat surfaces gap_j does not depend on the cuts; between curved
+   * ones the gap at the end of a step is that at the beginning of the next one except
+   * for the angles that points slide past and for parts that leave the end of the
+   * master. A potential of that gap is therefore not the stored energy (two coarse
+   * balls: energy 1.17 and 3.6 times the initial one), and treatments that recover it
+   * are unsuitable.
    *
    * Literature: M. Puso, T. Laursen, A mortar segment-to-segment contact method for
    * large deformation solid mechanics, Comput. Methods Appl. Mech. Engrg. 193 (2004);
    * A. Popp, M. Gitterle, M. Gee, W. Wall, A dual mortar approach for 3D finite
    * deformation contact with consistent linearization, Int. J. Numer. Meth. Engng 83
-   * (2010); here without condensation, and with rows that are discrete gradients.
+   * (2010); here without condensation of the multipliers, and with rows that are
+   * discrete gradients.
    */
   class MortarTriangles : public SurfacePair<3>
   {
@@ -58,10 +60,10 @@ namespace Ricochet
     void
     evaluate(const Vector &solution) override;
 
-    /// Four shape functions on one triangle of a face, where they are linear, are not
-    /// independent: neither are the constraints of nodes of which the master is before
-    /// that triangle only. The softness is small beside what the rows do to the body,
-    /// which goes with their square.
+    /// Four shape functions on one triangle of a face, where they are linear, are
+    /// linearly dependent: so are the constraints of nodes that face the master with
+    /// that triangle only. The softness is small against the stiffness of the rows on
+    /// the body, which is quadratic in them.
     double
     softness(const unsigned int p) const override
     {
@@ -89,12 +91,13 @@ namespace Ricochet
     using Differentiable = Sacado::Fad::SLFad<double, n_coordinates>;
     using Corners        = PointBeforeTriangle<double>::Points<double>;
 
-    /// A quadrature point, and what is before it during the step.
+    /// A quadrature point, and the facet of the master opposite to it during
+    /// the step.
     struct PiecePoint
     {
       /// Facets of both surfaces.
       unsigned int triangle = 0, opposite = 0;
-      /// Shares of the corners of #triangle.
+      /// Weights of the corners of #triangle.
       std::array<double, 3> shares{};
       /// m^2
       double weight = 0.;
@@ -102,8 +105,8 @@ namespace Ricochet
       bool                              up_to_date = false;
       PointBeforeTriangle<double>::Rows rows;
 
-      /// Derivatives of gap, slip, D, T_1 and T_2 with respect to the coordinates at the end
-      /// of the step, row by row. Several nodes ask for them.
+      /// Derivatives of gap, slip, D, T_1 and T_2 with respect to the coordinates at
+      /// the end of the step, row by row. Several nodes need them.
       bool                differentiated = false;
       std::vector<double> derivatives;
     };
@@ -115,17 +118,17 @@ namespace Ricochet
       std::vector<unsigned int> triangles;
       /// Numbers of nodes.
       std::vector<unsigned int> nodes;
-      /// psi_j = sum_k coefficients_jk N_k, row by row, where N_k is the shape function of
-      /// a node; those of the dual shape.
+      /// psi_j = sum_k coefficients_jk N_k, row by row, where N_k is the shape function
+      /// of a node; for the dual shape.
       std::vector<double>     dual_coefficients;
       std::vector<PiecePoint> points;
-      /// How many of #points are in use.
+      /// Number of #points in use.
       unsigned int n_points = 0;
-      /// All of it is before the master.
+      /// The whole face is opposite to the master.
       bool is_covered = false;
     };
 
-    /// A face of a point, and which of its nodes the point is.
+    /// A face of a point, and the index of the point among its nodes.
     struct Support
     {
       unsigned int face = 0, node = 0;
@@ -164,36 +167,36 @@ namespace Ricochet
     const PointBeforeTriangle<double>::Rows &
     rows_of(PiecePoint &point) const;
 
-    /// PiecePoint::derivatives, and in it the place of the row of gap (0), of slip (1, 2) or
-    /// of one of the coordinates of D, T_1, T_2 (3, 3 + #n_coordinates, ...).
+    /// PiecePoint::derivatives, in the order of the rows of gap (0), slip (1, 2) and
+    /// the coordinates of D, T_1, T_2 (3, 3 + #n_coordinates, ...).
     const std::vector<double> &
     derivatives_of(PiecePoint &point) const;
 
-    /// The place of a node's first unknown in @p rows, which gets its unknowns if it has
-    /// them not; @p places knows the nodes of its surface that were asked for.
+    /// Index of a node's first unknown in @p rows; missing unknowns are appended.
+    /// @p places has the indices of nodes of its surface that were found before.
     static unsigned int
     place_of(const ContactSurface<3>::Node &node,
              const unsigned int             number,
              std::vector<unsigned int>     &places,
              Rows                          &rows);
 
-    /// Call @p add (place of an unknown, coordinate of the point or corner that moves with
-    /// it, factor) for all unknowns of a point.
+    /// Call @p add (index of an unknown, coordinate of the point or corner that moves
+    /// with it, factor) for all unknowns of a point.
     template <typename Function>
     void
     for_each_unknown(const PiecePoint &point,
                      Rows             &rows,
                      const Function   &add) const;
 
-    /// Forget the places of the nodes that @p p knows.
+    /// Reset the indices of the nodes of @p p.
     void
     forget_places(const unsigned int p) const;
 
     const MortarShape                 shape;
     mutable std::vector<Face>         faces;
     std::vector<std::vector<Support>> supports;
-    /// What is farther from the slave is not cut, besides twice a triangle's size: the
-    /// way of a step (m).
+    /// Largest distance from the slave at which facets are cut, besides twice a
+    /// triangle's size: the longest displacement increment in a step (m).
     double    way = 0.;
     Positions old_positions, new_positions;
     /// See softness().

@@ -16,7 +16,7 @@ namespace Ricochet
     for (unsigned int k = 0; k < Chain::n_beside; ++k)
       if (const auto previous = master.facets[first].previous)
         first = *previous;
-    // A closed surface of few facets is gone round more than once.
+    // Chains go round a closed surface of few facets more than once.
     Chain chain;
     chain.nodes.push_back(master.facets[first].nodes[0]);
     std::optional<unsigned int> facet         = first;
@@ -95,17 +95,17 @@ namespace Ricochet
         const double    along  = ((b[0] - a[0]) * (x[0][0] - a[0]) +
                               (b[1] - a[1]) * (x[0][1] - a[1])) /
           length;
-        // An open end that were a knife would let the border nodes of equal blocks go
-        // when they bulge, and take them back once they are deeper than they overhang,
-        // with the whole potential of that depth: so half a facet. What is pressed into
-        // a facet that turns is not off its end for that.
+        // A sharp open end would release the border nodes of equal blocks when they
+        // bulge, and catch them again once they are deeper than they overhang, with the
+        // whole potential of that depth: hence half a facet. The depth is added for
+        // points that are pressed into a facet that turns.
         const double gap       = gap_before(x, chain, facet);
         const double tolerance = .5 * length + std::max(0., -gap);
         if ((!own.previous && along < -tolerance) ||
             (!own.next && along > length + tolerance))
           return true;
-        // Past a vertex points may be as far as its bisector leads; what is farther
-        // off the ends of the facet than before it is beside it.
+        // A point past a vertex may be as far away as its bisector allows; a point
+        // farther off the ends of the facet than in front of it is beside it.
         const double beside = std::max(-along, along - length);
         return beside > 1.5 * std::abs(gap) + .5 * length;
       }
@@ -140,8 +140,8 @@ namespace Ricochet
     const auto &own = master.facets[f];
     if (shares_node(point, f))
       return false;
-    // Between the far sides of a wall is its material, which becomes thinner by less
-    // than half; what is pressed into a facet is nearer to it than that.
+    // The material between the far sides of a wall becomes thinner by less than
+    // half; a point that is pressed into a facet is nearer to it than that.
     dealii::Point<dim> reference;
     for (const auto &[node, weight] : point.nodes)
       reference += weight * this->slave.nodes[node].reference_position;
@@ -165,7 +165,7 @@ namespace Ricochet
         square_of_point += normal_of_point[c] * normal_of_point[c];
         product += normal[c] * normal_of_point[c];
       }
-    // Where the surface is about to be folded it does not face itself yet; but what is
+    // A surface that is about to be folded does not face itself yet; but a point
     // behind such a facet is only round a corner.
     const double cosine  = product / std::sqrt(square * square_of_point);
     const bool   is_wall = this->slave.facets[point.facets[0]].part == own.part;

@@ -15,8 +15,8 @@ namespace Ricochet
   template <int dim>
   class FacetSearch;
 
-  /// Surfaces in the plane, whose facets follow each other like the links of a chain,
-  /// and in 1D, where they are points.
+  /// Surfaces in 2D, whose facets follow each other like the links of a chain, and in
+  /// 1D, where they are points.
   template <int dim>
   class PairBeforeChains : public SurfacePair<dim>
   {
@@ -28,8 +28,8 @@ namespace Ricochet
   protected:
     using SurfacePair<dim>::master;
 
-    /// Facets that hang together, and their nodes: one that a point is before, and two on
-    /// either side at most.
+    /// Connected facets and their nodes: one that a point faces, and at most two on
+    /// either side.
     struct Chain
     {
       static constexpr unsigned int n_beside = 2, most = 2 * n_beside + 1;
@@ -38,16 +38,16 @@ namespace Ricochet
       boost::container::static_vector<unsigned int, most + 1> nodes;
     };
 
-    /// The facet before which a point is.
+    /// The facet that a point faces.
     struct Facing
     {
       Chain chain;
-      /// Its place in the chain.
+      /// Index in the chain.
       unsigned int facet = 0;
     };
 
     /// The facet @p f of the master surface and two more on each side; @p place is
-    /// its number among them.
+    /// its index among them.
     Chain
     chain_around(const unsigned int f, unsigned int &place) const;
 
@@ -63,7 +63,7 @@ namespace Ricochet
                const Chain                 &chain,
                const unsigned int           facet) const;
 
-    /// The facet of the chain before which the point is, beginning with @p facet.
+    /// The facet of the chain that the point faces, beginning with @p facet.
     unsigned int
     facet_before(const std::vector<Position> &x,
                  const unsigned int           facet) const;
@@ -74,14 +74,13 @@ namespace Ricochet
            const Chain                 &chain,
            const unsigned int           facet) const;
 
-    /// The facet before which the point @p y of the slave with the outward @p normal
-    /// is, of those that @p search knows, if there is one. The positions are in #work
-    /// then.
+    /// The facet that the point @p y of the slave with the outward @p normal faces,
+    /// among those of @p search, if there is one. The positions are in #work then.
     ///
-    /// @param self the point, where a surface is searched for contact with itself:
-    /// not before its own facets and their neighbours, nor before those on the far
+    /// @param self the point, where a surface is searched for self-contact: its
+    /// own facets and their neighbours are left out, and so are those on the far
     /// side of the wall that it is on.
-    /// @param largest_distance of the facet (m).
+    /// @param largest_distance largest distance from the facet (m).
     std::optional<Facing>
     find_facet(const Position              &y,
                const Position              &normal,
@@ -91,7 +90,8 @@ namespace Ricochet
                const double                 largest_distance =
                  std::numeric_limits<double>::infinity()) const;
 
-    /// How deep behind a facet contact reaches: not through a body (m).
+    /// Largest depth behind a facet for contact, which does not reach through a
+    /// body (m).
     double
     largest_depth(const Facing &facing) const
     {
@@ -101,7 +101,7 @@ namespace Ricochet
     mutable std::vector<Position> work;
 
   private:
-    /// Whether the @p point and facet @p f of one surface hang together.
+    /// Whether the @p point and facet @p f of one surface share a node.
     bool
     shares_node(const Point &point, const unsigned int f) const;
 

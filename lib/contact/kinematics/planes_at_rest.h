@@ -7,7 +7,7 @@
 namespace Ricochet
 {
   /// Against planes that do not move the gap is an affine function of the unknowns,
-  /// and all directions are those of the start.
+  /// and all directions are constant.
   class PlanesAtRest : public ContactKinematics
   {
   public:
@@ -56,7 +56,8 @@ namespace Ricochet
     void
     compute_geometry(const unsigned int p) override
     {
-      // From displacements, so that nothing cancels far from the origin.
+      // Difference of displacements instead of positions, to avoid cancellation
+      // far from the origin.
       PointGeometry &geometry = geometries[p];
       geometry.relative_way   = displacement(p) - old_displacement(p);
       geometry.gap_increment  = geometry.normal * geometry.relative_way;

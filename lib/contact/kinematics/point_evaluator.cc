@@ -43,7 +43,7 @@ namespace Ricochet
   std::vector<dealii::types::global_dof_index>
   ContactPointEvaluator::unknowns() const
   {
-    // The smallest gap of all points that know an unknown.
+    // The smallest gap of all points that depend on an unknown.
     using Index = dealii::types::global_dof_index;
     std::vector<std::pair<Index, double>> mine;
     for (const ContactPoint &point : points.points)
@@ -80,7 +80,8 @@ namespace Ricochet
       {
         const ContactPoint &point = points.points[p];
         PointVector         sum;
-        // Memory limits this: coefficients that are all zero are not read.
+        // The speed is limited by memory: coefficients that are all zero are
+        // not read.
         for (unsigned int k = point.begin; k < point.end; ++k)
           sum[points.component[k]] +=
             points.shape_value[k] * value[local_index[k]];
@@ -106,7 +107,7 @@ namespace Ricochet
   {
     double *const values = local_values(vector);
     for (unsigned int k = point.begin; k < point.end; ++k)
-      // Most of them are here, and need not be looked for.
+      // Most of them are on this rank, and need no search.
       if (owned_index[k] >= 0)
         values[owned_index[k]] += value(k);
       else if (const double sent = value(k); sent != 0.)

@@ -12,9 +12,9 @@
 namespace Ricochet
 {
   /**
-   * The one place where global unknowns meet the contact points of this rank: what
-   * a vector of unknowns is worth in the points, and what a force in a point is
-   * worth in the unknowns.
+   * The map between global unknowns and the contact points of this rank:
+   * observables of the points from a vector of unknowns, and forces on the
+   * unknowns from forces in the points.
    */
   class ContactPointEvaluator
   {
@@ -48,7 +48,7 @@ namespace Ricochet
         const PointMatrix &tangent,
         Matrix            &matrix) const;
 
-    /// Averages around each node of @p values in the points, in the place of the
+    /// Averages around each node of @p values in the points, at the index of the
     /// node's first displacement: weighted by the square of the node's shape
     /// function, which is never negative.
     Vector
@@ -101,7 +101,7 @@ namespace Ricochet
     bool                   some_points = false;
     // Whether any point has coefficients of these.
     bool has_stress_pressure = false, has_multipliers = false;
-    // Place of each unknown among those of this rank; -1: another rank's.
+    // Index of each unknown among those of this rank; -1 for other ranks.
     std::vector<int> owned_index;
     // Work space of add().
     mutable std::vector<double> local_matrix;

@@ -15,7 +15,7 @@ namespace Ricochet
   /// Derivatives of the generalised forces (rows) with respect to the observables.
   using PointMatrix = dealii::Tensor<2, 5>;
 
-  /// Places in PointVector behind the displacement.
+  /// Indices in PointVector behind the displacement.
   namespace PointPlace
   {
     constexpr unsigned int stress_pressure = 3, multiplier = 4;

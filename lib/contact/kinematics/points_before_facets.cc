@@ -99,14 +99,14 @@ namespace Ricochet
       has_length ? this->longest_way(old_positions, course.end) : 0.;
     if (is_self)
       {
-        // A facet, and as much as two points come nearer to each other in the step.
+        // Size of a facet, and the largest approach of two points in the step.
         self_distance = 0.;
         for (const auto &facet : master.facets)
           self_distance = std::max(self_distance, facet.measure);
         self_distance += way;
       }
     find_places_now();
-    // Points outside of it cannot come to the other surface in this step.
+    // Points outside of it cannot reach the other surface in this step.
     BoundingBox<dim> within_reach;
     if (has_length)
       {
@@ -158,7 +158,7 @@ namespace Ricochet
               this->gap_before(x, step.chain, last_facet(x, step));
           }
       }
-    // What was pressed from both sides, likely still is.
+    // Nodes that were pressed from both sides are likely to be so again.
     for (unsigned int p = 0; p < n_first_sides; ++p)
       if (gaps[p].is_before_facet && has_other_sides() &&
           gaps[*other_side(p)].multipliers[0] > 0.)
@@ -179,11 +179,13 @@ namespace Ricochet
         Step              &step  = steps[p];
         if (!step.may_pass || gaps[other].is_before_facet)
           return;
-        // Where facets turn by less, two constraints would be the same. It has to be a
-        // valley from the beginning on: otherwise the force on its other side would
-        // come from where that was not yet in the way, and do work.
+        // Smallest angle of a concave corner: with less, two constraints would be the
+        // same. The corner has to be concave from the beginning of the step: otherwise
+        // the force of its other side would act before that side was reached, and do
+        // work.
         constexpr double flat = 1e-6;
-        // The valley is between this facet of the chain and the next one.
+        // The concave corner is between this facet of the chain and the next
+        // one.
         std::optional<unsigned int> valley;
         double nearest = std::numeric_limits<double>::infinity();
         for (const int side : {-1, 0})
@@ -298,7 +300,7 @@ namespace Ricochet
   void
   PointsBeforeFacets<dim>::find_places_now()
   {
-    // How far a surface looks for itself depends on the step.
+    // The search distance of self-contact depends on the step.
     const bool are_known = !is_self && found_at.is_same(old_positions);
     if (are_known)
       return;
@@ -354,8 +356,8 @@ namespace Ricochet
                                    self_distance);
     if (!facing)
       return;
-    // The way there, from where the point is now; should it not be before this part
-    // of the surface yet, along this facet.
+    // The path to this facet, from where the point is now; if the point does not
+    // face this part of the surface yet, along this facet.
     const auto        &x     = gather_all(p, facing->chain, old_positions);
     const unsigned int first = this->facet_before(x, facing->facet);
     const bool         passes =
@@ -387,8 +389,8 @@ namespace Ricochet
   PointsBeforeFacets<dim>::last_facet(const std::vector<Position> &x,
                                       const Step                  &step) const
   {
-    // Where two facets meet, their gaps differ by so little that the energy does not
-    // notice.
+    // Margin where two facets meet, whose gaps differ by so little that the energy
+    // is unaffected.
     constexpr double margin = 1e-8;
     if constexpr (dim > 1)
       if (step.may_pass || step.is_beyond_valley)
@@ -658,8 +660,8 @@ namespace Ricochet
   double
   PointsBeforeFacets<dim>::round_off(const unsigned int p) const
   {
-    // A difference of positions, each of which is that of the reference and a
-    // displacement.
+    // Round-off of a difference of positions, each of which is a reference
+    // position plus a displacement.
     double         size  = 0.;
     const Step    &step  = steps[p];
     const auto    &chain = step.chain;

@@ -10,19 +10,19 @@
 namespace Ricochet
 {
   /**
-   * Each point of the slave, a node or a quadrature point, is held by the one facet
-   * of the master before which it is (node to segment).
+   * Each point of the slave, a node or a quadrature point, is in contact with the
+   * one facet of the master that it faces (node to segment).
    *
-   * No history enters: that facet follows from where both are (see FacetChain for
+   * The facet depends on the positions alone, without history (see FacetChain for
    * vertices, which a point may pass during a step). So gaps at the end of a step
    * are those at the beginning of the next one.
    *
-   * In a valley, between two facets that make a concave vertex, a node may be pressed
-   * against both at once. With one facet at a time it could only be held by one, and
-   * would go to and fro. So where there is a multiplier for it, each node is two
-   * points. When the node does go to and fro, or was pressed from both sides in the
-   * step before, one is before the facet where it begins, the other before the facet
-   * beyond the concave vertex, and neither of them passes that.
+   * In a concave corner between two facets, a node may be pressed against both at
+   * once. With one facet at a time it would be constrained by one only, and
+   * oscillate. So where there is a multiplier for it, each node is two points. When
+   * the node oscillates, or was pressed from both sides in the step before, one point
+   * stays with the facet where it begins, the other one with the facet beyond the
+   * concave vertex, and neither of them passes that vertex.
    */
   template <int dim>
   class PointsBeforeFacets : public PairBeforeChains<dim>
@@ -124,22 +124,26 @@ namespace Ricochet
     struct Step
     {
       Chain chain;
-      /// Facets of the chain before which the point is at both ends of the step.
+      /// Facets of the chain that the point faces at the beginning and the end
+      /// of the step.
       unsigned int old_facet = 0, new_facet = 0;
-      /// It may pass vertices: it begins between the bisectors of the old facet.
+      /// The point may pass vertices: it begins between the bisectors of the old
+      /// facet.
       bool may_pass = false;
-      /// It is a node on another one, whose constraint is the same or nearly so.
+      /// The point is a node on another one, whose constraint is the same or
+      /// nearly so.
       bool is_double = false;
-      /// It is the other side of a node, and has the row of the facet where it ends.
+      /// The point is the other side of a node, with the row of the facet where it
+      /// ends.
       bool is_beyond_valley = false;
-      /// The facets of the chain to which it may pass.
+      /// The facets of the chain to which the point may pass.
       unsigned int first_allowed = 0,
                    last_allowed  = std::numeric_limits<unsigned int>::max();
 
       bool up_to_date = false;
       Rows rows;
-      /// Of the unknown k of the rows the coordinate[k] of the chain moves, by
-      /// factor[k].
+      /// Dependence of the rows on the unknowns: unknown k moves the
+      /// coordinate[k] of the chain, by factor[k].
       std::vector<unsigned int> coordinate;
       std::vector<double>       factor;
     };
@@ -147,12 +151,12 @@ namespace Ricochet
     void
     make_quadrature_points(const Body<dim> &body);
 
-    /// Give each node a point before the other facet of a valley.
+    /// Give each node a point for the other facet of a concave corner.
     void
     make_other_sides();
 
-    /// Let the points @p p and other_side(p) be before the facets of the valley that
-    /// is the nearest one @p now, if there is one.
+    /// Assign the points @p p and other_side(p) to the facets of the concave corner
+    /// that is the nearest one @p now, if there is one.
     void
     find_valley(const unsigned int p, const Positions &now);
 
@@ -162,22 +166,22 @@ namespace Ricochet
                const Chain       &chain,
                const Positions   &positions) const;
 
-    /// The facet before which the point is at the end of @p step, with positions @p
-    /// x.
+    /// The facet that the point faces at the end of @p step, with positions @p x.
     unsigned int
     last_facet(const std::vector<Position> &x, const Step &step) const;
 
-    /// The sine of the angle of the surface at @p node: positive in a valley.
+    /// The sine of the angle of the surface at @p node: positive in a concave
+    /// corner.
     double
     turn_at(const unsigned int node) const;
 
-    /// Of two nodes of one surface that meet each other exactly, whether @p p is the
-    /// one to leave out: two constraints would be the same. The other one sees a
-    /// valley, which holds it, rather than the tip in it.
+    /// Whether @p p is the one to leave out of two nodes of one surface that meet
+    /// each other exactly: two constraints would be the same. The other one faces a
+    /// concave corner, which supports it, rather than the tip in it.
     bool
     meets_node(const unsigned int p) const;
 
-    /// Where a point is before a facet of the chain.
+    /// The facet of a chain that a point faces.
     struct Place
     {
       Chain        chain;
@@ -186,21 +190,21 @@ namespace Ricochet
       double       gap      = 0.;
     };
 
-    /// Where points are at #old_positions: not looked for again where the last step or
-    /// report has done so.
+    /// The facets that points face at #old_positions: kept if the last step or report
+    /// has found them at these.
     void
     find_places_now();
 
-    /// The facet before which a point is at #old_positions, if there is one.
+    /// The facet that a point faces at #old_positions, if there is one.
     std::optional<Place>
     place_now(const unsigned int p, const FacetSearch<dim> &search) const;
 
-    /// Let the point @p p begin there.
+    /// Let the point @p p begin at @p place.
     void
     begin_before(const unsigned int p, Place place);
 
-    /// For a point that is not pressed, a facet that it is in front of and before
-    /// which it will be @p later, if there is one.
+    /// For a point that is not pressed, a facet that it is in front of and will
+    /// face @p later, if there is one.
     void
     find_facet_later(const unsigned int      p,
                      const FacetSearch<dim> &search,
@@ -220,7 +224,7 @@ namespace Ricochet
     update(const unsigned int p) const;
 
     Positions old_positions, new_positions;
-    /// Of each point, and for which positions they were found.
+    /// The facet of each point, and the positions for which they were found.
     std::vector<std::optional<Place>>                    places_now;
     Positions                                            found_at;
     mutable std::vector<Step>                            steps;
@@ -229,9 +233,10 @@ namespace Ricochet
     mutable ChainRows<double>                            chain_rows;
     mutable ChainRows<Differentiable>                    differentiable_rows;
     mutable Derivatives                                  result;
-    /// The points before it have others on the other side.
+    /// Number of points that have another one on the other side: the first
+    /// ones.
     unsigned int n_first_sides = 0;
-    /// How far from a point facets of its own surface are looked for (m).
+    /// Search distance for facets of the point's own surface (m).
     double self_distance = 0.;
   };
 } // namespace Ricochet

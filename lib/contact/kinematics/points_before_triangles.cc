@@ -20,7 +20,7 @@ namespace Ricochet
 
   namespace
   {
-    /// Of the first of @p x from the triangle between the others.
+    /// Distance of the first of @p x from the triangle between the others.
     double
     distance(const std::array<std::array<double, 3>, 4> &x)
     {
@@ -87,7 +87,7 @@ namespace Ricochet
   void
   PointsBeforeTriangles::make_quadrature_points(const Body<3> &body)
   {
-    // As many as a triangle of degree 1 has elsewhere.
+    // As many points as elsewhere on a triangle of degree 1.
     const QGaussSimplex<2> rule(2);
     for (unsigned int f = 0; f < slave.facets.size(); ++f)
       {
@@ -183,14 +183,14 @@ namespace Ricochet
       std::sqrt(std::max(0., away.norm_square() - gap * gap));
     const double size =
       std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    // Half a facet beyond an open edge, as in 2D (PairBeforeChains::is_off()); what is
-    // pressed into a facet that turns is not off its end for that.
+    // Half a facet beyond an open edge, as in 2D (PairBeforeChains::is_off()); the
+    // depth is added for points that are pressed into a facet that turns.
     if (beside > .5 * size + std::max(0., -gap))
       for (unsigned int e = 0; e < 3; ++e)
         if (!master.facets[f].neighbours[e] && shares[(e + 2) % 3] == 0.)
           return true;
-    // Past a convex edge points may be as far as the neighbour is before them; what is
-    // farther off the facet than before it is beside it.
+    // A point past a convex edge may be as far away as the neighbour is in front of
+    // it; a point farther off the facet than in front of it is beside it.
     return beside > 1.5 * std::abs(gap) + tolerance * size;
   }
 
@@ -219,12 +219,12 @@ namespace Ricochet
     // Contact does not reach through a body.
     if (is_off(x, *f) || !(gap > -std::sqrt(master.facets[*f].measure)))
       return {};
-    // What is behind the plane of a facet, but nearer to another one that it does not
-    // face, is at the far side of the body, or beside it; unless it only just came
-    // in, at an edge.
+    // A point behind the plane of a facet, but nearer to another one that it does not
+    // face, is at the far side of the body, or beside it; except if it has only just
+    // entered, at an edge.
     if (gap < 0.)
       {
-        // As far as the facet itself, but for round-off.
+        // Facets as far as the facet itself, except for round-off.
         const auto nearest = search.closest_facing(
           x[0],
           x[0],
@@ -272,10 +272,10 @@ namespace Ricochet
       return {};
     const Corners<double> x   = corners(p, *f, positions);
     const double          gap = PointBeforeTriangle<double>::gap(x);
-    // Facets that are closer may not be allowed: then the point is beside this one.
+    // Closer facets may be excluded: then the point is beside this one.
     if (is_off(x, *f, .1))
       return {};
-    // What is behind the plane of a facet, but nearer to another one and in front of
+    // A point behind the plane of a facet, but nearer to another one and in front of
     // that, is beside the body.
     if (gap < 0.)
       {
@@ -347,7 +347,7 @@ namespace Ricochet
                               FacetsAround<3>   &facets) const
   {
     unsigned int closest = f;
-    // What is fast may pass several facets, but not the whole surface.
+    // A fast point may pass several facets, but not the whole surface.
     for (unsigned int n = 0; n < farthest_walk; ++n)
       {
         const auto next =
@@ -369,7 +369,7 @@ namespace Ricochet
     const Step        &step = steps[p];
     const unsigned int old  = step.old_facet;
     const double       size = std::sqrt(master.facets[old].measure);
-    // What is far off needs no closer look.
+    // A point that is far off needs no search.
     if (!step.may_pass)
       return old;
     const Corners<double> x = corners(p, old, now);
@@ -378,9 +378,9 @@ namespace Ricochet
     const unsigned int closest = walk(p, old, step.normal, x[0], facets);
     if (closest == old)
       return old;
-    // Where both gaps are the same but for round-off, that would choose. The search at
-    // the beginning of the next step knows no such margin: what it is in gaps is an error
-    // of the energy.
+    // Gaps that are equal except for round-off would make the choice arbitrary. The
+    // search at the beginning of the next step has no such margin: the difference of
+    // both gaps is an error of the energy.
     const auto   old_x  = corners(p, old, closest, old_positions);
     const auto   new_x  = corners(p, old, closest, now);
     const double change = Passing::difference(new_x);
@@ -450,8 +450,8 @@ namespace Ricochet
     const auto f = find_facet(p, search, later, reach, facets_now[p]);
     if (!f)
       return;
-    // The way there, from where the point is now; should it not be before this part of
-    // the surface yet, along this facet.
+    // The path to this facet, from where the point is now; if the point does not face
+    // this part of the surface yet, along this facet.
     const Position     y     = position_of(own_points[p], old_positions.slave);
     const unsigned int first = walk(p, *f, steps[p].normal, y, facets);
     for (const unsigned int old_facet : {first, *f})
@@ -795,8 +795,8 @@ namespace Ricochet
   double
   PointsBeforeTriangles::round_off(const unsigned int p) const
   {
-    // That of differences of positions, each of which is that of the reference and a
-    // displacement.
+    // Round-off of differences of positions, each of which is a reference position
+    // plus a displacement.
     double             size   = 0.;
     const Position     y      = position_of(own_points[p], new_positions.slave);
     const auto        &own    = slave.nodes[own_points[p].nodes[0].first];

@@ -17,17 +17,17 @@ namespace Ricochet
   class FacetsAround;
 
   /**
-   * Each point of the slave, a node or a quadrature point, is held by the one triangle
-   * of the master before which it is: the closest one that faces it.
+   * Each point of the slave, a node or a quadrature point, is in contact with the one
+   * triangle of the master that it faces: the closest one.
    *
-   * No history enters: which triangle that is follows from where both are. A point may
-   * pass from one to another during a step (see PointPassingTriangles), so that the gap
-   * at the end of a step is that at the beginning of the next one. Where both differ
-   * after all, at vertices of some kinds, the point stays before the triangle where it
-   * began until the step is over.
+   * The triangle depends on the positions alone, without history. A point may pass from
+   * one to another during a step (see PointPassingTriangles), so that the gap at the
+   * end of a step is that at the beginning of the next one. Where both differ
+   * nevertheless, at vertices of some kinds, the point keeps the triangle where it
+   * began until the end of the step.
    *
-   * Of a surface against itself all points are before others of its triangles: see
-   * OwnFacets for which. A point never passes to one of those around it.
+   * For a surface against itself, each point can touch other triangles of that
+   * surface, see OwnFacets. A point never passes to one of those around it.
    */
   class PointsBeforeTriangles : public SurfacePair<3>
   {
@@ -87,8 +87,8 @@ namespace Ricochet
     template <typename Number>
     using Corners = std::array<std::array<Number, 3>, 4>;
 
-    /// What the row of an unknown is made of: coordinates of the point and the
-    /// triangles' corners that move with it, and by how much.
+    /// An entry of a row: coordinates of the point and the triangles' corners
+    /// that move with the unknown, and their factors.
     struct Share
     {
       unsigned int place, coordinate;
@@ -97,10 +97,11 @@ namespace Ricochet
 
     struct Step
     {
-      /// Before which the point is at both ends of the step.
+      /// Facets that the point faces at the beginning and the end of the step.
       unsigned int old_facet = 0, new_facet = 0;
       bool         may_pass = false;
-      /// It is a node on another one, whose constraint is the same or nearly so.
+      /// The point is a node on another one, whose constraint is the same or
+      /// nearly so.
       bool is_double = false;
       /// Outward normal of the slave at the beginning of the step.
       Position           normal{};
@@ -133,14 +134,14 @@ namespace Ricochet
     shared_edge(const unsigned int old_facet,
                 const unsigned int new_facet) const;
 
-    /// The facets around facet @p f that the point @p p may be before. The next call
+    /// The facets around facet @p f that the point @p p may face. The next call
     /// overwrites them.
     const std::vector<unsigned int> &
     allowed_around(const unsigned int p, const unsigned int f) const;
 
     /// The facet closest to point @p p, found by walking over the surface from facet @p
     /// f.
-    /// @param y where the point is when @p facets are where they are.
+    /// @param y position of the point, for the positions in @p facets.
     unsigned int
     walk(const unsigned int p,
          const unsigned int f,
@@ -148,9 +149,8 @@ namespace Ricochet
          const Position    &y,
          FacetsAround<3>   &facets) const;
 
-    /// The facet before which the point is at the end of the step, with positions @p
-    /// now.
-    /// @param facets are there.
+    /// The facet that the point faces at the end of the step, with positions @p now.
+    /// @param facets at these positions.
     unsigned int
     last_facet(const unsigned int p,
                const Positions   &now,
@@ -163,9 +163,9 @@ namespace Ricochet
            const unsigned int     f,
            const double           tolerance = .5) const;
 
-    /// The facet before which the point is, of those that @p search knows, if there
-    /// is one not farther off than @p largest_distance (m).
-    /// @param likely which one it may well be.
+    /// The facet that the point faces, among those of @p search, if there is one
+    /// not farther off than @p largest_distance (m).
+    /// @param likely the probable result, which makes the search faster.
     std::optional<unsigned int>
     find_facet(const unsigned int                p,
                const FacetSearch<3>             &search,
@@ -173,7 +173,7 @@ namespace Ricochet
                const double                      largest_distance,
                const std::optional<unsigned int> likely) const;
 
-    /// The same of a surface against itself.
+    /// As above, for a surface against itself.
     std::optional<unsigned int>
     find_own_facet(const unsigned int                p,
                    const FacetSearch<3>             &search,
@@ -181,38 +181,38 @@ namespace Ricochet
                    const double                      largest_distance,
                    const std::optional<unsigned int> likely) const;
 
-    /// Before which it was last, as far as is known.
+    /// The facet that the point faced last, if known.
     std::optional<unsigned int>
     likely_facet(const unsigned int p) const;
 
-    /// Of two nodes of one surface that meet each other exactly, whether @p p is the
-    /// one to leave out: two constraints would be the same.
+    /// Whether @p p is the one to leave out of two nodes of one surface that meet
+    /// each other exactly: two constraints would be the same.
     bool
     meets_node(const unsigned int p) const;
 
-    /// The facets before which points are at #old_positions, as far as the
-    /// #smallest_reach: what comes from farther off is found where it will be. They are
-    /// not looked for again where the last step or report has done so.
+    /// Find the facets that points face at #old_positions, up to the distance
+    /// #smallest_reach: points from farther off are found at extrapolated positions.
+    /// They are kept if the last step or report has found them at these positions.
     void
     find_facets_now();
 
-    /// For a point that is not pressed, a facet that it is in front of and before
-    /// which it will be @p later, if there is one.
-    /// @param facets where they are now.
+    /// For a point that is not pressed, a facet that it is in front of and will
+    /// face @p later, if there is one.
+    /// @param facets at the positions of now.
     void
     find_facet_later(const unsigned int    p,
                      const FacetSearch<3> &search,
                      const Positions      &later,
                      FacetsAround<3>      &facets);
 
-    /// Let the point @p p begin before facet @p f.
+    /// Let the point @p p begin at facet @p f.
     void
     begin_before(const unsigned int p,
                  const unsigned int f,
                  const double       gap,
                  const bool         may_pass);
 
-    /// Sum the derivatives of rows on @p n_points points up over the shares.
+    /// Sum the derivatives of rows on @p n_points points over the Step::shares.
     template <unsigned int n_points, typename Evaluate>
     void
     differentiate(const unsigned int p,
@@ -232,18 +232,18 @@ namespace Ricochet
     void
     update(const unsigned int p) const;
 
-    /// Facets farther from a point are not looked for: a tenth of the surface, but no
-    /// less than two facets and what comes near in a step; of its own surface only
-    /// these (m).
+    /// Search distances of facets: a tenth of the surface, but no less than two
+    /// facets and the approach in a step; on the point's own surface only the latter
+    /// (m).
     double reach = 0., smallest_reach = 0.;
     /// The facets around each one: those that share a node with it, and itself.
     std::vector<std::vector<unsigned int>> around;
-    /// For contact with itself: what points can touch, and of each the facets around
-    /// it, which it cannot.
+    /// For self-contact: the facets that points can touch, and the facets around
+    /// each one, which its points cannot touch.
     std::unique_ptr<OwnFacets>             own_facets;
     std::vector<std::vector<unsigned int>> own_around;
     Positions                              old_positions, new_positions;
-    /// Of each point, and for which positions they were found.
+    /// The facet of each point, and the positions for which they were found.
     std::vector<std::optional<unsigned int>> facets_now;
     Positions                                found_at;
     mutable std::vector<Step>                steps;

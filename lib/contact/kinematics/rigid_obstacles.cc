@@ -60,7 +60,8 @@ namespace Ricochet
     RigidObstacle::Rows rows;
     if (time_step == 0.)
       {
-        // Both ends of the step are one point, which moves as such.
+        // Both ends of the step are the same point of the obstacle, which moves
+        // with it.
         rows = obstacles[i]->rows(steps[i], x, x, Tensor<1, 3>());
         rows.direction_derivative *= 2.;
       }
@@ -84,7 +85,8 @@ namespace Ricochet
   namespace
   {
     /// Whether the straight path from @p begin to @p end leads through the shape, in at
-    /// one side and out at another one; a chord of what it slides along is not meant.
+    /// one side and out at another one; a chord along a surface on which it slides does
+    /// not count.
     bool
     leads_through(const ObstacleShape &shape,
                   const Tensor<1, 3>  &begin,
@@ -92,7 +94,8 @@ namespace Ricochet
     {
       const Tensor<1, 3> path   = end - begin;
       const double       length = path.norm();
-      // Gaps are distances: there is no way in and out on less than both of them.
+      // Gaps are distances: a path in and out is at least as long as the sum of
+      // both.
       const double begin_gap = shape.gap(begin), end_gap = shape.gap(end);
       if (!(begin_gap >= 0. && end_gap >= 0. && length > begin_gap + end_gap))
         return false;
@@ -141,13 +144,13 @@ namespace Ricochet
         const unsigned int  i     = obstacle_of_point[p];
         if (obstacles[i]->shape().is_plane())
           continue;
-        // As the obstacle sees it.
+        // Positions in the obstacle's frame.
         const Tensor<1, 3> old_x = begin_placements[i].pull_back(
                              point.reference_position +
                              displacement_of(from[p])),
                            new_x = end_placements[i].pull_back(
                              point.reference_position + displacement_of(to[p]));
-        // What moves less than a part of its cell does not pass.
+        // A point that moves less than this part of its cell does not pass.
         if ((new_x - old_x).norm() < .05 * point.cell_diameter ||
             !leads_through(obstacles[i]->shape(), old_x, new_x))
           continue;
@@ -173,7 +176,8 @@ namespace Ricochet
   double
   RigidObstacles::gap_round_off(const unsigned int p, const double gap) const
   {
-    // A difference of two distances from the centre of the obstacle.
+    // Round-off of a difference of two distances from the centre of the
+    // obstacle.
     const unsigned int i = obstacle_of_point[p];
     const double       distance =
       (points()[p].reference_position + displacement(p) -

@@ -255,7 +255,7 @@ namespace Ricochet
         knows_all = knows_all && known[other];
     if (Utilities::MPI::min(knows_all ? 1 : 0, communicator) == 1)
       return false;
-    // What is a little farther off may be near in one of the next steps.
+    // Patches a little farther off may be near in one of the next steps.
     if (std::isfinite(course.reach))
       near = patches.near(places,
                           1.5 * course.reach,
@@ -363,7 +363,8 @@ namespace Ricochet
   SurfacePair<dim>::longest_way(const Positions &from,
                                 const Positions &to) const
   {
-    // Each node is known to some rank. What is not a number is not larger.
+    // Each node is known on some rank; the comparison skips the NaN of unknown
+    // ones.
     std::vector<double> longest(2, 0.);
     const auto          find = [](const std::vector<Position> &a,
                          const std::vector<Position> &b,
@@ -434,7 +435,7 @@ namespace Ricochet
       product += own[c] * its[c];
     if (product >= 0.)
       return false;
-    // Where both are at that time, on straight paths.
+    // Positions of both at that time, on straight paths.
     const double when = gap0 / (gap0 - gap1);
     const auto   at   = [&](const Position &a, const Position &b) {
       Tensor<1, 3> x;
@@ -467,11 +468,11 @@ namespace Ricochet
     read(begin, x0);
     read(end, x1);
     gaps = gaps_of_step;
-    // What moves by less than a quarter of the smallest facet and the thinnest cell is
-    // seen by the search at its end.
+    // The search at the end of the step detects motions below a quarter of the
+    // smallest facet and the thinnest cell.
     if (longest_way(x0, x1) < .25 * smallest_thickness)
       return {};
-    // How far a facet can be from where it is at the end.
+    // Largest distance of a facet from its position at the end.
     double farthest = 0.;
     for (unsigned int n = 0; n < x0.master.size(); ++n)
       for (unsigned int c = 0; c < dim; ++c)

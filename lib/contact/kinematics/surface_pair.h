@@ -16,19 +16,19 @@ namespace Ricochet
 {
   /**
    * The geometry of contact of the points of one surface (slave) with the facets of
-   * another one (master), both of which move: in each point gap, its increment and
-   * slip over a step, and the directions of the forces, as rows on the unknowns of
-   * both. This class knows the surfaces, where they are, and which facet is before
-   * which point; how points are coupled to facets is for derived classes.
+   * another one (master), both of which move. In each point these are gap, its
+   * increment and slip over a step, and the directions of the forces, as rows on
+   * the unknowns of both. This class has the surfaces, their positions, and the
+   * facet that each point faces; derived classes couple points to facets.
    *
-   * For whatever they take as rows D and T: D . change is the increment of the gap
+   * For any rows D and T of these classes, D . change is the increment of the gap
    * and T . change the slip, so that the work of a pressure p and a traction t is p
    * times the one and t times the other; the sum of forces and that of moments are
    * zero.
    *
-   * Each rank takes care of the points of its own nodes. It knows where the facets of its
-   * own cells are, and where those patches of the master are that come near its points:
-   * only their positions travel.
+   * Each rank owns the points of its own nodes. It has the positions of the facets of
+   * its own cells, and of those patches of the master that come near its points; only
+   * these are exchanged.
    */
   template <int dim>
   class SurfacePair
@@ -37,19 +37,18 @@ namespace Ricochet
     using Index    = dealii::types::global_dof_index;
     using Position = std::array<double, dim>;
 
-    /// Number of directions along a surface; one, which nothing moves along, on the
-    /// line.
+    /// Number of directions along a surface; one, without motion, in 1D.
     static constexpr unsigned int n_tangents = dim == 3 ? 2 : 1;
     /// Slip (m) or traction (Pa).
     using Tangential = dealii::Tensor<1, n_tangents>;
 
-    /// A point of the slave surface that this rank takes care of.
+    /// A point of the slave surface that this rank owns.
     struct Point
     {
-      /// Numbers of nodes of the slave surface, and the weights with which the
-      /// point is in their middle.
+      /// Numbers of nodes of the slave surface, and their weights in the
+      /// position of the point.
       std::vector<std::pair<unsigned int, double>> nodes;
-      /// Facets of the slave surface whose outward normals it has.
+      /// Facets of the slave surface whose outward normals the point has.
       std::vector<unsigned int> facets;
       /// m^(dim-1)
       double weight = 0.;
@@ -63,8 +62,8 @@ namespace Ricochet
     /// Rows of a point over a step, at the state of the last evaluate().
     struct Rows
     {
-      /// The unknowns on which they are: first those of the node that the point is,
-      /// or of the first of its nodes.
+      /// The unknowns of the rows: first those of the node that the point is, or of
+      /// the first of its nodes.
       std::vector<Index> unknowns;
       /// D and T, 1.
       std::vector<double>                         normal;
@@ -80,37 +79,37 @@ namespace Ricochet
     /// Derivatives with respect to the unknowns of the rows at the end of the step.
     struct Derivatives
     {
-      /// Of gap and slip, 1.
+      /// Derivatives of gap and slip, 1.
       std::vector<double>                         gap;
       std::array<std::vector<double>, n_tangents> slip;
-      /// Of traction T - pressure D (Pa/m), row by row.
+      /// Derivatives of traction T - pressure D (Pa/m), row by row.
       std::vector<double> forces;
     };
 
-    /// @throws InputError see ContactSurface; and when the surfaces do not face
+    /// @throws InputError see ContactSurface; or when the surfaces do not face
     /// each other anywhere.
     SurfacePair(const Body<dim> &body, const ContactPair &pair);
 
     virtual ~SurfacePair() = default;
 
-    /// Begin a step: find out what is before which facets. With a step of no
-    /// length it is an instant.
+    /// Begin a step: find the facet that each point faces. A step of no length
+    /// is an instant.
     virtual void
     begin_step(const ContactStart &start) = 0;
 
-    /// The end of the step.
+    /// Evaluate rows and gaps for the end of the step.
     virtual void
     evaluate(const Vector &solution) = 0;
 
-    /// Whether it is one surface, against itself.
+    /// Whether the pair is one surface, against itself.
     bool
     touches_itself() const
     {
       return is_self;
     }
 
-    /// Nobody will ask for slip, for rows of it or for its derivatives, as there is no
-    /// friction: they need not be computed, and may be zero.
+    /// Leave out slip, its rows and its derivatives, which are not needed without
+    /// friction and may be zero then.
     void
     leave_out_slip()
     {
@@ -118,10 +117,10 @@ namespace Ricochet
     }
 
     /// The displacements of all nodes of both surfaces, and the multipliers of this
-    /// rank's points: all that contact acts on. With each a distance (m) that tells
-    /// in which order contact is expected to spread: how much farther it is from the
-    /// middle of the other surface than the nearest of its own surface. Not sorted;
-    /// none comes twice.
+    /// rank's points: all that contact acts on. The distance (m) with each one gives
+    /// the order in which contact is expected to spread: how much farther it is from
+    /// the middle of the other surface than the nearest of its own surface. Not
+    /// sorted; each once.
     std::vector<std::pair<Index, double>>
     unknowns() const;
 
@@ -133,24 +132,25 @@ namespace Ricochet
     }
 
     /// The points that cross a facet of the master from its front to its back on the
-    /// straight paths from @p begin to @p end (m): by themselves that is no contact lost.
-    /// None where nothing moves as far as the bodies are thick. Collective.
+    /// straight paths from @p begin to @p end (m), which need not be a loss of contact.
+    /// None if no displacement increment exceeds the thickness of the bodies.
+    /// Collective.
     std::vector<unsigned int>
     crossing_points(const Vector &begin, const Vector &end);
 
-    /// Where the point @p p is in the undeformed body (m); zeros beyond dim.
+    /// Position of the point @p p in the undeformed body (m); zeros beyond dim.
     dealii::Point<3>
     reference_place(const unsigned int p) const;
 
-    /// The part of the body that the point @p p is on.
+    /// The part of the body with the point @p p.
     unsigned int
     part_of(const unsigned int p) const
     {
       return slave.facets[own_points[p].facets.front()].part;
     }
 
-    /// Whether this rank knows where facet @p f of the master is: its own, and those of
-    /// patches that have come near its points.
+    /// Whether this rank has the position of facet @p f of the master: of its own ones,
+    /// and of those of patches that have come near its points.
     bool
     is_known(const unsigned int f) const
     {
@@ -163,8 +163,8 @@ namespace Ricochet
       return master;
     }
 
-    /// Whether the point @p p is before a facet, no deeper behind it than its
-    /// length, during the step. What follows may only be asked for if it is.
+    /// Whether the point @p p faces a facet during the step, no deeper behind
+    /// it than the facet's length. Only then may the following be called.
     bool
     is_before_facet(const unsigned int p) const
     {
@@ -185,8 +185,8 @@ namespace Ricochet
       return gaps[p].new_gap;
     }
 
-    /// The gap in the middle of the step, if the mean velocity of the step before
-    /// goes on (m).
+    /// The gap in the middle of the step, extrapolated with the mean velocity of
+    /// the step before (m).
     double
     predicted_gap(const unsigned int p) const
     {
@@ -200,31 +200,33 @@ namespace Ricochet
       return gaps[p].multipliers;
     }
 
-    /// Whether point @p p is the same node as another point, before the other facet
-    /// of a valley. Its weight is that of the node, which must not count twice.
+    /// Whether point @p p is the same node as another point, for the other facet of
+    /// a concave corner. Its weight is that of the node, which must not count
+    /// twice.
     virtual bool
     is_other_side(const unsigned int /*p*/) const
     {
       return false;
     }
 
-    /// The point that is the same node as @p p, before the other facet of a valley.
+    /// The point that is the same node as @p p, for the other facet of a concave
+    /// corner.
     virtual std::optional<unsigned int>
     other_side(const unsigned int /*p*/) const
     {
       return {};
     }
 
-    /// How soft the constraint of the point has to be, as a part of h / r_0 (see
-    /// PairContact): not at all, but where other constraints may say the same or
-    /// nearly so. Then it is as much as tells how they share the force.
+    /// Compliance of the constraint of the point, as a part of h / r_0 (see
+    /// PairContact): zero, except where other constraints may be the same or
+    /// nearly so. There it makes their contributions to the force unique.
     virtual double
     softness(const unsigned int /*p*/) const
     {
       return 0.;
     }
 
-    /// Whether rows() and derivatives() of different points may be asked for on several
+    /// Whether rows() and derivatives() of different points may be called on several
     /// threads at once.
     virtual bool
     points_share_nothing() const
@@ -236,10 +238,11 @@ namespace Ricochet
     rows(const unsigned int p) const = 0;
 
     /**
-     * In work space that the next call (on this thread) overwrites.
+     * The result is in work space that the next call (on this thread)
+     * overwrites.
      *
-     * @param caution keep points from going to and fro between facets,
-     * see FacetChain.
+     * @param caution keep points from oscillating between facets, see
+     * FacetChain.
      */
     virtual const Derivatives &
     derivatives(const unsigned int p,
@@ -247,24 +250,24 @@ namespace Ricochet
                 const Tangential  &traction,
                 const Caution      caution) const = 0;
 
-    /// The unknowns of the rows and those that may join them in the course of a
-    /// step, for sparsity patterns, sorted.
+    /// The unknowns of the rows and those that may join them during a step, for
+    /// sparsity patterns, sorted.
     virtual std::vector<Index>
     unknowns_nearby(const unsigned int p) const = 0;
 
-    /// What tells, for a point, whether it has passed vertices and to where: 0 if it
-    /// has not.
+    /// A number that identifies, for a point, which vertices it has passed: 0 if
+    /// none.
     virtual int
     passage(const unsigned int /*p*/) const
     {
       return 0;
     }
 
-    /// Let the point and its other side, should there be one, be before the facets of
-    /// a valley. Or let it end before the facet where it began: until the next begin_step()
-    /// it passes no vertex. Only for a point so near to one that the gaps of both
-    /// facets differ by less than @p tolerance times the facet's length; others are
-    /// left alone.
+    /// Assign the point and its other side, if there is one, to the facets of a concave
+    /// corner. Otherwise let it end at the facet where it began: until the next
+    /// begin_step() it passes no vertex. Only for a point so near to a vertex that the
+    /// gaps of both facets differ by less than @p tolerance times the facet's length;
+    /// others are unaffected.
     virtual void
     stay_at_vertex(const unsigned int /*p*/, const double /*tolerance*/)
     {}
@@ -274,13 +277,13 @@ namespace Ricochet
     round_off(const unsigned int p) const = 0;
 
   protected:
-    /// Positions of the nodes of both surfaces (m); not numbers for those that this rank
-    /// does not know.
+    /// Positions of the nodes of both surfaces (m); NaN for those unknown on this rank.
     struct Positions
     {
       std::vector<Position> slave, master;
 
-      /// To the last digit, and the same ones are known.
+      /// Whether both are the same to the last digit, and known for the same
+      /// nodes.
       bool
       is_same(const Positions &other) const
       {
@@ -293,8 +296,8 @@ namespace Ricochet
       }
     };
 
-    /// Where nodes are at the beginning of a step, and where the mean velocity of the
-    /// step before takes them in half of it and in all of it. In an instant all are the
+    /// Positions of nodes at the beginning of a step, and extrapolated with the mean
+    /// velocity of the step before to its middle and its end. In an instant all are the
     /// same.
     struct Course
     {
@@ -303,13 +306,14 @@ namespace Ricochet
       double reach = 0.;
     };
 
-    /// How often a point may go on to one of the facets around the one it is before.
+    /// Largest number of facets over which a point may pass, each time to one of the
+    /// facets around the last one.
     static constexpr unsigned int farthest_walk = 4;
 
     /// softness() of a point that is a node on another one.
     static constexpr double softness_of_doubles = 1e-9;
 
-    /// What is known of a point over a step.
+    /// Data of a point over a step.
     struct Gaps
     {
       bool     is_before_facet = false;
@@ -328,14 +332,13 @@ namespace Ricochet
         slave.nodes[slave_node].unknowns[0]);
     }
 
-    /// Begin a step: read the multipliers of all points, find out which facets are near
-    /// and where they are. Collective.
+    /// Begin a step: read the multipliers of all points, find the facets that are near
+    /// and their positions. Collective.
     void
     begin_course(const ContactStart &start, Course &course);
 
-    /// How far from the points of this rank the facets of the master may be that they
-    /// look at in a step (m). In the plane that is all of the surface, a curve.
-    /// Collective.
+    /// Largest distance from the points of this rank for facets of the master in a
+    /// step (m). In 2D it is unbounded, since the surface is a curve. Collective.
     virtual double
     reach_of_step(const Course & /*course*/) const
     {
@@ -347,13 +350,13 @@ namespace Ricochet
     void
     read(const Vector &solution, Positions &positions);
 
-    /// By how much a node of the slave and one of the master can have come nearer to
-    /// each other: the longest ways of both (m). Collective.
+    /// Bound for the approach of a node of the slave and one of the master: the sum
+    /// of the longest displacement increments of both (m). Collective.
     double
     longest_way(const Positions &from, const Positions &to) const;
 
-    /// Whether a point that is before a facet at the distance @p gap may get before another
-    /// one in a step in which surfaces come nearer by not more than @p way (m).
+    /// Whether a point at the distance @p gap from a facet may come to face another one
+    /// in a step in which surfaces approach each other by not more than @p way (m).
     static bool
     may_change_facet(const double gap, const double way)
     {
@@ -367,8 +370,8 @@ namespace Ricochet
     Position
     position_of(const Point &point, const std::vector<Position> &slave_x) const;
 
-    /// Whether the gap of @p point is not constant: that of held nodes in front of a
-    /// surface that is held as a whole is, and no pressure could change it.
+    /// Whether the gap of @p point is not constant: that of fixed nodes against a
+    /// surface that is fixed as a whole is, and no pressure could change it.
     bool
     may_touch(const Point &point) const;
 
@@ -384,23 +387,24 @@ namespace Ricochet
     std::vector<unsigned int> near_facets;
 
   private:
-    /// Let this rank know where the facets of the master's patches #known are, and its
-    /// own. Collective.
+    /// Set up the exchange of the positions of the facets of the master's patches
+    /// #known, and of this rank's own. Collective.
     void
     make_exchange();
 
-    /// Find the #near_facets. @return whether ranks have to know more patches than they
-    /// did before. Collective.
+    /// Find the #near_facets. @return whether ranks need more patches than before.
+    /// Collective.
     bool
     find_near(Course &course);
 
-    /// Positions of what #ghosted says.
+    /// Positions of both surfaces from #ghosted.
     void
     get_positions(Positions       &positions,
                   const Positions *start = nullptr,
                   const double     time  = 1.) const;
 
-    /// Whether the point @p p crosses the facet @p f, of which it is no part.
+    /// Whether the point @p p crosses the facet @p f, to which it does not
+    /// belong.
     bool
     crosses(const unsigned int p,
             const unsigned int f,
@@ -409,19 +413,20 @@ namespace Ricochet
 
     const dealii::IndexSet owned;
     FacetPatches<dim>      patches;
-    /// Whether a node of the master is not held.
+    /// Whether a node of the master can move.
     bool master_moves = false;
-    /// No facet of the master is smaller, and no cell behind one is thinner (m).
+    /// Lower bound of the facets of the master and of the thickness of the cells
+    /// behind them (m).
     double smallest_thickness = 0.;
     /// Facets of the slave with a node or cell of this rank, in groups.
     std::vector<std::vector<unsigned int>> own_groups;
-    /// For each patch those that points may walk to from it.
+    /// For each patch, those to which points may pass from it.
     std::vector<std::vector<unsigned int>> patches_around;
-    /// For each patch of the master, whether this rank knows where it is.
+    /// For each patch of the master, whether this rank has its positions.
     std::vector<bool>                 known;
     GhostedVector                     ghosted;
     std::vector<std::array<int, dim>> slave_index, master_index;
-    /// Of each own point, once it is asked for.
+    /// Indices of the multipliers of each own point, found when first needed.
     std::vector<std::array<int, dim>> multiplier_index;
   };
 } // namespace Ricochet

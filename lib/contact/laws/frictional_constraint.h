@@ -24,7 +24,7 @@ namespace Ricochet
   {
     /// Positive in compression.
     double pressure = 0.;
-    /// Increment or gap that is zero in a closed point (m).
+    /// Closing (m), which the constraint keeps at zero in a closed point.
     double closing = 0.;
     /// On the side of the internal forces: along the slip.
     dealii::Tensor<1, n_tangents> traction;
@@ -160,7 +160,7 @@ namespace Ricochet
   private:
     double        r = 1., mu = 0.;
     ContactStatus own_status = ContactStatus::open;
-    // Direction of slip, and mu pressure over |traction + r slip|, at most 1.
+    // Direction of slip; and mu pressure over |traction + r slip|, at most 1.
     Tangential direction;
     double     ratio = 0.;
   };

@@ -64,8 +64,8 @@ namespace Ricochet
         Node &node            = nodes[p];
         node.initial_reaction = -1. * evaluator.at_node(p, start.contact_force);
         node.candidate        = true;
-        // Along a curved surface the mean velocity leads away from it, and
-        // nodes that are pressed would be let go.
+        // The mean velocity leads away from a curved surface, and pressed nodes
+        // would be released.
         if (condition == Condition::persistent)
           node.candidate = kinematics->predicted_gap(p) <= 0. ||
             (!kinematics->has_constant_rows() &&
@@ -88,7 +88,7 @@ namespace Ricochet
         const ContactPoint  &point    = evaluator.contact_points()[p];
         const PointGeometry &geometry = kinematics->geometry(p);
         // The reaction is pressure times the direction, whose product with the
-        // displacement increment is that of the gap.
+        // displacement increment is the gap increment.
         steps[point.boundary_id].add_point(
           !is_active(p) ? 0.
                         : (nodes[p].reaction * geometry.normal) /
@@ -168,9 +168,9 @@ namespace Ricochet
       return;
     const Tensor<1, 3> &normal = kinematics->geometry(p).normal;
 
-    // The reaction of the last iterate: what the equation of motion leaves
-    // over in the nodes that were active. In the first iteration it is the
-    // reaction of the last step.
+    // The reaction of the last iterate: the residual of the equation of motion
+    // in the nodes that were active. In the first iteration it is the reaction
+    // of the last step.
     if (first_in_stage)
       node.reaction = node.initial_reaction;
     else if (node.accepted_status == Status::open)
@@ -187,8 +187,8 @@ namespace Ricochet
     if (!is_active(p))
       return;
 
-    // The reaction is what the equation of motion leaves over: with it, the equations of
-    // the constraint take the place of the rows of the node.
+    // The reaction is the residual of the equation of motion: together with it, the
+    // equations of the constraint replace the rows of the node.
     const auto equations =
       node.constraint.equations(constraint_state(p, node.excess / weight));
     node.exchange =
@@ -259,7 +259,8 @@ namespace Ricochet
     const Tensor<2, 3>   one(dealii::unit_symmetric_tensor<3>()),
       plane                  = tangent_plane(normal);
     const auto of_constraint = node.constraint.derivatives();
-    // Pressure n.e and traction -P e of the excess e, over the weight.
+    // Derivatives by pressure n.e and traction -P e of the residual without
+    // contact e (excess), over the weight.
     ExchangeDerivatives derivatives;
     derivatives.with_excess = of_constraint.tangential_with_traction * plane -
       one +
@@ -267,7 +268,7 @@ namespace Ricochet
                       of_constraint.tangential_with_pressure,
                     normal);
 
-    // Gap and slip, and how the normal and the plane of the slip turn.
+    // Derivatives by gap and slip, and by the turning normal and tangent plane.
     const Tensor<2, 3> turning = geometry.normal_derivative(),
                        slip_derivative =
                          plane * geometry.relative_way_derivative +
@@ -357,7 +358,7 @@ namespace Ricochet
   void
   ActiveSetContact::add_tangent(Matrix &tangent) const
   {
-    // In place, on the rows of the active nodes, which have the same columns in the
+    // Changed in place: the rows of an active node have the same columns in the
     // same order, because cells couple all components.
     const ContactPoints &coefficients = evaluator.coefficients();
     const MatrixEntries  entries(tangent);
@@ -382,7 +383,7 @@ namespace Ricochet
             own_columns[a]     = entries.column_number(unknown);
           }
 
-        // What multiplies the old rows in the new ones, and what stands in the
+        // Factors of the old rows in the new ones, and the entries in the
         // columns of the node itself.
         const ExchangeDerivatives derivatives = exchange_derivatives(p);
         const Tensor<2, 3>        from_rows =
@@ -449,7 +450,7 @@ namespace Ricochet
     std::vector<int> values = statuses();
     values.push_back(static_cast<int>(closing_kind()));
     ActiveSet result{global_hash(values, evaluator.communicator), {}};
-    // The direction of slip is part of the tangent, and so are normals that turn.
+    // The direction of slip is part of the tangent, and so are variable normals.
     const bool turns = !kinematics->has_constant_rows();
     if (friction_coefficient > 0. || turns)
       {

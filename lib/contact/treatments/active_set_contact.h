@@ -16,11 +16,12 @@ namespace Ricochet
    * multiplier unknowns (paper B, section 5, for persistent contact; Hüeber,
    * Stadler and Wohlmuth 2008).
    *
-   * A node is active when reaction - r closing > 0, where closing is what the
-   * condition keeps at zero (the gap, or its change over the step). In the rows
-   * of an active node, the component of the equation of motion along the
-   * obstacle's normal is replaced by closing = 0, and the reaction is what that
-   * component leaves over. Inactive nodes have no reaction.
+   * A node is active when reaction - r closing > 0, where closing is the
+   * quantity that the condition keeps at zero (the gap, or its change over the
+   * step). In the rows of an active node, the component of the equation of
+   * motion along the obstacle's normal is replaced by closing = 0, and the
+   * reaction is the residual of that component. Inactive nodes have no
+   * reaction.
    *
    * With Coulomb's friction an active node sticks or slips: if it sticks, the
    * tangential components are replaced by slip = 0; if it slips, the tangential
@@ -34,10 +35,10 @@ namespace Ricochet
     using Condition = ClosingCondition;
 
     /**
-     * @param nodes from make_nodal_contact_points().
+     * Constructor.
      * @param stress_points quadrature points at which the summary evaluates the
      * body's own stress.
-     * @param augmentation r_0 (Pa); r = r_0 / h_T. It steers the choice of the
+     * @param augmentation r_0 (Pa); r = r_0 / h_T. It affects the choice of the
      * sets, not the solution.
      * @param friction_coefficient mu; 0 for none.
      */
@@ -107,7 +108,7 @@ namespace Ricochet
     friction_dissipation() const override;
 
     /// No force: outside of a stage the constraint has no reaction. Initial
-    /// states are expected not to be pressed.
+    /// states are expected without contact pressure.
     void
     force_at(const Vector & /*solution*/,
              const double /*time*/,
@@ -131,24 +132,24 @@ namespace Ricochet
   private:
     using Status = ContactStatus;
 
-    /// What is known of a node in the current iteration.
+    /// Data of a node in the current iteration.
     struct Node
     {
       FrictionalConstraint<3> constraint;
-      /// The node may become active at all in this pass.
+      /// The node may become active in this pass.
       bool candidate = true;
       /// Reaction (N) on the body with which the sets were chosen.
       dealii::Tensor<1, 3> reaction;
-      /// What the condition keeps at zero (m).
+      /// The quantity that the condition keeps at zero (m).
       double closing = 0.;
-      /// Zero without friction (m).
+      /// Slip (m); zero without friction.
       dealii::Tensor<1, 3> slip;
-      /// What the residual of the body leaves over in the node (N).
+      /// The residual without contact in the node (N).
       dealii::Tensor<1, 3> excess;
-      /// What an active node has in its residual instead, less that (N).
+      /// The residual of an active node less #excess (N).
       dealii::Tensor<1, 3> exchange;
 
-      // At the last accepted iterate, or the beginning of the stage.
+      // Values at the last accepted iterate, or at the beginning of the stage.
       Status               accepted_status = Status::open;
       dealii::Tensor<1, 3> initial_reaction;
     };
@@ -180,20 +181,21 @@ namespace Ricochet
     Closing
     closing_kind() const;
 
-    /// Its derivative with respect to the gap.
+    /// The derivative of the closing quantity with respect to the gap.
     double
     closing_derivative() const
     {
       return closing_kind() == Closing::mean_gap ? .5 : 1.;
     }
 
-    /// Rows along the normal of each node, and with friction along the plane; where
-    /// normals turn, along the axes; and the properties of the base that follow.
+    /// Set up the rows of the contact Jacobian along the normal of each node, and
+    /// with friction in its tangent plane; along the axes where normals turn; and
+    /// the properties of the base that follow.
     void
     make_rows();
 
-    /// Choose the status of node @p p from what the node has of closing, slip and
-    /// excess, and make what it has in the residual.
+    /// Choose the status of node @p p from its closing, slip and excess, and
+    /// compute its exchange.
     void
     choose_status(const unsigned int p);
 
@@ -204,7 +206,7 @@ namespace Ricochet
       dealii::Tensor<2, 3> with_excess, with_displacement;
     };
 
-    /// Those of the active node @p p.
+    /// The derivatives of the active node @p p.
     ExchangeDerivatives
     exchange_derivatives(const unsigned int p) const;
 
@@ -212,18 +214,19 @@ namespace Ricochet
     void
     look_at_geometry(const unsigned int p);
 
-    /// @return what the condition keeps at zero, at the last add_residual() (m).
+    /// The quantity that the condition keeps at zero, at the last add_residual()
+    /// (m).
     double
     closing(const unsigned int p) const;
 
-    /// Status of all nodes as numbers, for keys of tangents.
+    /// Status of all nodes as numbers, for cache keys of tangents.
     std::vector<int>
     statuses() const;
 
     const std::unique_ptr<ContactKinematics> kinematics;
-    // That of the kinematics.
+    // The evaluator of the kinematics.
     ContactPointEvaluator &evaluator;
-    // Through which contact acts.
+    // The rows of the contact Jacobian.
     ContactRows           jacobian;
     ContactPointEvaluator stress_evaluator;
     const Condition       condition;
@@ -236,7 +239,8 @@ namespace Ricochet
     std::vector<ContactPointState<>> state, old_state;
     std::vector<PointVector>         stress_observables;
     std::vector<Node>                nodes;
-    // Observables from which evaluate_at_increment() begins, and at which it looks.
+    // Observables at the last add_residual() and at the state of
+    // evaluate_at_increment().
     bool                     looks_at_change = false;
     std::vector<PointVector> observables_before, observables;
     // Work space of add_tangent(): the rows of a node.

@@ -25,7 +25,7 @@ namespace Ricochet
   global_hash(const std::vector<int> &values, const MPI_Comm communicator)
   {
     // A chain of full mixings (splitmix64) over rank, number of values and
-    // values on each rank; the sum over the ranks is then as good as a random
+    // values on each rank; the sum over the ranks is then practically a random
     // number. Without the mixing, changes on two ranks could cancel.
     const auto mix = [](std::uint64_t x) {
       x += 0x9e3779b97f4a7c15ull;

@@ -4,7 +4,7 @@
 
 namespace Ricochet
 {
-  /// What a constraint imposes on active points.
+  /// The condition that a constraint imposes on active points.
   enum class ClosingCondition
   {
     /// Signorini's condition at the end of the step: gap = 0.
@@ -14,7 +14,7 @@ namespace Ricochet
     /// not change. The work of the reaction is exactly zero.
     persistent,
     /// Ayyad and Barboteu's two steps: first Signorini's condition on the mean
-    /// gap of the step; then, in the nodes that this found in contact, the gap
+    /// gap of the step; then, in the nodes that are in contact by this, the gap
     /// does not change, and the others are free.
     two_step
   };

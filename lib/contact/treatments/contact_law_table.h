@@ -25,8 +25,8 @@ namespace Ricochet
    *     static constexpr ContactLawTraits traits();
    *     force(), potential()                   see ContactLaw
    *
-   * and, if it likes, tangent(), branch() and pressure(), which otherwise follow from its
-   * force; and
+   * and, optionally, tangent(), branch() and pressure(), which otherwise follow from
+   * its force; and
    *
    *     static void check(const ParameterValues &)        throws InputError
    *     std::string lacks_potential() const               why, with its values; or empty
@@ -76,8 +76,8 @@ namespace Ricochet
   void
   register_contact_law(const ContactLawEntry &entry);
 
-  /// The same for a friction law. With more than one, contacts have a parameter
-  /// `Friction law`.
+  /// As above, for a friction law. With more than one, contacts have a
+  /// parameter `Friction law`.
   void
   register_friction_law(const FrictionLawEntry &entry);
 

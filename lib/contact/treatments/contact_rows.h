@@ -17,12 +17,12 @@ namespace Ricochet
                      const unsigned int          n_axes);
 
   /**
-   * The rows of the contact Jacobian H through which pointwise contact acts, and how the
-   * observables of a point (PointVector) go with them: a value of H u changes them along
-   * some directions, and a force on them has a coefficient for each row.
+   * The rows of the contact Jacobian H through which pointwise contact acts, and their
+   * relation to the observables of a point (PointVector): a value of H u changes these
+   * along some directions, and a force on them has a coefficient for each row.
    *
-   * The rows stay the same in all of a run. Where the directions of contact do, there is
-   * one in a point for each that it needs (add_direction()); otherwise each unknown of
+   * The rows are constant in a run. Where the directions of contact are constant, too,
+   * a point has one row for each direction (add_direction()); otherwise each unknown of
    * its displacement is one (add_observables()).
    */
   class ContactRows
@@ -30,7 +30,7 @@ namespace Ricochet
   public:
     explicit ContactRows(const ContactPoints &points);
 
-    /// A new row: the observables of point @p p, times @p direction.
+    /// Append a row: the observables of point @p p, times @p direction.
     /// @param trial change of the observables with the value of the row.
     /// @param test coefficient of the row in a force on the observables.
     void
@@ -39,8 +39,9 @@ namespace Ricochet
                   const PointVector &trial,
                   const PointVector &test);
 
-    /// Rows for each unknown of the displacement of point @p p, shared by all points that
-    /// have it, and for its stress pressure and its multiplier, if there are such.
+    /// Append rows for each unknown of the displacement of point @p p, shared by all
+    /// points that depend on it, and for its stress pressure and its multiplier, if
+    /// there are any.
     void
     add_observables(const unsigned int p);
 
@@ -61,15 +62,15 @@ namespace Ricochet
         const PointVector   &force,
         std::vector<double> &coefficients) const;
 
-    /// Add the derivatives of such a force, as entries of a matrix between rows that
-    /// may come several times.
+    /// Add the derivatives of such a force, as entries of a matrix between rows; the
+    /// same entry may occur several times.
     void
     add(const unsigned int          p,
         const PointMatrix          &tangent,
         std::vector<FunctionalRow> &entries) const;
 
   private:
-    /// A row goes with an observable, by this factor.
+    /// Relation of a row and an observable, by this factor.
     struct Term
     {
       unsigned int row, place;
@@ -77,15 +78,16 @@ namespace Ricochet
     };
 
     /// Append a row with the coefficient @p value(k) for each coefficient k of a point.
-    /// @return whether there are such that are not zero.
+    /// @return whether any of them is not zero.
     template <typename Value>
     bool
     add_row(const ContactPoint &point, const Value &value);
 
     const ContactPoints &points;
-    // Of each point: its observables in terms of rows, and rows in terms of forces.
+    // Terms for each point: its observables in terms of rows, and rows in terms of
+    // forces.
     std::vector<std::vector<Term>> trial_terms, test_terms;
-    // Row of each unknown of the displacement that has one.
+    // Row of each unknown of the displacement, if it has one.
     std::map<dealii::types::global_dof_index, unsigned int> row_of_unknown;
     ContactStructure::ActsThrough                           rows;
   };

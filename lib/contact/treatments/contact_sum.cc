@@ -55,7 +55,7 @@ namespace Ricochet
           contact->traits().has_moving_obstacles;
         own_traits.gaps_may_be_unknown |= contact->traits().gaps_may_be_unknown;
       }
-    // Each row once, where it comes first.
+    // Each row once, at its first occurrence.
     std::set<types::global_dof_index>    known;
     std::vector<types::global_dof_index> rows;
     for (const auto row : own_structure.rows)
@@ -113,7 +113,7 @@ namespace Ricochet
   void
   ContactSum::begin_stage(const ContactStart &start, const double weight)
   {
-    // Each knows by its own force what was pressed.
+    // Each contact finds by its own force which points were pressed.
     for (unsigned int k = 0; k < contacts.size(); ++k)
       contacts[k]->begin_stage({start.solution,
                                 (*start.shares)[k],
@@ -166,7 +166,7 @@ namespace Ricochet
   bool
   ContactSum::next_pass()
   {
-    // Those with fewer passes than others solve their last one again.
+    // Contacts with fewer passes than others solve their last one again.
     bool another = false;
     for (ContactOperator *contact : in_order)
       another = contact->next_pass() || another;
@@ -300,7 +300,7 @@ namespace Ricochet
   ContactSum::evaluate_at_increment(const std::vector<double> &change,
                                     const std::vector<double> &excess)
   {
-    // Those that take rows see the forces of others before them.
+    // Contacts that eliminate rows need the forces of the others before them.
     std::vector<double> forces;
     for (unsigned int k = 0; k < in_order.size(); ++k)
       {
@@ -346,7 +346,7 @@ namespace Ricochet
   ContactSum::couplings()
   {
     all_couplings.lists.clear();
-    // Versions only grow; so does their sum whenever one changes.
+    // Versions only increase, and so does their sum whenever one changes.
     all_couplings.version = 0;
     bool any              = false;
     for (ContactOperator *contact : in_order)

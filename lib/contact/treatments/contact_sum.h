@@ -15,18 +15,18 @@ namespace Ricochet
    * Several contacts in one computation, each with a treatment of its own: with rigid
    * obstacles, of surfaces with each other, or of surfaces with themselves.
    *
-   * Active sets against obstacles take rows out of the equations of motion, whatever
-   * stands in them; so the other forces come first.
+   * Active sets against obstacles eliminate rows of the equations of motion, with
+   * all forces in them; so the other contacts come first.
    *
-   * A boundary may take part in several of them; but only in one that takes rows, and
-   * in one that brings multipliers. Summaries are under id_of() of a contact and its
-   * boundary ids. The state keeps the force of each (State::contact_shares), by which
-   * a contact knows what was pressed in the step before.
+   * A boundary may take part in several of them; but only in one that eliminates
+   * rows, and in one that has multipliers. Summaries are under id_of() of a contact
+   * and its boundary ids. The state keeps the force of each (State::contact_shares),
+   * from which a contact finds the points that were pressed in the step before.
    */
   class ContactSum : public ContactOperator
   {
   public:
-    /// Bits of a key in summaries that are the boundary's; the others are the contact's.
+    /// Bits for the boundary in a key of summaries; the others are for the contact.
     static constexpr unsigned int boundary_bits = 20;
 
     explicit ContactSum(std::vector<std::unique_ptr<ContactOperator>> contacts);
@@ -123,18 +123,19 @@ namespace Ricochet
     summary(const ContactInstant &instant) override;
 
   private:
-    /// Whether contact that takes rows has all of them for itself.
+    /// Whether rows that a contact eliminates have no other contact.
     static bool
     keeps_rows_apart(const std::vector<ContactStructure> &structures,
                      const MPI_Comm                       communicator);
 
-    /// The structure and the properties of all contacts. The functionals are those of all,
-    /// one contact after the other; there are none if one of them has none, or, on
-    /// several ranks, if one takes rows in which another acts.
+    /// The structure and the properties of all contacts. The rows of the contact
+    /// Jacobian (functionals) are those of all, one contact after the other; there are
+    /// none if one of them has none, or, on several ranks, if one eliminates rows in
+    /// which another acts.
     void
     set_structure();
 
-    /// The share of contact @p k at an instant.
+    /// The force of contact @p k at an instant.
     static const Vector &
     share(const ContactInstant &instant, const unsigned int k)
     {
@@ -142,15 +143,16 @@ namespace Ricochet
     }
 
     const std::vector<std::unique_ptr<ContactOperator>> contacts;
-    // The same, those that take rows last.
+    // The same contacts; those that eliminate rows are last.
     std::vector<ContactOperator *> in_order;
-    // Where the functionals of each of these begin among all of this rank, and where
-    // the last one's end; empty without functionals.
+    // Indices of the first row of the contact Jacobian of each of these on this
+    // rank, and of the end of the last one; empty without such rows.
     std::vector<unsigned int> first_functional;
     Functionals               functionals;
-    // Where one takes rows in which another acts.
+    // Products of rows, for contacts that eliminate rows in which others act.
     mutable std::optional<FunctionalProducts> products;
-    // After force_at() these are the shares; otherwise contacts know them.
+    // The forces of the contacts after force_at(); otherwise contacts have
+    // them.
     std::vector<Vector> instant_forces;
     bool                at_instant = false;
     Couplings           all_couplings;

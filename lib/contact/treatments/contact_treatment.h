@@ -19,10 +19,11 @@ namespace Ricochet
   template <int dim>
   class PairContact;
 
-  /// Everything about the contact treatment that a user chooses.
+  /// A user's choices for the contact treatment.
   struct ContactParameters
   {
-    /// Of the parameter file; several contacts have sections of their own.
+    /// Section of the parameter file; several contacts have sections of their
+    /// own.
     std::string section      = "Contact";
     std::string treatment    = "Nitsche";
     std::string friction_law = "Coulomb";
@@ -36,31 +37,30 @@ namespace Ricochet
     leave_open();
 
     /**
-     * Give the values that are zero: what enters the solution is ten times as stiff as
-     * the layer of cells at the surface, which cannot widen and so has the wave modulus;
-     * what steers Newton's method is as stiff as the body, friction as stiff as waves in
-     * it. So results do not depend on units.
+     * Set the values that are zero: stiffnesses in the solution are ten times that of
+     * the layer of cells at the surface, which cannot widen and so has the wave
+     * modulus; those that affect Newton's method alone are that of the body, and those
+     * of friction the impedance of waves in it. So results do not depend on units.
      */
     void
     set_missing(const Scales &scales);
 
-    /// Names and values of the parameters that have a unit and that the treatment makes
-    /// use of.
+    /// Names and values of the parameters that have a unit and that the treatment uses.
     std::vector<std::pair<std::string, double>>
     used_values() const;
 
     void
     add_parameters(dealii::ParameterHandler &parameters);
 
-    /// What programs with contact between bodies have besides.
+    /// Add the parameters of programs with contact between bodies.
     void
     add_pair_parameters(dealii::ParameterHandler &parameters);
 
-    /// Those of all treatments and friction laws.
+    /// The parameters of all treatments and friction laws.
     static OwnParameters
     all_parameters();
 
-    /// The parameters that the treatment makes no use of.
+    /// The parameters that the treatment does not use.
     std::vector<UnusedParameter>
     unused_parameters() const;
 
@@ -94,11 +94,11 @@ namespace Ricochet
                     const bool               linear_material,
                     const bool               viscous);
 
-  /// The same for contact between bodies, beside check_combination(). Where what is
-  /// before what changes, it is formulated over the steps of the midpoint scheme, for
+  /// As check_combination(), for contact between bodies. Where the opposite facet
+  /// changes, contact is formulated over the steps of the midpoint scheme, for
   /// treatments that need neither stress nor the multipliers of rigid obstacles.
   /// @param is_self a surface touches itself.
-  /// @param dim of space, in which there is less than in the plane.
+  /// @param dim dimension; fewer combinations are possible in 3D than in 2D.
   /// @throws InputError that names what is allowed.
   void
   check_pair_combination(const ContactParameters &parameters,
@@ -106,8 +106,8 @@ namespace Ricochet
                          const bool               is_self = false,
                          const unsigned int       dim     = 2);
 
-  /// The promise of the treatment in a time scheme; against obstacles, on cut faces, and
-  /// between bodies.
+  /// The promise of the treatment in a time scheme; against obstacles and on cut faces,
+  /// and between bodies.
   /// @param mortar_dim the dimension of bodies that are coupled by mortar; 0 for others.
   EnergyPromise
   energy_promise(const ContactParameters &parameters,
@@ -123,7 +123,7 @@ namespace Ricochet
   bool
   is_constraint(const ContactParameters &parameters);
 
-  /// Whether it takes the stress of the body at the surface.
+  /// Whether the treatment uses the stress of the body at the surface.
   bool
   uses_stress(const ContactParameters &parameters);
 
@@ -135,11 +135,11 @@ namespace Ricochet
   MultiplierSpace
   multiplier_space(const ContactParameters &parameters);
 
-  /// The same for contact between bodies.
+  /// The multiplier space for contact between bodies.
   MultiplierSpace
   pair_multiplier_space(const ContactParameters &parameters);
 
-  /// The treatment that @p parameters name between the surfaces of the @p pairs.
+  /// The treatment of @p parameters between the surfaces of the @p pairs.
   /// @throws InputError see PairContact
   template <int dim>
   std::unique_ptr<PairContact<dim>>
@@ -148,8 +148,8 @@ namespace Ricochet
                     const Body<dim>                &body,
                     const std::vector<ContactPair> &pairs);
 
-  /// The same on the cut faces between linear elastic bodies with the @p materials, by
-  /// material id or one for all, see CutFaces.
+  /// The treatment on the cut faces between linear elastic bodies with the
+  /// @p materials, by material id or one for all, see CutFaces.
   /// @throws InputError see CutFaces; and when Nitsche's parameter is too small for it
   /// to be stable.
   template <int dim>
@@ -160,10 +160,10 @@ namespace Ricochet
                         const std::vector<LinearElastic> &materials,
                         const std::vector<ContactPair>   &pairs);
 
-  /// The treatment that @p parameters name, for the time scheme @p scheme, on
-  /// @p body against @p obstacles. @p stress is that of the body on the contact
-  /// boundary; empty where it is not linear, and then the treatments that use it
-  /// are refused.
+  /// The treatment of @p parameters, for the time scheme @p scheme, on @p body
+  /// against @p obstacles. @p stress is that of the body on the contact
+  /// boundary; empty where it is not linear, in which case the treatments that
+  /// use it are refused.
   ///
   /// @throws InputError when Nitsche's parameter is below its bound of stability
   /// on this mesh, or the points of contact cannot be made.

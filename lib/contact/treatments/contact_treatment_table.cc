@@ -368,7 +368,7 @@ namespace Ricochet
       return join(names);
     }
 
-    /// The names of all treatments whose traits are good.
+    /// The names of all treatments whose traits satisfy the condition.
     std::string
     names_of(const std::function<bool(const ContactLawTraits &)> &good)
     {
@@ -376,8 +376,8 @@ namespace Ricochet
         [&](const Treatment &treatment) { return good(treatment.traits); });
     }
 
-    /// The laws that make a differential equation with a potential, with the choices of
-    /// which that depends: "A with theta = 1, B or C".
+    /// The laws that make a differential equation with a potential, with the choices
+    /// that this depends on: "A with theta = 1, B or C".
     std::string
     names_of_potential_laws()
     {
@@ -473,7 +473,8 @@ namespace Ricochet
     if (std::find(allowed.begin(), allowed.end(), scheme.name) != allowed.end())
       return;
 
-    // A two-point law is one for the midpoint scheme whatever is chosen.
+    // A two-point law requires the midpoint scheme, whatever the values of its
+    // parameters.
     std::string choices;
     if (!traits.is_two_point)
       for (const OwnParameter &parameter : find(parameters).parameters)
@@ -520,7 +521,7 @@ namespace Ricochet
             "' acts in nodes and cannot be combined with Contact/Coupling = cut "
             "faces.\nAllowed with it: " +
             names_of(integrates) + ". For nodes take mortar.");
-        // The schemes are those that go with a rigid obstacle.
+        // The schemes are those for a rigid obstacle.
         return;
       }
     const auto good = [](const ContactLawTraits &traits) {
@@ -549,7 +550,7 @@ namespace Ricochet
         parameters.coupling +
         ", which is for treatments in nodes.\nAllowed with it: " +
         names_of(is_nodal) + ".");
-    // See MortarTriangles.
+    // The reason for 3D is in MortarTriangles.
     const auto is_good_in_space = [&](const ContactLawTraits &traits) {
       return is_nodal(traits) && !(traits.is_two_point && traits.has_potential);
     };
@@ -582,7 +583,8 @@ namespace Ricochet
       return multiplier_space(parameters);
     if (treatment.make_law)
       return MultiplierSpace::none;
-    // A second multiplier is for friction, or for the other facet of a valley.
+    // A second multiplier is for friction, or for the other facet of a concave
+    // corner.
     return has_friction(parameters) ||
         (treatment.condition == ClosingCondition::signorini &&
          parameters.coupling == "points")
@@ -674,7 +676,7 @@ namespace Ricochet
   {
     const Treatment &own  = find(*this);
     OwnParameters    used = own.parameters;
-    // Without friction, the coefficient that says so is of use.
+    // The coefficient is used even if it is zero, which excludes friction.
     unite(used, find_friction(*this).parameters);
     if (!own.traits.piecewise_linear || has_friction(*this))
       unite(used, augmentation_parameters());
@@ -687,7 +689,7 @@ namespace Ricochet
 
   namespace
   {
-    /// Refuse values with which a law is not stable. @throws InputError
+    /// Refuse values for which a law is not stable. @throws InputError
     void
     check_stability(const ContactParameters &parameters,
                     const double             trace_constant)
@@ -701,7 +703,7 @@ namespace Ricochet
         throw InputError(parameters.section + "/" + reason);
     }
 
-    /// The law as the scheme needs it.
+    /// The law for the scheme.
     std::unique_ptr<ContactLaw>
     make_law(const ContactParameters &parameters, const SchemeTraits &scheme)
     {

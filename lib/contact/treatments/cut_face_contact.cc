@@ -22,7 +22,7 @@ namespace Ricochet
                                                   points.index.begin() +
                                                     point.end);
         std::sort(list.begin(), list.end());
-        // Points of one cut follow each other.
+        // Points of one cut are consecutive.
         if (constant_couplings.lists.empty() ||
             constant_couplings.lists.back() != list)
           constant_couplings.lists.push_back(list);

@@ -13,9 +13,9 @@ namespace Ricochet
 {
   /**
    * Pointwise contact of two bodies on the cut faces between them: it couples
-   * unknowns that the bodies do not, always the same ones.
+   * unknowns that the bodies do not, with a constant pattern.
    *
-   * Multipliers of nodes that nothing is before are zero.
+   * Multipliers of nodes opposite to no facet are zero.
    */
   class CutFaceContact : public PointwiseContact
   {
@@ -44,11 +44,12 @@ namespace Ricochet
       find_free_multipliers(points,
                             body.multiplier_indices(),
                             body.communicator);
-      // The rows of the bodies are not those of one obstacle.
+      // The structure is not that of contact with an obstacle, as the rows are
+      // on both bodies.
       own_structure                  = {};
       own_structure.has_multipliers  = traits_of_law().needs_multiplier;
       own_structure.couplings_change = true;
-      // A slave of which nothing is in front of the master has no gap.
+      // A slave with no part in front of the master has no gap.
       own_traits.gaps_may_be_unknown = true;
     }
 
@@ -83,7 +84,7 @@ namespace Ricochet
 
     const std::map<dealii::types::boundary_id, double> slave_area;
     Couplings                                          constant_couplings;
-    // Of this rank.
+    // Multipliers of this rank on which no cut face depends.
     std::vector<dealii::types::global_dof_index> free_multipliers;
   };
 } // namespace Ricochet

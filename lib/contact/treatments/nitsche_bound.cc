@@ -41,8 +41,8 @@ namespace Ricochet
     /// See nitsche_trace_constants().
     ///
     /// @param direction along which the stress is taken on a face with that
-    /// boundary id, in that point and with that outward normal; none where there is
-    /// no contact.
+    /// boundary id, in that point and with that outward normal; none outside of the
+    /// contact boundary.
     template <int dim>
     std::vector<double>
     trace_constants(

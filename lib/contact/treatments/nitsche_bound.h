@@ -15,10 +15,10 @@ namespace Ricochet
    * pressure of its stress: the largest eigenvalue of that pair of forms over all
    * cells. Nitsche's method is stable when gamma_0 > (1 + theta)^2/4 C (Chouly,
    * Hild and Renard, Math. Comp. 84, 2015); on a bar C is the square of the degree
-   * times the modulus. It is enough for stability, and a little less may do,
-   * because cells do not deform alone.
+   * times the modulus. The bound is sufficient for stability; a slightly smaller
+   * value may suffice, because cells do not deform alone.
    *
-   * Collective. Zero without contact boundary.
+   * Collective. The constant is zero without contact boundary.
    */
   template <int dim>
   double
@@ -26,8 +26,8 @@ namespace Ricochet
                          const std::common_type_t<LinearStress<dim>> &stress,
                          const Obstacles &obstacles);
 
-  /// The same for each part of a body of several, with the stress of that part (by
-  /// material id), on faces with the @p boundary_ids and along their normals.
+  /// As above, for each part of a body of several, with the stress of that part
+  /// (by material id), on faces with the @p boundary_ids and along their normals.
   template <int dim>
   std::vector<double>
   nitsche_trace_constants(

@@ -31,7 +31,7 @@ namespace Ricochet
         : MortarShape::standard;
     }
 
-    /// In the plane, and on the line.
+    /// Methods in 2D and 1D.
     template <int dim>
     std::unique_ptr<SurfacePair<dim>>
     make_pair_before_chains(const Body<dim>   &body,
@@ -85,7 +85,7 @@ namespace Ricochet
         return make_pair_before_chains(body, pair, method, nodal);
     }
 
-    /// A slip in the directions that there are.
+    /// A slip vector with the tangential components of this dimension.
     template <int n_tangents>
     Tensor<1, 3>
     along_surface(const Tensor<1, n_tangents> &slip)
@@ -134,8 +134,8 @@ namespace Ricochet
           }
       }
 
-    // The equations of a multiplier become forces when its pressures are taken
-    // for what they are in the equations of motion.
+    // Row scaling: the equations of a multiplier become forces when its
+    // pressure is replaced by the force that it has in the equations of motion.
     std::set<types::global_dof_index> multipliers;
     for (const PointState &state : states)
       for (const auto index : point_of(state).multipliers)
@@ -201,20 +201,21 @@ namespace Ricochet
     state.old_state          = {};
     if (state.candidate)
       {
-        // Not by what Newton's method leaves of a pressure that is none.
+        // A threshold, as Newton's method leaves pressures of round-off size in
+        // open points.
         const bool was_pressed = !method.law &&
           pair.multipliers(p)[0] > stiffness(state) * pair.round_off(p);
         state.old_state.gap = pair.old_gap(p);
-        // The predictor leads away from the surface where it is not flat, and
-        // points that are pressed would be let go.
+        // The predictor leads away from a surface that is not flat, and pressed
+        // points would be released.
         if (!method.law && method.condition == ClosingCondition::persistent)
           state.candidate =
             pair.predicted_gap(p) <= pair.round_off(p) || was_pressed;
         if (state.candidate && was_pressed)
           state.accepted_status = Status::slip;
       }
-    // Couplings of what may be pressed in this step; should it be more, they
-    // are added when it is.
+    // Contact sparsity of the points that may be pressed in this step; others
+    // are added when they are pressed.
     const bool is_near = state.candidate &&
       std::min(pair.old_gap(p), pair.predicted_gap(p)) <
         std::abs(pair.old_gap(p) - pair.predicted_gap(p)) +
@@ -272,12 +273,12 @@ namespace Ricochet
       --n_frozen;
     if (facets.returns(facets_signature()))
       {
-        // Should it go on, points that go to and fro between two facets because they
-        // are at a vertex that holds them stay before the one where they began.
-        // What this leaves between the gap at the end of the step and that at the
-        // beginning of the next one is no matter to a condition on the increment.
-        // Signorini's condition with friction, or in space, has no solution where a node
-        // is pressed into a valley from both sides; it is given up there bit by bit.
+        // Oscillation of points between two facets, at a vertex that supports them: if
+        // it goes on, they stay with the facet where they began. A condition on the
+        // increment is unaffected by the mismatch between the gap at the end of the
+        // step and that at the beginning of the next one. Signorini's condition with
+        // friction, or in 3D, has no solution where a node is pressed into a concave
+        // corner from both sides; there the tolerance is raised gradually.
         const double tolerance = method.law ? 1e-10
           : method.condition != ClosingCondition::signorini
           ? std::min(1e-2,
@@ -291,15 +292,16 @@ namespace Ricochet
             if (state.candidate &&
                 pair_of(state).passage(state.point) != state.accepted_passage)
               pairs[state.pair]->stay_at_vertex(state.point, tolerance);
-        // Other sides of valleys may have come in.
+        // Other sides of concave corners may have become candidates.
         if (n_returns > 1)
           for (PointState &state : states)
             if (pair_of(state).is_other_side(state.point))
               state.candidate = pair_of(state).is_before_facet(state.point);
       }
-    // A condition on the increment does not wait until a pattern of all facets returns:
-    // of many points at vertices each may go to and fro at its own pace. Measured with
-    // disks of 540 facets: a point that came back once will hardly come to rest.
+    // Early treatment for conditions on the increment, without waiting for the return
+    // of a pattern of all facets: many points at vertices may each oscillate with a
+    // period of their own. Measured with disks of 540 facets: a point that has returned
+    // once rarely settles.
     constexpr double near_vertex = 1e-3;
     const bool       stays_early =
       !method.law && method.condition != ClosingCondition::signorini;
@@ -355,9 +357,9 @@ namespace Ricochet
   {
     if (method.condition == ClosingCondition::signorini)
       {
-        // What is behind a facet already, because it came there past something that
-        // nodes do not see, is not thrown out, which would take energy from nowhere;
-        // but it comes no deeper.
+        // A point that is behind a facet at the beginning of the step, not detected
+        // by the contact of nodes, is not pushed out, which would generate energy;
+        // but it is kept from going deeper.
         const double old_gap = state.old_state.gap;
         return old_gap < -1e-9 * point_of(state).cell_diameter
           ? state.state.gap - old_gap
@@ -376,8 +378,8 @@ namespace Ricochet
   {
     const ContactLaw &law = *method.law;
     const double      h   = point_of(state).cell_diameter;
-    // Power laws are linearised where they meet the body's line; should that not
-    // help, at the gap again.
+    // Power laws are linearised where they meet the body's line; if that does
+    // not help, at the gap again.
     state.linearisation = state.state;
     if (!law.traits().piecewise_linear && n_iterates > 0 && n_iterates <= 8)
       state.linearisation.gap = linearisation_gap(law,
@@ -407,7 +409,8 @@ namespace Ricochet
     const Pair                 &pair = pair_of(state);
     ConstraintState<n_tangents> result;
     result.pressure = pair.multipliers(state.point)[0];
-    // Without friction they may be there, too, and are kept at zero.
+    // Multipliers for tractions may exist without friction, and are kept at
+    // zero.
     for (unsigned int d = 0; d + 1 < dim; ++d)
       result.traction[d] = pair.multipliers(state.point)[d + 1];
     if (state.status == Status::open)
@@ -424,14 +427,14 @@ namespace Ricochet
   void
   PairContact<dim>::set_constraint(PointState &state) const
   {
-    // The forces are the multipliers, whatever the sets.
+    // The forces are the multipliers, whatever the active sets.
     const Pair                 &pair    = pair_of(state);
     ConstraintState<n_tangents> current = constraint_state(state);
     state.pressure                      = current.pressure;
     if (has_exact_friction())
       state.traction = current.traction;
 
-    // Round-off neither opens nor closes a point.
+    // A margin, so that round-off neither opens nor closes a point.
     const double r         = stiffness(state);
     const double round_off = r * pair.round_off(state.point);
     const double margin =
@@ -444,9 +447,9 @@ namespace Ricochet
       {
         const auto &rows = pair.rows(state.point);
         current.slip     = rows.slip;
-        // A point that only just closes has no pressure yet. It sticks if the
-        // displacement to there was within the cone of friction, unless that has led
-        // back to an open point.
+        // A point that is only about to close has no pressure yet. It sticks if the
+        // displacement up to closure was within the cone of friction, unless this
+        // choice has led back to an open point.
         new_sticks = !sets_recur &&
           rows.slip.norm() <=
             method.exact_coefficient * std::abs(rows.gap_increment);
@@ -490,7 +493,7 @@ namespace Ricochet
         if (friction.sticks(s))
           state.status = Status::stick;
       }
-    // Now, on this thread, as they will be asked for.
+    // Computed now, on this thread, for the assembly that follows.
     if (state.pressure != 0.)
       pair.rows(p);
   }
@@ -521,7 +524,7 @@ namespace Ricochet
   void
   PairContact<dim>::change_worst_only()
   {
-    // The worst of all ranks.
+    // The largest error of all ranks.
     double largest = 0.;
     for (PointState &state : states)
       if (state.status != state.accepted_status)
@@ -602,7 +605,7 @@ namespace Ricochet
     if (sets_recur)
       change_worst_only();
 
-    // Elsewhere they are zero.
+    // The other entries are zero.
     double *const forces = local_values(force);
     double *const friction_forces =
       has_friction ? local_values(friction_part) : nullptr;
@@ -621,7 +624,8 @@ namespace Ricochet
           forces[place] += friction_forces[place];
       }
 
-    // Less what open points make of their multipliers.
+    // Residual of the multipliers of open points, which is part of open contact
+    // and so subtracted.
     for (unsigned int f = 0; f < skin.size(); ++f)
       skin_force[f] = weight * forces[own_place[f]];
     const double *const values_now = local_values(solution);
@@ -662,7 +666,7 @@ namespace Ricochet
     if (method.law)
       return;
 
-    // The equations of the multipliers.
+    // The residual of the multipliers' equations.
     const auto equations = state.constraint.equations(constraint_state(state));
     for (unsigned int c = 0; c < dim; ++c)
       if (point.multipliers[c] != no_index)
@@ -739,8 +743,8 @@ namespace Ricochet
                              const double /*begin_time*/,
                              const double end_time)
   {
-    // The search at the end of the step is that at the beginning of the next one: a
-    // point that faces another facet there, or none, has another potential there.
+    // The search at the end of the step is the one at the beginning of the next
+    // one: the potential jumps for a point that faces another facet there, or none.
     struct Before
     {
       double made = 0., gap = 0.;
@@ -777,7 +781,7 @@ namespace Ricochet
       {
         const PointState &state = states[s];
         const Before     &own   = before[s];
-        // What is behind a facet by more than round-off.
+        // Depth behind a facet that is more than round-off.
         const double depth = 1e-6 * point_of(state).cell_diameter;
         ContactStep &step  = steps[point_of(state).boundary_id];
         step.add_point(
@@ -786,8 +790,8 @@ namespace Ricochet
           pair_of(state).part_of(state.point));
         if (pair_of(state).is_other_side(state.point))
           continue;
-        // It has crossed a facet, no pressure has held it, and at the end it is out of
-        // reach.
+        // A point has passed if it has crossed a facet, was not pressed, and is out of
+        // reach at the end.
         if (crosses[state.pair][state.point] && !own.is_pressed &&
             !state.candidate)
           {
@@ -877,9 +881,9 @@ namespace Ricochet
   void
   PairContact<dim>::add_change_of_law(std::vector<FunctionalRow> &change) const
   {
-    // Points of a facet that are before the same other one act on the same unknowns:
-    // what they make is summed first. In chunks, so that sums are the same whatever the
-    // threads.
+    // Points of a facet that face the same other one act on the same unknowns: their
+    // derivatives are summed first. In chunks, so that sums do not depend on the number
+    // of threads.
     struct Sum
     {
       const std::vector<types::global_dof_index> *unknowns;
@@ -954,8 +958,8 @@ namespace Ricochet
     else
       for (const PointState &state : states)
         {
-          // The multiplier of an open point is not to change if it is zero: then it is
-          // no matter what it would push.
+          // The zero multiplier of an open point stays zero: its effect on the forces
+          // is irrelevant.
           const auto &multipliers = pair_of(state).multipliers(state.point);
           if (state.status == Status::open &&
               std::all_of(multipliers.begin(),
@@ -968,7 +972,7 @@ namespace Ricochet
             add(index, 1, &index, &open);
           });
         }
-    // Parts of open points cancel.
+    // Terms of open points cancel.
     sum_columns(change);
   }
 
@@ -992,7 +996,7 @@ namespace Ricochet
 
     const auto  of_constraint = state.constraint.derivatives();
     const auto &multipliers   = point.multipliers;
-    // Rows of the multipliers, on multipliers.
+    // Entries in the rows and columns of multipliers.
     if (!method.law)
       {
         const double on_multipliers = -weight * point.weight / r;
@@ -1036,7 +1040,7 @@ namespace Ricochet
     const unsigned int m      = rows.unknowns.size();
     const double       factor = weight * point.weight;
 
-    // Pressure and traction along directions that turn, and how both change.
+    // Pressure and traction along variable directions, and their derivatives.
     Tensor<2, n_tangents> with_slip;
     Tangential            with_pressure;
     if (method.law && has_friction && state.pressure > 0.)
@@ -1170,7 +1174,7 @@ namespace Ricochet
   PairContact<dim>::active_set() const
   {
     ActiveSet result{global_hash(statuses(), communicator), {}};
-    // Directions turn; nothing stays the same but a tangent without contact.
+    // Directions are variable: only a tangent without contact is constant.
     const bool none = std::none_of(states.begin(),
                                    states.end(),
                                    [this](const PointState &state) {
@@ -1206,7 +1210,7 @@ namespace Ricochet
   void
   PairContact<dim>::begin_instant(const Vector &solution, const double time)
   {
-    // Neither force nor velocity is looked at in an instant.
+    // Force and velocity are not used in an instant.
     const ContactStart start{solution, solution, solution, 0., time};
     for (const auto &pair : pairs)
       pair->begin_step(start);
@@ -1273,7 +1277,7 @@ namespace Ricochet
     if (!state.candidate)
       return 0.;
     const Point &point = point_of(state);
-    // The nodes of a surface that touches itself are pushed by others besides.
+    // Nodes of a surface with self-contact also have forces of other points.
     if (method.law &&
         (!method.law->traits().nodal || pair_of(state).touches_itself()))
       return point.weight *
@@ -1334,7 +1338,7 @@ namespace Ricochet
   {
     begin_instant(instant.solution, instant.time);
     ContactSummaries my_sums;
-    // Area of the points that are before a facet: only they have a gap.
+    // Area of the points that face a facet: only they have a gap.
     std::map<types::boundary_id, double> my_area;
     for (const PointState &state : states)
       {

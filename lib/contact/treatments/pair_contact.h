@@ -20,22 +20,23 @@ namespace Ricochet
   {
     /// See PointsBeforeFacets.
     points,
-    /// See MortarPair and, in space, MortarTriangles.
+    /// See MortarPair and, in 3D, MortarTriangles.
     mortar,
     dual_mortar
   };
 
-  /// How the points of a pair of surfaces are kept apart.
+  /// Contact method of a pair of surfaces.
   struct PairMethod
   {
     PairCoupling coupling = PairCoupling::points;
     /// A law for the pressure; null for a constraint.
     std::unique_ptr<ContactLaw> law;
-    /// The constraint.
+    /// The condition of a constraint.
     ClosingCondition condition = ClosingCondition::signorini;
-    /// r_0 (Pa): r = r_0 / h_T steers Newton's method and leaves the solution alone.
+    /// r_0 (Pa): r = r_0 / h_T affects Newton's method, but not the solution.
     double augmentation = 1.;
-    /// Of a law; with a constraint it only has to exist if there is friction.
+    /// Friction of a law; with a constraint it is only used as a flag for
+    /// friction.
     RegularisedFriction friction;
     /// Coulomb's mu of a constraint, whose friction is exact.
     double exact_coefficient = 0.;
@@ -108,11 +109,12 @@ namespace Ricochet
     void
     add_tangent(Matrix &tangent) const override;
 
-    /// What is left without contact are the equations of the multipliers.
+    /// Without contact, the equations of the multipliers remain.
     void
     add_open_tangent(Matrix &tangent) const override;
 
-    /// Its rows are the unknowns of the surfaces, of which contact is any function.
+    /// The rows of the contact Jacobian are the surface dofs, on which contact
+    /// depends by any function.
     void
     differentiate_forces(
       std::vector<FunctionalRow> &with_values,
@@ -149,31 +151,32 @@ namespace Ricochet
     using Tangential = typename SurfacePair<dim>::Tangential;
     static constexpr unsigned int n_tangents = SurfacePair<dim>::n_tangents;
 
-    /// What is known of a point in the current iteration.
+    /// Data of a point in the current iteration.
     struct PointState
     {
       unsigned int pair = 0, point = 0;
-      /// The point may be pressed at all in this pass.
+      /// The point may be pressed in this pass.
       bool   candidate = false;
       Status status    = Status::open;
-      // At the last accepted iterate, or the beginning of the stage.
+      // Status at the last accepted iterate, or at the beginning of the stage.
       Status accepted_status = Status::open;
       /// Pressure (Pa) in the residual, and its derivative (Pa/m) for laws.
       double pressure = 0., with_gap = 0.;
       /// Traction (Pa) along T.
       Tangential traction;
-      /// Where there is no law.
+      /// The constraint, where there is no law.
       FrictionalConstraint<n_tangents> constraint;
-      /// By how much the equations in use are not those of the state (Pa).
+      /// Difference between the equations in use and those of the state (Pa).
       double              error = 0.;
       ContactPointState<> old_state, state;
-      // Where the law is linearised: now, and at the last accepted iterate.
+      // States at which the law is linearised: now, and at the last accepted
+      // iterate.
       ContactPointState<> linearisation, accepted_linearisation;
-      /// SurfacePair::passage() at the last accepted iterate, and how often it was another
-      /// one than before.
+      /// SurfacePair::passage() at the last accepted iterate, and how often it has
+      /// changed.
       int          accepted_passage   = 0;
       unsigned int n_passages_changed = 0;
-      /// Unknowns that the sparsity pattern couples, sorted.
+      /// Unknowns coupled by the contact sparsity, sorted.
       std::vector<dealii::types::global_dof_index> coupled;
     };
 
@@ -199,7 +202,7 @@ namespace Ricochet
       return method.augmentation / point_of(state).cell_diameter;
     }
 
-    /// Whether the point makes forces, or derivatives of forces.
+    /// Whether the point has forces, or derivatives of forces.
     bool
     is_in_contact(const PointState &state) const
     {
@@ -213,8 +216,7 @@ namespace Ricochet
       return has_friction && !method.law;
     }
 
-    /// How far (m) a pressure of 1 Pa pushes a closed point in, see
-    /// SurfacePair::softness().
+    /// Compliance of a closed point (m/Pa), see SurfacePair::softness().
     double
     softness(const PointState &state) const
     {
@@ -229,14 +231,14 @@ namespace Ricochet
         (c == 0 ? state.status != Status::open : state.status == Status::stick);
     }
 
-    /// What the condition keeps at zero in the current pass (m).
+    /// The quantity that the condition keeps at zero in the current pass (m).
     double
     closing(const PointState &state) const;
 
     void
     evaluate_law(PointState &state) const;
 
-    /// The state of a point, where its pair is.
+    /// Set the state of a point, from that of its pair.
     void
     evaluate_point(const unsigned int s);
 
@@ -248,7 +250,7 @@ namespace Ricochet
                    const std::function<void(const unsigned int,
                                             const unsigned int)> &action) const;
 
-    /// Begin a stage. @return whether the unknowns that it is coupled with are others.
+    /// Begin a stage. @return whether its coupled unknowns have changed.
     bool
     begin_point(PointState &state) const;
 
@@ -256,23 +258,24 @@ namespace Ricochet
     void
     add_change_of_law(std::vector<FunctionalRow> &change) const;
 
-    /// Arguments of the constraint of a point: its multipliers, and if it is not open
-    /// what it closes, and its slip.
+    /// Arguments of the constraint of a point: its multipliers, and, if it is not
+    /// open, closing and slip.
     ConstraintState<n_tangents>
     constraint_state(const PointState &state) const;
 
     void
     set_constraint(PointState &state) const;
 
-    /// Begin an iteration anew.
+    /// Begin an iteration anew, without former patterns.
     void
     forget_patterns();
 
-    /// Keep the sets of the last iterate but for the point with the largest error.
+    /// Keep the sets of the last iterate except for the point with the largest
+    /// error.
     void
     change_worst_only();
 
-    /// Add the force of a point, and its equations.
+    /// Add the force of a point and the residual of its equations.
     void
     add_force(const PointState &state);
 
@@ -281,8 +284,8 @@ namespace Ricochet
     void
     add_tangent(const PointState &state, const Add &add) const;
 
-    /// Contact at @p solution: states of points and #force, with the equations of the
-    /// multipliers.
+    /// Evaluate contact at @p solution: states of points and #force, with the
+    /// equations of the multipliers.
     void
     evaluate(const Vector &solution);
 
@@ -297,8 +300,8 @@ namespace Ricochet
             action(index);
     }
 
-    /// Number of an unknown of the surfaces: its place in #skin, or behind all of that its
-    /// place in #other_skin.
+    /// Index of a surface dof in #skin, or behind all of these its index in
+    /// #other_skin.
     unsigned int
     skin_place(const dealii::types::global_dof_index index) const;
 
@@ -309,7 +312,8 @@ namespace Ricochet
       return -weight * point_of(state).weight / stiffness(state);
     }
 
-    /// What this rank's points with @p boundary_id, or all of them, take.
+    /// Works against contact of this rank's points, of all or of those with
+    /// @p boundary_id.
     ContactWork
     my_contact_work(
       const std::optional<dealii::types::boundary_id> boundary_id) const;
@@ -317,7 +321,7 @@ namespace Ricochet
     void
     clear_multipliers(Vector &vector) const;
 
-    /// Energy stored at a state of a point (J); none by a constraint.
+    /// Energy stored at a state of a point (J); zero for a constraint.
     double
     potential_of(const PointState &state, const ContactPointState<> &at) const
     {
@@ -338,7 +342,8 @@ namespace Ricochet
     std::vector<int>
     statuses() const;
 
-    /// Facets at the end of the step of points that passed a vertex.
+    /// Hash of the facets that points face at the end of the step, of those
+    /// that have passed a vertex.
     std::uint64_t
     facets_signature() const;
 
@@ -354,12 +359,12 @@ namespace Ricochet
     double                             time_step  = 0.;
     unsigned int                       n_iterates = 0;
     unsigned int                       pass       = 0;
-    /// Patterns that were seen in the course of an iteration.
+    /// Patterns of former iterates.
     struct Patterns
     {
       std::vector<std::uint64_t> seen;
 
-      /// Whether @p pattern has come back after another one.
+      /// Whether @p pattern has returned after another one.
       bool
       returns(const std::uint64_t pattern)
       {
@@ -371,27 +376,27 @@ namespace Ricochet
         return known;
       }
     };
-    // Active sets of this pass, and whether one came again: then they change by one
-    // point at a time.
+    // Active sets of this pass, and whether one has returned: then one point at a
+    // time changes.
     Patterns sets;
     bool     sets_recur = false;
-    // The same for facets before which points are, and for how many iterations
-    // tangents leave out what makes them go to and fro.
+    // Patterns of the facets that points face, and the number of iterations for
+    // which tangents leave out the terms that make points oscillate.
     Patterns     facets;
     unsigned int n_frozen = 0, n_returns = 0;
     Couplings    all_couplings;
-    // This rank's unknowns of the surfaces in ascending order, the order in which
+    // The surface dofs of this rank in ascending order, the order in which
     // contact is expected to spread over them, their values at the last
-    // add_residual(), and what contact does to each.
+    // add_residual(), and the contact force on each.
     std::vector<dealii::types::global_dof_index> skin;
-    /// Of each of the skin among this rank's unknowns.
+    /// Index of each surface dof among this rank's unknowns.
     std::vector<unsigned int>     own_place;
     std::vector<double>           skin_order, skin_values, skin_force;
     static constexpr unsigned int no_place =
       dealii::numbers::invalid_unsigned_int;
-    /// Of each unknown from the first of the skin on.
+    /// Index in #skin of each unknown from its first one on.
     std::vector<unsigned int> place_in_skin;
-    // Where evaluate_at_increment() looks.
+    // State of evaluate_at_increment().
     Vector point_of_change;
     // Work space.
     std::vector<double> values;

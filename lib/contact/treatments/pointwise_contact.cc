@@ -68,8 +68,8 @@ namespace Ricochet
   void
   PointwiseContact::choose_linearisation()
   {
-    // It helps to come near the solution; should it not, the law is linearised
-    // at the gap again.
+    // Linearisation away from the gap helps far from the solution; if it does
+    // not, the law is linearised at the gap again.
     linearisation = state;
     if (law->traits().piecewise_linear || n_iterates == 0 || n_iterates > 8)
       return;
@@ -211,7 +211,8 @@ namespace Ricochet
     friction.begin_evaluation(state.size());
     for (unsigned int p = 0; p < state.size(); ++p)
       {
-        // Geometry is costly where nothing presses, unless directions stay the same.
+        // Geometry is expensive in points without pressure, except where directions
+        // are constant.
         const double pressure = positive_part(-point_force[p].gap);
         Tensor<1, 3> slip;
         if (pressure > 0. || kinematics->has_constant_rows())
@@ -231,14 +232,14 @@ namespace Ricochet
   void
   PointwiseContact::make_rows()
   {
-    // Whether closing changes one direction does not depend on h_T.
+    // Closing changes one direction or not, whatever h_T.
     const auto closing = closing_directions(*law, 1.);
     if (!closing)
       return;
-    // Of directions there are fewer than of unknowns; but not with friction in points
-    // of faces, each of which has three. Directions of closing leave the forces of a
-    // multiplier to the matrix of the body, in which they stand on one side only, so
-    // that its symmetric part is far from it.
+    // Directions are fewer than unknowns; but not with friction in points of faces,
+    // each of which has three. With rows along directions, the forces of a multiplier
+    // stay in the matrix of the body, on one side of the diagonal only, so that its
+    // symmetric part is a poor approximation.
     const ContactLawTraits traits              = law->traits();
     const bool             prefers_observables = friction.exists()
                   ? traits.needs_multiplier || !traits.nodal
@@ -253,8 +254,8 @@ namespace Ricochet
           add_directions(p);
         return;
       }
-    // Either the force on the gap, whose direction may turn, is that of closed points
-    // alone; or closing replaces the equation of their multiplier.
+    // Two cases: the force on the gap, whose direction may turn, is zero in open
+    // points; or closing replaces the equation of the point's multiplier.
     const bool presses_if_closed = closing->row == 0 &&
       open_tangent(*law, 1.)[0].norm_square() == 0.,
                replaces_equation =
@@ -273,7 +274,7 @@ namespace Ricochet
   {
     const ContactPoint &point = evaluator.contact_points()[p];
     const Closing closing     = *closing_directions(*law, point.cell_diameter);
-    // Gap, stress pressure and multiplier as directions of the observables.
+    // Gap, stress pressure and multiplier as directions in the observables.
     const auto of_law = [&](const Tensor<1, 3> &law_direction) {
       PointVector direction =
         on_displacement(law_direction[0] * point.obstacle_normal);
@@ -287,7 +288,7 @@ namespace Ricochet
       return of_law(direction);
     };
     // The law depends on the product with trial alone, and its force is along test: one
-    // entry of each stands for all.
+    // entry of each is sufficient.
     const PointVector trial = of_axis(closing.column),
                       test  = of_axis(closing.row);
     if (closing.trial == closing.test)
@@ -384,7 +385,7 @@ namespace Ricochet
   PointwiseContact::friction_derivatives(const unsigned int p) const
   {
     const PointGeometry &geometry = kinematics->geometry(p);
-    // Slip follows the displacement, and the turning of the plane in which it is.
+    // Slip depends on the displacement, and on the tangent plane as it turns.
     PointwiseFriction::Derivatives derivatives = friction.derivatives(p);
     derivatives.with_slip                      = derivatives.with_slip *
       (tangent_plane(geometry.normal) * geometry.relative_way_derivative +
@@ -443,7 +444,8 @@ namespace Ricochet
     if (!presses)
       return result;
 
-    // The direction of the force turns, and friction follows slip and pressure.
+    // The direction of the force turns, and friction depends on slip and
+    // pressure.
     Tensor<2, 3> with_displacement =
       point_force[p].gap * geometry.direction_derivative;
     if (friction_acts(p))
@@ -476,7 +478,7 @@ namespace Ricochet
   {
     for (unsigned int p = 0; p < evaluator.contact_points().size(); ++p)
       {
-        // Nothing of the gap is in it where directions turn.
+        // The constant part does not depend on the gap where directions turn.
         const Tensor<1, 3> &normal =
           evaluator.contact_points()[p].obstacle_normal;
         evaluator.add(p,
@@ -540,7 +542,7 @@ namespace Ricochet
         const ContactPoint       &point = evaluator.contact_points()[p];
         const ContactPointTangent tangent =
           law->tangent(state[p], old_state[p], point.cell_diameter);
-        // The gap is in the equation of a multiplier too.
+        // The equation of a multiplier depends on the gap, too.
         const double stiffness =
           std::max(std::abs(tangent[0][0]),
                    std::abs(tangent[2][0]) *
@@ -585,14 +587,15 @@ namespace Ricochet
         with_sticks.push_back(friction.sticks(p));
     ActiveSet result{global_hash(with_sticks, evaluator.communicator), {}};
 
-    // Without contact every law is linear.
+    // Every law is linear without contact.
     const bool turns = !kinematics->has_constant_rows();
     if (!law->traits().piecewise_linear || friction.exists() || turns)
       {
         bool active = std::any_of(values.begin(),
                                   values.end(),
                                   [](const int value) { return value != 0; });
-        // A multiplier presses until the stage is solved, whatever the branch.
+        // A multiplier may exert a force until the stage is solved, whatever
+        // the branch.
         if (friction.exists() || turns)
           for (unsigned int p = 0; p < state.size(); ++p)
             active =
@@ -631,7 +634,7 @@ namespace Ricochet
                              const double  time,
                              Vector       &result)
   {
-    // With both states the same, a discrete derivative is the derivative.
+    // A discrete derivative between equal states is the derivative.
     kinematics->begin_instant(time);
     kinematics->evaluate(solution, state);
     result = 0.;
@@ -694,7 +697,7 @@ namespace Ricochet
   PointwiseContact::normal_force(const unsigned int p,
                                  const Vector      &contact_force)
   {
-    // In nodes the force of the step can be read off the vector; elsewhere the
+    // The force of the step follows from the vector in nodes; elsewhere the
     // pressure is that of the law at the end of the step.
     const ContactPoint &point = evaluator.contact_points()[p];
     if (!law->traits().nodal)

@@ -12,23 +12,24 @@ namespace Ricochet
 {
   /**
    * The contact operator of all pointwise laws: Nitsche and its hybrid,
-   * penalty, augmented Lagrangian, multipliers, normal compliance. It runs
-   * through the contact points and asks the law; Coulomb's friction with a
-   * tangential compliance comes beside it, with the mean slip rate of the step.
-   * Forces act along the directions that the kinematics gives.
+   * penalty, augmented Lagrangian, multipliers, normal compliance. It evaluates
+   * the law in each contact point, and Coulomb's friction with a tangential
+   * compliance and the mean slip rate of the step. Forces act along the
+   * directions that the kinematics gives.
    */
   class PointwiseContact : public ContactOperator
   {
   public:
     /**
-     * @param points where the law is enforced.
+     * Constructor.
      * @param stress_points quadrature points at which the summary evaluates the
-     * body's own stress; nodes know none.
+     * body's own stress; there is none in nodes.
      * @param friction none if it does not exist.
      * @param augmentation r_0 (Pa); a stiffness r_0 / h_T, the body's own in
-     * order of magnitude, tells stick and slip apart and chooses where power
-     * laws are linearised. It leaves the solution alone.
-     * @param modified_energy the potential of the law makes a modified energy.
+     * order of magnitude, distinguishes stick from slip and affects where power
+     * laws are linearised. It does not affect the solution.
+     * @param modified_energy the potential of the law is part of the modified
+     * energy.
      */
     template <int dim>
     PointwiseContact(const Body<dim>            &body,
@@ -72,7 +73,8 @@ namespace Ricochet
     void
     add_tangent(Matrix &tangent) const override;
 
-    /// Without directions that may turn.
+    /// Add the contact-free tangent, without the terms of directions that may
+    /// turn.
     void
     add_open_tangent(Matrix &tangent) const override;
 
@@ -138,17 +140,18 @@ namespace Ricochet
     void
     compute_row_scaling();
 
-    /// Of the base, after make_rows().
+    /// Set the structure and the traits of the base, after make_rows().
     void
     set_structure();
 
-    /// What residual_bounds() has of its parts (N).
+    /// The parts of residual_bounds() (N).
     double
     linearisation_error() const;
     double
     round_off() const;
 
-    /// None if the law in closed points cannot be separated from that in open ones.
+    /// Set up the rows of the contact Jacobian; none if the law in closed points
+    /// cannot be separated from that in open ones.
     void
     make_rows();
 
@@ -157,12 +160,14 @@ namespace Ricochet
     void
     add_directions(const unsigned int p);
 
-    /// What is kept is a force on displacements; the equations of the
-    /// multipliers hold at the end of a stage and are never averaged.
+    /// Set the entries of multipliers to zero: forces that are kept are those
+    /// on displacements; the equations of the multipliers hold at the end of a
+    /// stage and are never averaged.
     void
     clear_multipliers(Vector &vector) const;
 
-    /// Whether a point is not as an open one.
+    /// Whether the tangent or force of a point differs from that of an open
+    /// one.
     bool
     acts(const unsigned int p) const;
 
@@ -172,7 +177,7 @@ namespace Ricochet
     along_direction(const unsigned int         p,
                     const ContactPointForce<> &force) const;
 
-    /// The tangent of the law in a point that add_open_tangent() has.
+    /// The tangent of the law in a point, as in add_open_tangent().
     ContactPointTangent
     constant_tangent(const unsigned int p) const;
 
@@ -182,7 +187,7 @@ namespace Ricochet
     point_tangent(const unsigned int         p,
                   const ContactPointTangent &left_out = {}) const;
 
-    /// Ask law and friction for the forces at #state.
+    /// Evaluate the forces of law and friction at #state.
     void
     evaluate_laws();
 
@@ -195,12 +200,12 @@ namespace Ricochet
     ContactPointForce<>
     linearised_force(const unsigned int p) const;
 
-    /// Derivatives of friction with respect to the way of the point over the step
-    /// (Pa/m) and to the pressure.
+    /// Derivatives of friction with respect to the displacement increment of the
+    /// point (Pa/m) and to the pressure.
     PointwiseFriction::Derivatives
     friction_derivatives(const unsigned int p) const;
 
-    /// Whether there is friction in a point: whether it is pressed.
+    /// Whether friction acts in a point, i.e. whether it is pressed.
     bool
     friction_acts(const unsigned int p) const
     {
@@ -211,24 +216,25 @@ namespace Ricochet
     PointwiseFriction                        friction;
     const double                             augmentation;
     const std::unique_ptr<ContactKinematics> kinematics;
-    // That of the kinematics.
+    // The evaluator of the kinematics.
     ContactPointEvaluator           &evaluator;
     ContactPointEvaluator            stress_evaluator;
     double                           weight     = 1.;
     unsigned int                     n_iterates = 0;
     std::vector<ContactPointState<>> state, old_state;
-    // Observables from which evaluate_at_increment() begins, those of the last
-    // add_residual(), and at which it looks.
+    // Observables at the last add_residual(), from which
+    // evaluate_at_increment() begins, and at its state.
     bool                     looks_at_change = false;
     std::vector<PointVector> observables_before, observables,
       stress_observables;
-    // Where the law is linearised: now, and at the last accepted iterate.
+    // States at which the law is linearised: now, and at the last accepted
+    // iterate.
     std::vector<ContactPointState<>> linearisation, accepted_linearisation;
     // Force of the law per area (Pa) at the last add_residual().
     std::vector<ContactPointForce<>> point_force;
     const unsigned int               n_displacements_owned;
     std::optional<ContactRows>       rows;
-    // The rows are those of directions, which stay the same.
+    // Whether the rows are along constant directions.
     bool rows_have_directions = false;
   };
 } // namespace Ricochet

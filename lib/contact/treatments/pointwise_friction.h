@@ -9,15 +9,15 @@
 namespace Ricochet
 {
   /**
-   * Friction with a tangential compliance in the points of a pointwise
-   * treatment, with the mean slip rate of the step: what each point knows of stick
-   * and slip in the course of Newton's method.
+   * Friction with a tangential compliance in the points of a pointwise treatment,
+   * with the mean slip rate of the step: the state of stick and slip of each point
+   * during Newton's method.
    */
   class PointwiseFriction
   {
   public:
     /// @param law of Coulomb or another one; none if it does not exist.
-    /// @param augmentation r_0 (Pa); r_0 / h_T tells stick and slip apart.
+    /// @param augmentation r_0 (Pa); r_0 / h_T distinguishes stick from slip.
     PointwiseFriction(const RegularisedFriction &law, const double augmentation)
       : law(law)
       , augmentation(augmentation)
@@ -37,7 +37,7 @@ namespace Ricochet
       n_iterates = 0;
     }
 
-    /// The state of the last evaluate() is the next iterate.
+    /// Make the state of the last evaluate() the next iterate.
     void
     accept_iterate()
     {
@@ -45,7 +45,8 @@ namespace Ricochet
       accepted_branch = branch;
     }
 
-    /// Begin to look at a state with @p n_points, none of which is pressed.
+    /// Begin the evaluation of a state with @p n_points, none of which is
+    /// pressed.
     void
     begin_evaluation(const unsigned int n_points);
 
@@ -71,14 +72,14 @@ namespace Ricochet
       return branch[p].sticks;
     }
 
-    /// Pa; the same as the law's at a solution.
+    /// Traction (Pa); equal to the law's at a solution.
     dealii::Tensor<1, 3>
     traction(const unsigned int p) const
     {
       return law.traction_on(branch[p], pressures[p], slip_rate[p]);
     }
 
-    /// By how much traction() is not the law's (Pa).
+    /// Difference between traction() and the law's traction (Pa).
     dealii::Tensor<1, 3>
     error(const unsigned int p) const
     {
@@ -96,15 +97,15 @@ namespace Ricochet
     Derivatives
     derivatives(const unsigned int p) const;
 
-    /// Energy taken in point @p p per area over the step (J/m^2).
+    /// Energy dissipated in point @p p per area over the step (J/m^2).
     double
     dissipation(const unsigned int p) const
     {
       return time_step * (traction(p) * slip_rate[p]);
     }
 
-    /// Traction (Pa) that round-off @p way_round_off (m) in the way of a sticking
-    /// point can cause.
+    /// Traction (Pa) that round-off @p way_round_off (m) in the displacement
+    /// increment of a sticking point can cause.
     double
     round_off(const double way_round_off) const
     {
@@ -117,7 +118,7 @@ namespace Ricochet
     double                    time_step  = 0.;
     unsigned int              n_iterates = 0;
     std::vector<double>       pressures;
-    // m/s
+    // Slip rates (m/s).
     std::vector<dealii::Tensor<1, 3>>        slip_rate;
     std::vector<RegularisedFriction::Branch> branch, accepted_branch;
   };

@@ -14,14 +14,15 @@ namespace Ricochet
                     const double               cell_diameter,
                     const double               body_stiffness)
   {
-    // The pressure that the last linearisation has at the new gap.
+    // The pressure that the last linearisation predicts at the new gap.
     const double predicted = -law.force(last, old_state, cell_diameter).gap -
       law.tangent(last, old_state, cell_diameter)[0][0] * (now.gap - last.gap);
 
-    // Where the law meets the body's line through gap and predicted pressure:
-    // excess(gap) = law's pressure - body's pressure falls with the gap. The
-    // law's pressure being never negative and falling, the zero lies between
-    // the gap and where the excess there would be used up by the body alone.
+    // The gap where the law meets the body's line through gap and predicted
+    // pressure: excess(gap) = law's pressure - body's pressure falls with the
+    // gap. The law's pressure being never negative and falling, the zero lies
+    // between the gap and the point where the body alone would compensate the
+    // excess.
     ContactPointState<> trial  = now;
     const auto          excess = [&]() {
       return -law.force(trial, old_state, cell_diameter).gap - predicted -

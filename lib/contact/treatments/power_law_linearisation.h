@@ -7,11 +7,11 @@
 namespace Ricochet
 {
   /**
-   * A stiff power law is a poor thing to linearise at a gap: from far too deep a
-   * penetration, or from contact at a point that leaves, Newton's method comes to
-   * the solution by a constant factor per iteration. So such laws are linearised
-   * where they meet the body's own line: the pressure that the last linearisation
-   * predicts at the new gap, and the body's stiffness.
+   * Linearisation of a stiff power law at the gap converges slowly: from far too
+   * deep a penetration, or from contact at a point that opens, Newton's method
+   * reduces the error by a constant factor per iteration. So such laws are
+   * linearised where they meet the body's own line: the pressure that the last
+   * linearisation predicts at the new gap, and the body's stiffness.
    *
    * @param last where the law was linearised at the last iterate.
    * @param now the state of the point.
