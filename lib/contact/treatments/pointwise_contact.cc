@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/vector_operations.h>
-#include <contact/laws/closing.h>
 #include <contact/treatments/active_set_signature.h>
 #include <contact/treatments/pointwise_contact.h>
 #include <contact/treatments/power_law_linearisation.h>
@@ -246,6 +245,8 @@ namespace Ricochet
                   : traits.needs_multiplier && closing->test != closing->trial;
     rows_have_directions =
       kinematics->has_constant_rows() && !prefers_observables;
+    for (const ContactPoint &point : evaluator.contact_points())
+      closings.push_back(*closing_directions(*law, point.cell_diameter));
 
     if (rows_have_directions)
       {
@@ -272,8 +273,8 @@ namespace Ricochet
   void
   PointwiseContact::add_directions(const unsigned int p)
   {
-    const ContactPoint &point = evaluator.contact_points()[p];
-    const Closing closing     = *closing_directions(*law, point.cell_diameter);
+    const ContactPoint &point   = evaluator.contact_points()[p];
+    const Closing      &closing = closings[p];
     // Gap, stress pressure and multiplier as directions in the observables.
     const auto of_law = [&](const Tensor<1, 3> &law_direction) {
       PointVector direction =
@@ -354,6 +355,27 @@ namespace Ricochet
 
 
 
+  ContactPointForce<>
+  PointwiseContact::closing_force(const unsigned int p) const
+  {
+    // Forces of open contact that depend on the state, not those that depend on the
+    // beginning of the step alone, which all states have.
+    const Tensor<1, 3> open =
+      constant_tangent(p) *
+      Tensor<1, 3>(
+        {state[p].gap, state[p].stress_pressure, state[p].multiplier});
+    const double        gap  = point_force[p].gap - open[0];
+    const Tensor<1, 3> &test = closings[p].test;
+    if (closings[p].row == 0)
+      return {gap, gap * test[1], gap * test[2]};
+    // Another equation of the multiplier, whose force acts in open points, too.
+    return {gap,
+            point_force[p].stress_pressure - open[1],
+            point_force[p].multiplier - open[2]};
+  }
+
+
+
   void
   PointwiseContact::forces_on_rows(std::vector<double> &coefficients) const
   {
@@ -362,15 +384,7 @@ namespace Ricochet
       {
         if (!acts(p))
           continue;
-        const Tensor<1, 3> open =
-          constant_tangent(p) *
-          Tensor<1, 3>(
-            {state[p].gap, state[p].stress_pressure, state[p].multiplier});
-        PointVector closing =
-          along_direction(p,
-                          {point_force[p].gap - open[0],
-                           point_force[p].stress_pressure - open[1],
-                           point_force[p].multiplier - open[2]});
+        PointVector closing = along_direction(p, closing_force(p));
         if (friction_acts(p))
           closing += on_displacement(friction.traction(p));
         rows->add(p,

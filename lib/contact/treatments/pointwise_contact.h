@@ -3,6 +3,7 @@
 #define ricochet_contact_treatments_pointwise_contact_h
 
 #include <contact/contact_operator.h>
+#include <contact/laws/closing.h>
 #include <contact/treatments/contact_rows.h>
 #include <contact/treatments/pointwise_friction.h>
 
@@ -178,6 +179,10 @@ namespace Ricochet
                     const ContactPointForce<> &force) const;
 
     /// The tangent of the law in a point, as in add_open_tangent().
+    /// Change of the force of the law in point @p p by its closing.
+    ContactPointForce<>
+    closing_force(const unsigned int p) const;
+
     ContactPointTangent
     constant_tangent(const unsigned int p) const;
 
@@ -234,6 +239,8 @@ namespace Ricochet
     std::vector<ContactPointForce<>> point_force;
     const unsigned int               n_displacements_owned;
     std::optional<ContactRows>       rows;
+    // With rows, in each point.
+    std::vector<Closing> closings;
     // Whether the rows are along constant directions.
     bool rows_have_directions = false;
   };
