@@ -65,9 +65,9 @@ namespace Ricochet
    * and its report at an instant.
    *
    * A stage begins with begin_stage(). Newton's method evaluates it by add_residual(),
-   * which adds the contact forces to (or, for active sets, replaces rows of) a residual
-   * that has all others already, and takes an evaluated point as its iterate by
-   * accept_iterate(). All but reports are those of the last evaluation.
+   * which adds the contact forces to a residual with all other forces (or, for active
+   * sets, replaces rows of it), and makes an evaluated point its iterate by
+   * accept_iterate(). All results except reports refer to the last evaluation.
    *
    * Contact acts through the rows of the contact Jacobian H (structure().functionals),
    * if there are any: its forces are those of open contact (all points open), which is
@@ -94,8 +94,8 @@ namespace Ricochet
       return own_traits;
     }
 
-    /// Per row, the factor that makes the residual a force: 1 for displacements, a
-    /// stiffness for multipliers.
+    /// The factor of each row by which the residual is a force: 1 for
+    /// displacements, a stiffness for multipliers.
     const Vector &
     row_scaling() const
     {
@@ -231,12 +231,12 @@ namespace Ricochet
       return nullptr;
     }
 
-    // ### By rows, where the structure has functionals
+    // ### By rows of the contact Jacobian, if there are any
 
     /// Evaluate contact at a state where the values of this rank's rows H u differ by
     /// @p increment from those at the last add_residual(), and the residual without
     /// contact along them is @p residual (N; needed where contact eliminates rows of
-    /// the body). Until add_residual() is called again, all but contact_force(),
+    /// the body). Until add_residual() is called again, all except contact_force(),
     /// friction_force() and works are those of this state.
     virtual void
     evaluate_at_increment(const std::vector<double> & /*increment*/,

@@ -27,7 +27,7 @@ namespace Ricochet
    *         | H  C |.
    *
    * C has no inverse where points are closed. With a diagonal C~ that has one (C, less
-   * what a stiffness like the body's own would give), the preconditioner solves with
+   * the compliance of a stiffness like the body's own), the preconditioner solves with
    *
    *     | A  G  |
    *     | H  C~ |

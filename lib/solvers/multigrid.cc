@@ -52,7 +52,7 @@ namespace Ricochet
       coarse.compress(VectorOperation::add);
     }
 
-    /// @p coarse += P^T F^T C F P for the rows F of @p tangent.
+    /// @p coarse += P^T H^T C H P for the rows H of @p tangent.
     void
     add_contact(const TangentOperator &tangent, Matrix &coarse)
     {

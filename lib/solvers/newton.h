@@ -15,7 +15,7 @@ namespace Ricochet
   /**
    * Semi-smooth Newton iteration (for instance Renard, CMAME 256, 2013).
    *
-   * It returns a converged solution or throws an exception.
+   * The solver returns a converged solution or throws an exception.
    */
   class NewtonSolver
   {

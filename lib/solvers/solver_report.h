@@ -16,13 +16,13 @@ namespace Ricochet
     /// several of them: the column `solver` of energy.csv.
     enum Strategy : unsigned int
     {
-      /// The whole tangent is factored.
+      /// Factorisation of the whole tangent.
       direct = 1,
-      /// Linear systems of the whole tangent are solved by multigrid.
+      /// Multigrid for linear systems of the whole tangent.
       multigrid = 2,
-      /// The stage of a linear body is condensed to contact.
+      /// Stage of a linear body, condensed to contact.
       condensed = 4,
-      /// The stage is condensed to contact, with a frozen tangent of the body.
+      /// Stage condensed to contact, with a frozen tangent of the body.
       frozen_tangent = 8,
       /// Fallback: the tangent of earlier steps did not converge, and was renewed
       /// within the step.

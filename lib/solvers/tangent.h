@@ -30,13 +30,15 @@ namespace Ricochet
     };
     std::optional<ActsThrough> functionals;
 
-    /// The part of contact in the tangent is symmetric.
+    /// Whether contact's part of the tangent is symmetric.
     bool is_symmetric = false;
-    /// It has unknowns of its own.
+    /// Whether contact has unknowns of its own.
     bool has_multipliers = false;
-    /// It couples unknowns that the body does not couple, with a variable pattern.
+    /// Whether contact couples unknowns that the body does not couple, with a
+    /// variable pattern.
     bool couplings_change = false;
-    /// It eliminates rows of the body and replaces them by its own.
+    /// Whether contact eliminates rows of the body and replaces them by its
+    /// own.
     bool eliminates_rows = false;
   };
 

@@ -159,7 +159,7 @@ namespace Ricochet
     std::map<types::global_dof_index, double> row_of_product;
     for (unsigned int f = 0; f < rows.size(); ++f)
       {
-        // Row f of C F.
+        // Row f of C H.
         row_of_product.clear();
         for (const auto &[other, factor] : rows[f])
           for (std::size_t k = my_functionals.begin[other];

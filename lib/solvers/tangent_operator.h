@@ -17,12 +17,11 @@ namespace Ricochet
    * A tangent as a sum, not one matrix: of matrices, and of contact by the rows
    * of its Jacobian,
    *
-   *     T = sum_k w_k A_k + F^T C F,
+   *     T = sum_k w_k A_k + H^T C H,
    *
-   * with a row of the contact Jacobian in each row of F; in the rows and columns
-   * of clamped unknowns T is the identity. A large body leaves no memory for
-   * another matrix, and the cost of a new state of contact is that of its active
-   * points.
+   * with the contact Jacobian H; in the rows and columns of clamped unknowns T
+   * is the identity. A large body leaves no memory for another matrix, and the
+   * cost of a new state of contact is that of its active points.
    */
   class TangentOperator : public dealii::Subscriptor
   {
@@ -109,7 +108,7 @@ namespace Ricochet
     std::size_t                block_term = 0, isotropic_term = 0;
     std::vector<FunctionalRow> rows;
     bool                       some_change = false;
-    // F, with the rows of all ranks.
+    // H, with the rows of all ranks.
     Matrix functional_matrix;
     Vector body_diagonal;
     // Work space.

@@ -92,7 +92,8 @@ namespace Ricochet
     /// The derivatives C and E of contact, by row.
     using ContactRows = std::array<std::vector<FunctionalRow>, 2>;
 
-    /// Add the unknowns coupled by @p contact with those of the @p region.
+    /// Add the unknowns that are coupled to those of the @p region by
+    /// @p contact.
     void
     add_contact(const ContactRows &contact,
                 const Functionals &functionals,

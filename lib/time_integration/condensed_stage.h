@@ -18,11 +18,11 @@ namespace Ricochet
    * contact Jacobian H. With the residual R = K (x - x_0) + H^T z(H x) all iterates
    * of Newton's method from a guess x_g are
    *
-   *     x = x_g + s (x_0 - x_g) - K^{-1} f z,
+   *     x = x_g + s (x_0 - x_g) - K^{-1} H^T z,
    *
    * where s = 1 after the first full step. Contact that eliminates rows and replaces
-   * them depends on the residual without contact along the rows of H, too, f ((1 - s)
-   * R(x_g) - f z).
+   * them depends on the residual without contact along the rows of H, too, which is H
+   * ((1 - s) R(x_g) - H^T z).
    *
    * So the unknowns are the coefficients z and s: with full steps the iterates are
    * those of NewtonSolver with the whole system, except for round-off, and the body is

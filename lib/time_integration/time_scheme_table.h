@@ -13,7 +13,8 @@
 namespace Ricochet
 {
   /**
-   * A time scheme as parameter files know it. A class that derives from TimeScheme has
+   * A time scheme in the table from which parameter files choose. A class that derives
+   * from TimeScheme has
    *
    *     static SchemeTraits traits();
    *     static std::string about();            for the documentation
@@ -29,7 +30,7 @@ namespace Ricochet
   };
 
   /// Add a time scheme to the table. Programs do this before they declare parameters.
-  /// @throws dealii::ExcMessage when there is one of its name.
+  /// @throws dealii::ExcMessage when its name is taken.
   void
   register_time_scheme(const TimeSchemeEntry &entry);
 

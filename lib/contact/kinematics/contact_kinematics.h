@@ -81,9 +81,10 @@ namespace Ricochet
    * are computed.
    *
    * The force of a point is its pressure times a direction D, and its work over a
-   * step the pressure times D . way. So the gap increment that belongs to it is D
-   * . relative_way, which is relative to a moving obstacle. All kinematics
-   * satisfy that to round-off, and their increment is the difference of the gaps.
+   * step the pressure times D . (displacement increment). So the conjugate gap
+   * increment is D . (displacement increment relative to the obstacle). All
+   * kinematics satisfy that to round-off, and their increment is the difference
+   * of the gaps.
    */
   class ContactKinematics
   {

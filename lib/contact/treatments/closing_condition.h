@@ -14,8 +14,8 @@ namespace Ricochet
     /// not change. The work of the reaction is exactly zero.
     persistent,
     /// Ayyad and Barboteu's two steps: first Signorini's condition on the mean
-    /// gap of the step; then, in the nodes that are in contact by this, the gap
-    /// does not change, and the others are free.
+    /// gap of the step; then, in the nodes that it has found in contact, the
+    /// gap does not change, and the others are free.
     two_step
   };
 } // namespace Ricochet

@@ -16,7 +16,8 @@
 namespace Ricochet
 {
   /**
-   * A contact treatment as parameter files know it. A pointwise law is a struct with
+   * A contact treatment in the table from which parameter files choose. A pointwise
+   * law is a struct with
    *
    *     static constexpr const char *name;
    *     static OwnParameters parameters();
@@ -57,7 +58,8 @@ namespace Ricochet
       instability = {};
   };
 
-  /// A friction law as parameter files know it; see FrictionLaw.
+  /// A friction law in the table from which parameter files choose; see
+  /// FrictionLaw.
   struct FrictionLawEntry
   {
     std::string   name;
@@ -72,7 +74,7 @@ namespace Ricochet
 
   /// Add a contact law to the table of treatments. Programs do this before they declare
   /// parameters.
-  /// @throws dealii::ExcMessage when there is one of its name.
+  /// @throws dealii::ExcMessage when its name is taken.
   void
   register_contact_law(const ContactLawEntry &entry);
 

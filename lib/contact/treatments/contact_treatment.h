@@ -166,7 +166,7 @@ namespace Ricochet
   /// use it are refused.
   ///
   /// @throws InputError when Nitsche's parameter is below its bound of stability
-  /// on this mesh, or the points of contact cannot be made.
+  /// on this mesh, or the contact points cannot be set up.
   template <int dim>
   std::unique_ptr<ContactOperator>
   make_contact(const ContactParameters                     &parameters,

@@ -376,7 +376,7 @@ namespace Ricochet
         [&](const Treatment &treatment) { return good(treatment.traits); });
     }
 
-    /// The laws that make a differential equation with a potential, with the choices
+    /// The laws that give a differential equation with a potential, with the choices
     /// that this depends on: "A with theta = 1, B or C".
     std::string
     names_of_potential_laws()
