@@ -138,7 +138,7 @@ def checks():
         ),
         momentum_row(RUNS.values()),
         check(
-            "feels itself: change of angular momentum in a step off the foundation",
+            "with self-contact: change of angular momentum in a step off the foundation",
             f"{change:.1e}, {np.sum(free & touching[1:])} such steps in contact with itself",
             change < 1e-11 and np.sum(free & touching[1:]) > 10,
             "< 1e-11; some steps in contact with itself alone",
@@ -147,14 +147,14 @@ def checks():
         compare("own.ring_itself.through", through.max()),
         compare("own.ring_itself.area", area[False]),
         check(
-            "feels itself: deepest overlap (m), its area (m^2)",
+            "with self-contact: deepest overlap (m), its area (m^2)",
             f"{felt.max():.3f}, {area[True]:.3f}",
             felt.max() < 0.15 and area[True] < 0.01 * area[False],
             "< 0.15: 30 m/s towards each other for a step of 5 ms; the area a hundredth",
         ),
         compare("own.ring_itself.felt", felt.max()),
         check(
-            "feels itself: depth of the outline less the table's penetration (m)",
+            "with self-contact: depth of the outline less the table's penetration (m)",
             f"{error:.1e}",
             error < 1e-3,
             "< 1e-3: beside a corner the nearest side may be another one",
