@@ -1351,7 +1351,11 @@ namespace Ricochet
             const double normal = normal_force(state, instant.contact_force);
             ContactPoint numbers;
             numbers.weight = point.weight;
-            sums.add(numbers, state.state.gap, normal, normal > 0.);
+            // Multipliers of open points are zero except for round-off.
+            const double zero = method.law ? 0.
+                                           : point.weight * stiffness(state) *
+                pair_of(state).round_off(state.point);
+            sums.add(numbers, state.state.gap, normal, normal > zero);
             my_area[point.boundary_id] += point.weight;
           }
         else
