@@ -11,77 +11,14 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  OwnParameter
-  OwnParameter::means(std::string what,
-                      std::string unit,
-                      std::string more) const
+  bool
+  declares(const OwnParameters &parameters, const std::string &name)
   {
-    OwnParameter result = *this;
-    result.what         = std::move(what);
-    result.unit         = std::move(unit);
-    result.more         = std::move(more);
-    return result;
-  }
-
-
-
-  OwnParameter
-  OwnParameter::at_least(const double value) const
-  {
-    OwnParameter result = *this;
-    result.smallest     = value;
-    return result;
-  }
-
-
-
-  OwnParameter
-  OwnParameter::at_most(const double value) const
-  {
-    OwnParameter result = *this;
-    result.largest      = value;
-    return result;
-  }
-
-
-
-  OwnParameter
-  OwnParameter::one_of(std::string list) const
-  {
-    OwnParameter result = *this;
-    result.choices      = std::move(list);
-    return result;
-  }
-
-
-
-  OwnParameter
-  OwnParameter::by_scale(
-    std::function<double(const Scales &, const ParameterValues &)> rule) const
-  {
-    OwnParameter result = *this;
-    result.scale_rule   = std::move(rule);
-    return result;
-  }
-
-
-
-  OwnParameter
-  OwnParameter::must(std::function<void(const double)> condition) const
-  {
-    OwnParameter result = *this;
-    result.condition    = std::move(condition);
-    return result;
-  }
-
-
-
-  OwnParameter
-  OwnParameter::belongs_to(std::string name_of_owner) const
-  {
-    OwnParameter result = *this;
-    result.owner        = std::move(name_of_owner);
-    return result;
+    return std::any_of(parameters.begin(),
+                       parameters.end(),
+                       [&](const OwnParameter &parameter) {
+                         return parameter.name == name;
+                       });
   }
 
 
@@ -136,6 +73,16 @@ namespace Ricochet
         return value.second;
     AssertThrow(false, ExcMessage("No law has the parameter '" + name + "'."));
     return values.front().second;
+  }
+
+
+
+  void
+  ParameterValues::check(const OwnParameters &parameters) const
+  {
+    for (const OwnParameter &parameter : parameters)
+      if (parameter.condition)
+        parameter.condition((*this)[parameter.name]);
   }
 
 

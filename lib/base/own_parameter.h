@@ -49,32 +49,62 @@ namespace Ricochet
       , default_value(default_value)
     {}
 
-    /// The documentation: @p what (@p unit)@p more. An empty unit is that of a number.
-    OwnParameter
-    means(std::string what, std::string unit, std::string more) const;
+    /// The documentation: @p what_ (@p unit_)@p more_. An empty unit is that of a number.
+    OwnParameter &
+    means(std::string what_, std::string unit_, std::string more_)
+    {
+      what = std::move(what_);
+      unit = std::move(unit_);
+      more = std::move(more_);
+      return *this;
+    }
 
-    OwnParameter
-    at_least(const double value) const;
+    OwnParameter &
+    at_least(const double value)
+    {
+      smallest = value;
+      return *this;
+    }
 
-    OwnParameter
-    at_most(const double value) const;
+    OwnParameter &
+    at_most(const double value)
+    {
+      largest = value;
+      return *this;
+    }
 
     /// Allow the values @p list, separated by |, and no others.
-    OwnParameter
-    one_of(std::string list) const;
+    OwnParameter &
+    one_of(std::string list)
+    {
+      choices = std::move(list);
+      return *this;
+    }
 
     /// The value where a scene gives none; it may depend on other values.
-    OwnParameter
-    by_scale(std::function<double(const Scales &, const ParameterValues &)>
-               rule) const;
+    OwnParameter &
+    by_scale(
+      std::function<double(const Scales &, const ParameterValues &)> rule)
+    {
+      scale_rule = std::move(rule);
+      return *this;
+    }
 
     /// A condition besides the bounds; throws InputError where it fails.
-    OwnParameter
-    must(std::function<void(const double)> condition) const;
+    OwnParameter &
+    must(std::function<void(const double)> condition_)
+    {
+      condition = std::move(condition_);
+      return *this;
+    }
 
     /// The owner in notes of parameters without effect: "penalty".
-    OwnParameter
-    belongs_to(std::string name_of_owner) const;
+    OwnParameter &
+    belongs_to(std::string name_of_owner)
+    {
+      owner = std::move(name_of_owner);
+      return *this;
+    }
 
     /// The description in --print-parameters.
     std::string
@@ -99,6 +129,10 @@ namespace Ricochet
   void
   unite(OwnParameters &all, const OwnParameters &more);
 
+  /// Whether one of @p parameters has this @p name.
+  bool
+  declares(const OwnParameters &parameters, const std::string &name);
+
   /// The values of all laws' parameters, by name.
   class ParameterValues
   {
@@ -122,6 +156,10 @@ namespace Ricochet
     void
     add_parameters(const OwnParameters      &parameters,
                    dealii::ParameterHandler &handler);
+
+    /// Check the conditions of @p parameters. @throws InputError
+    void
+    check(const OwnParameters &parameters) const;
 
   private:
     std::vector<std::pair<std::string, double>> values;

@@ -7,10 +7,10 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/template_constraints.h>
 
 #include <functional>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -82,14 +82,10 @@ namespace Ricochet
   int
   run_program(const int argc, char **argv, const Program &program);
 
-  /// Whether a class has the member unused_parameters().
-  template <typename Step, typename = void>
-  constexpr bool has_unused_parameters = false;
+  /// Optional member of a step.
   template <typename Step>
-  constexpr bool has_unused_parameters<
-    Step,
-    std::void_t<decltype(std::declval<const Step &>().unused_parameters())>> =
-    true;
+  using unused_parameters_of =
+    decltype(std::declval<const Step &>().unused_parameters());
 
   /**
    * The same for a class with the members `add_parameters(ParameterHandler &)`,
@@ -112,7 +108,8 @@ namespace Ricochet
     };
     program.validate = [&]() { step.validate(); };
     program.run      = [&](RunFolder &folder) { step.run(folder); };
-    if constexpr (has_unused_parameters<Step>)
+    if constexpr (dealii::internal::is_supported_operation<unused_parameters_of,
+                                                           Step>)
       program.unused_parameters = [&]() { return step.unused_parameters(); };
     return run_program(argc, argv, program);
   }

@@ -24,16 +24,6 @@ namespace Ricochet
     double friction = 0.;
   };
 
-  /// Lower bounds of a residual (N).
-  struct ResidualBounds
-  {
-    /// Difference between the force in the residual and that of the law: not zero where
-    /// the law was linearised at another state, and reduced by Newton's method.
-    double linearisation = 0.;
-    /// Force that round-off in the gaps can cause; a stiff law amplifies it.
-    double round_off = 0.;
-  };
-
   /// The active set as numbers that are the same on all ranks.
   struct ActiveSet
   {
@@ -148,8 +138,18 @@ namespace Ricochet
       return false;
     }
 
-    virtual ResidualBounds
-    residual_bounds() const = 0;
+    /// By how much the force in the residual differs from that of the law (N): not zero
+    /// where the law was linearised elsewhere, and part of what Newton's method makes
+    /// small.
+    virtual double
+    linearisation_error() const
+    {
+      return 0.;
+    }
+
+    /// Force (N) that round-off in the gaps can cause: a stiff law amplifies it.
+    virtual double
+    round_off() const = 0;
 
     virtual ActiveSet
     active_set() const = 0;

@@ -350,6 +350,7 @@ namespace Ricochet
   std::vector<double>
   LinearBulk<dim>::energies_of_parts(const Vector &solution) const
   {
+    // Displacements without the translation are left in #work.
     force(solution, product);
     std::vector<double> energies(n_parts, 0.);
     for (const Run &run : runs)

@@ -5,13 +5,14 @@
 #include <materials/hyperelastic_law.h>
 #include <materials/linear_elastic.h>
 
+#include <deal.II/base/template_constraints.h>
+
 #include <Sacado_Fad_SFad.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 namespace Ricochet
@@ -41,7 +42,7 @@ namespace Ricochet
     energy_difference(const Invariants<Number> &i,
                       const Invariants<Number> &difference) const
     {
-      if constexpr (has_energy_difference<Law>::value)
+      if constexpr (has<energy_difference_of>)
         return Law::energy_difference(i, difference);
       else
         return integrated_difference(i, difference);
@@ -52,7 +53,7 @@ namespace Ricochet
     Number
     plane_stress_c33(const Number &trace, const Number &determinant) const
     {
-      if constexpr (has_plane_stress<Law>::value)
+      if constexpr (has<plane_stress_of>)
         return Law::plane_stress_c33(trace, determinant);
       else
         return c33_by_newton(trace, determinant);
@@ -62,7 +63,7 @@ namespace Ricochet
     ThirdDerivatives
     third_derivatives(const Invariants<> &i) const
     {
-      if constexpr (has_third_derivatives<Law>::value)
+      if constexpr (has<third_derivatives_of>)
         return Law::third_derivatives(i);
       else
         return differentiated_hessian(i);
@@ -72,7 +73,7 @@ namespace Ricochet
     LinearElastic
     at_small_strains() const
     {
-      if constexpr (has_small_strains<Law>::value)
+      if constexpr (has<small_strains_of>)
         return Law::at_small_strains();
       else
         return linearised_at_rest();
@@ -224,47 +225,26 @@ namespace Ricochet
     }
 
   private:
-    // Which functions the law writes itself.
-    template <typename L, typename = void>
-    struct has_energy_difference : std::false_type
-    {};
+    // Optional functions of the law.
     template <typename L>
-    struct has_energy_difference<
-      L,
-      std::void_t<decltype(std::declval<const L &>().energy_difference(
+    using energy_difference_of =
+      decltype(std::declval<const L &>().energy_difference(
         std::declval<Invariants<>>(),
-        std::declval<Invariants<>>()))>> : std::true_type
-    {};
-
-    template <typename L, typename = void>
-    struct has_plane_stress : std::false_type
-    {};
+        std::declval<Invariants<>>()));
     template <typename L>
-    struct has_plane_stress<
-      L,
-      std::void_t<decltype(std::declval<const L &>().plane_stress_c33(1., 1.))>>
-      : std::true_type
-    {};
-
-    template <typename L, typename = void>
-    struct has_third_derivatives : std::false_type
-    {};
+    using plane_stress_of =
+      decltype(std::declval<const L &>().plane_stress_c33(1., 1.));
     template <typename L>
-    struct has_third_derivatives<
-      L,
-      std::void_t<decltype(std::declval<const L &>().third_derivatives(
-        std::declval<Invariants<>>()))>> : std::true_type
-    {};
-
-    template <typename L, typename = void>
-    struct has_small_strains : std::false_type
-    {};
+    using third_derivatives_of =
+      decltype(std::declval<const L &>().third_derivatives(
+        std::declval<Invariants<>>()));
     template <typename L>
-    struct has_small_strains<
-      L,
-      std::void_t<decltype(std::declval<const L &>().at_small_strains())>>
-      : std::true_type
-    {};
+    using small_strains_of =
+      decltype(std::declval<const L &>().at_small_strains());
+
+    template <template <typename...> class Operation>
+    static constexpr bool has =
+      dealii::internal::is_supported_operation<Operation, Law>;
   };
 } // namespace Ricochet
 

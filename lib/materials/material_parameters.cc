@@ -4,7 +4,6 @@
 #include <materials/material_parameters.h>
 #include <materials/material_table.h>
 
-#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -14,29 +13,20 @@ namespace Ricochet
 
   namespace
   {
-    const MaterialEntry &
-    find(const std::string &law)
-    {
-      for (const MaterialEntry &entry : material_table())
-        if (entry.name == law)
-          return entry;
-      AssertThrow(false, ExcMessage("unknown law " + law));
-      return material_table().front();
-    }
-
     /// "Elastic law. ...: small strains and rotations. A, B and C: large ones."
     std::string
     documentation_of_laws()
     {
       const auto &table = material_table();
-      std::string text =
-        "Elastic law. " + table[0].name + ": small strains and rotations. ";
+      std::string text  = "Elastic law. " + table.begin()->name +
+        ": small strains and rotations. ";
       for (unsigned int k = 1; k < table.size(); ++k)
         {
+          const MaterialEntry &entry = table.begin()[k];
           text += k == 1 ? "" : k + 1 < table.size() ? ", " : " and ";
-          text += table[k].name;
-          if (!table[k].remark.empty())
-            text += " (" + table[k].remark + ")";
+          text += entry.name;
+          if (!entry.remark.empty())
+            text += " (" + entry.remark + ")";
         }
       return text + ": large ones.";
     }
@@ -53,15 +43,11 @@ namespace Ricochet
   void
   MaterialParameters::add_parameters(ParameterHandler &parameters)
   {
-    std::string laws;
-    for (const MaterialEntry &entry : material_table())
-      laws += (laws.empty() ? "" : "|") + entry.name;
-
     parameters.enter_subsection(section);
     parameters.add_parameter("Law",
                              law,
                              documentation_of_laws(),
-                             Patterns::Selection(laws));
+                             Patterns::Selection(material_table().names()));
     parameters.add_parameter("Plane state",
                              plane_state,
                              "What a body in 2D stands for: a thin sheet "
@@ -95,12 +81,10 @@ namespace Ricochet
   std::vector<UnusedParameter>
   MaterialParameters::unused_parameters() const
   {
-    const OwnParameters         &used = find(law).parameters;
+    const OwnParameters         &used = material_table()[law].parameters;
     std::vector<UnusedParameter> unused;
     for (const OwnParameter &parameter : all_parameters())
-      if (std::none_of(used.begin(), used.end(), [&](const auto &own) {
-            return own.name == parameter.name;
-          }))
+      if (!declares(used, parameter.name))
         unused.push_back({section + "/" + parameter.name,
                           parameter.owner + "; " + section + "/Law is " + law});
     return unused;
@@ -111,10 +95,7 @@ namespace Ricochet
   OwnParameters
   MaterialParameters::all_parameters()
   {
-    OwnParameters all;
-    for (const MaterialEntry &entry : material_table())
-      unite(all, entry.parameters);
-    return all;
+    return material_table().parameters();
   }
 
 
@@ -147,11 +128,9 @@ namespace Ricochet
     if (dim == 3 && plane_state == "plane stress")
       throw InputError("Plane stress has no meaning for a body in 3D: set " +
                        section + "/Plane state to plane strain.");
-    for (const OwnParameter &parameter : all_parameters())
-      if (parameter.condition)
-        parameter.condition(values[parameter.name]);
-    if (find(law).check)
-      find(law).check(values, state(dim));
+    values.check(all_parameters());
+    if (const auto &check = material_table()[law].check)
+      check(values, state(dim));
     if (viscosity == "none" && viscosity_eta > 0.)
       throw InputError(section + "/Viscosity eta is " + to_text(viscosity_eta) +
                        " and " + section +
@@ -179,7 +158,7 @@ namespace Ricochet
   LinearElastic
   MaterialParameters::at_small_strains() const
   {
-    return find(law).at_small_strains(values);
+    return material_table()[law].at_small_strains(values);
   }
 
 
@@ -188,7 +167,7 @@ namespace Ricochet
   Material<dim>
   MaterialParameters::make() const
   {
-    const MaterialEntry &entry = find(law);
+    const MaterialEntry &entry = material_table()[law];
     const Viscosity      viscous{viscosities.at(viscosity), viscosity_eta};
     if (!entry.make)
       return Material<dim>(entry.at_small_strains(values).in_plane(state(dim)),

@@ -4,8 +4,6 @@
 #include <materials/laws/saint_venant_kirchhoff.h>
 #include <materials/material_table.h>
 
-#include <deal.II/base/exceptions.h>
-
 namespace Ricochet
 {
   namespace
@@ -21,21 +19,23 @@ namespace Ricochet
     }
 
     // The table of elastic laws: a new one is one file in laws/ and one line here.
-    std::vector<MaterialEntry> &
+    NamedTable<MaterialEntry> &
     table()
     {
-      static std::vector<MaterialEntry> entries = {
-        linear_elastic(),
-        material_entry<CiarletGeymonat>(),
-        material_entry<SaintVenantKirchhoff>(),
-        material_entry<NeoHookean>()};
-      return entries;
+      static NamedTable<MaterialEntry> laws(
+        "an",
+        "elastic law",
+        {linear_elastic(),
+         material_entry<CiarletGeymonat>(),
+         material_entry<SaintVenantKirchhoff>(),
+         material_entry<NeoHookean>()});
+      return laws;
     }
   } // namespace
 
 
 
-  const std::vector<MaterialEntry> &
+  const NamedTable<MaterialEntry> &
   material_table()
   {
     return table();
@@ -46,10 +46,6 @@ namespace Ricochet
   void
   register_material(const MaterialEntry &entry)
   {
-    for (const MaterialEntry &other : table())
-      AssertThrow(other.name != entry.name,
-                  dealii::ExcMessage("There is an elastic law '" + entry.name +
-                                     "' already."));
-    table().push_back(entry);
+    table().add(entry);
   }
 } // namespace Ricochet

@@ -2,16 +2,16 @@
 #ifndef ricochet_materials_material_table_h
 #define ricochet_materials_material_table_h
 
-#include <base/own_parameter.h>
+#include <base/named_table.h>
 #include <materials/hyperelastic_law_implementation.h>
 #include <materials/linear_elastic.h>
 #include <materials/plane_state.h>
 
+#include <deal.II/base/template_constraints.h>
+
 #include <functional>
 #include <memory>
 #include <string>
-#include <type_traits>
-#include <vector>
 
 namespace Ricochet
 {
@@ -45,7 +45,7 @@ namespace Ricochet
   };
 
   /// All elastic laws; the linear one is the first.
-  const std::vector<MaterialEntry> &
+  const NamedTable<MaterialEntry> &
   material_table();
 
   /// Add a law to the table. Programs do this before they declare parameters.
@@ -57,23 +57,13 @@ namespace Ricochet
 
   namespace internal
   {
-    template <typename Law, typename = void>
-    struct has_material_check : std::false_type
-    {};
+    // Optional members of a law.
     template <typename Law>
-    struct has_material_check<
-      Law,
-      std::void_t<decltype(Law::check(std::declval<ParameterValues>(),
-                                      PlaneState::plane_strain))>>
-      : std::true_type
-    {};
-
-    template <typename Law, typename = void>
-    struct has_remark : std::false_type
-    {};
+    using material_check_of =
+      decltype(Law::check(std::declval<ParameterValues>(),
+                          PlaneState::plane_strain));
     template <typename Law>
-    struct has_remark<Law, std::void_t<decltype(Law::remark)>> : std::true_type
-    {};
+    using remark_of = decltype(Law::remark);
   } // namespace internal
 
   /// The entry of the hyperelastic law @p Law.
@@ -81,6 +71,7 @@ namespace Ricochet
   MaterialEntry
   material_entry()
   {
+    using dealii::internal::is_supported_operation;
     MaterialEntry entry;
     entry.name       = Law::name;
     entry.parameters = Law::parameters();
@@ -91,9 +82,9 @@ namespace Ricochet
     entry.at_small_strains = [](const ParameterValues &values) {
       return CompletedLaw<Law>(Law::make(values)).at_small_strains();
     };
-    if constexpr (internal::has_remark<Law>::value)
+    if constexpr (is_supported_operation<internal::remark_of, Law>)
       entry.remark = Law::remark;
-    if constexpr (internal::has_material_check<Law>::value)
+    if constexpr (is_supported_operation<internal::material_check_of, Law>)
       entry.check = Law::check;
     return entry;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 namespace Ricochet
@@ -66,6 +67,7 @@ namespace Ricochet
                                      : std::move(given_parts))
     , runs(runs_of(bodies_of_unknowns(body, first_part)))
     , momenta_of_all(body, system.mass_matrix(), small_strains)
+    , momentum(body.make_vector())
   {
     for (unsigned int p = 0; p < names.size(); ++p)
       momenta_of_parts.emplace_back(body,
@@ -79,38 +81,49 @@ namespace Ricochet
 
 
   template <int dim>
-  double
-  PartColumns<dim>::kinetic_energy(const unsigned int p,
-                                   const Vector      &velocity) const
+  typename PartColumns<dim>::Energies
+  PartColumns<dim>::energies(const State &state) const
   {
+    Energies result;
     // Masses do not couple bodies.
-    const auto momenta    = entries(system.momentum().with(velocity));
-    const auto velocities = entries(velocity);
-    double     sum        = 0.;
+    system.mass_matrix().vmult(momentum, state.velocity);
+    const auto momenta    = entries(momentum);
+    const auto velocities = entries(state.velocity);
+    result.kinetic.resize(names.size(), 0.);
     for (const Run &run : runs)
-      if (run.body == p)
-        sum += momenta.segment(run.begin, run.size())
-                 .dot(velocities.segment(run.begin, run.size()));
-    return .5 * Utilities::MPI::sum(sum, communicator);
+      result.kinetic[run.body] +=
+        momenta.segment(run.begin, run.size())
+          .dot(velocities.segment(run.begin, run.size()));
+    Utilities::MPI::sum(result.kinetic, communicator, result.kinetic);
+    for (double &energy : result.kinetic)
+      energy *= .5;
+
+    const std::vector<double> of_parts =
+      system.bulk.energies_of_parts(state.solution);
+    for (unsigned int p = 0; p < names.size(); ++p)
+      result.elastic.push_back(
+        std::accumulate(of_parts.begin() + first_part[p],
+                        of_parts.begin() + first_part[p + 1],
+                        0.));
+    return result;
   }
 
 
 
   template <int dim>
-  double
-  PartColumns<dim>::work(const unsigned int p,
-                         const Vector      &force,
-                         const Vector      &begin,
-                         const Vector      &end) const
+  std::vector<double>
+  PartColumns<dim>::works(const Vector &force,
+                          const Vector &begin,
+                          const Vector &end) const
   {
-    double sum = 0.;
+    std::vector<double> sums(names.size(), 0.);
     for (const Run &run : runs)
-      if (run.body == p)
-        sum += entries(force)
-                 .segment(run.begin, run.size())
-                 .dot(entries(end).segment(run.begin, run.size()) -
-                      entries(begin).segment(run.begin, run.size()));
-    return Utilities::MPI::sum(sum, communicator);
+      sums[run.body] += entries(force)
+                          .segment(run.begin, run.size())
+                          .dot(entries(end).segment(run.begin, run.size()) -
+                               entries(begin).segment(run.begin, run.size()));
+    Utilities::MPI::sum(sums, communicator, sums);
+    return sums;
   }
 
 
@@ -142,29 +155,24 @@ namespace Ricochet
     if (names.size() > 1)
       system.works_of_bodies =
         [this](const Vector &force, const Vector &begin, const Vector &end) {
-          std::vector<double> works;
-          for (unsigned int p = 0; p < names.size(); ++p)
-            works.push_back(work(p, force, begin, end));
-          return works;
+          return works(force, begin, end);
         };
+    // The first column of a row makes the energies of all bodies, for those after it.
+    const auto of_row = std::make_shared<Energies>();
     // One part is all.
     for (unsigned int p = 0; p < names.size() && names.size() > 1; ++p)
       {
         loop.add_column("kinetic_energy_" + names[p],
                         "J",
-                        [this, p](const State &state) {
-                          return kinetic_energy(p, state.velocity);
+                        [this, of_row, p](const State &state) {
+                          if (p == 0)
+                            *of_row = energies(state);
+                          return of_row->kinetic[p];
                         });
         loop.add_column("elastic_energy_" + names[p],
                         "J",
-                        [this, p](const State &state) {
-                          const std::vector<double> energies =
-                            system.bulk.energies_of_parts(state.solution);
-                          return std::accumulate(energies.begin() +
-                                                   first_part[p],
-                                                 energies.begin() +
-                                                   first_part[p + 1],
-                                                 0.);
+                        [of_row, p](const State &) {
+                          return of_row->elastic[p];
                         });
         loop.add_reported_sum("contact_work_" + names[p],
                               "J",

@@ -38,18 +38,6 @@ namespace Ricochet
     void
     add_to(TimeLoop &loop) const;
 
-    /// Energy of motion of body @p p (J).
-    double
-    kinetic_energy(const unsigned int p, const Vector &velocity) const;
-
-    /// The work of @p force (N) along the displacement from @p begin to @p end
-    /// of body @p p (J).
-    double
-    work(const unsigned int p,
-         const Vector      &force,
-         const Vector      &begin,
-         const Vector      &end) const;
-
     /// Columns of body @p p.
     const Momenta<dim> &
     momenta(const unsigned int p) const
@@ -77,6 +65,20 @@ namespace Ricochet
       }
     };
 
+    /// Energies of each body (J).
+    struct Energies
+    {
+      std::vector<double> kinetic, elastic;
+    };
+
+    Energies
+    energies(const State &state) const;
+
+    /// The work of @p force (N) along the displacement from @p begin to @p end of each
+    /// body (J).
+    std::vector<double>
+    works(const Vector &force, const Vector &begin, const Vector &end) const;
+
     static std::vector<Run>
     runs_of(const std::vector<unsigned int> &body_of_unknown);
 
@@ -87,6 +89,8 @@ namespace Ricochet
     const std::vector<Run>          runs;
     std::vector<Momenta<dim>>       momenta_of_parts;
     Momenta<dim>                    momenta_of_all;
+    // Work space.
+    mutable Vector momentum;
   };
 } // namespace Ricochet
 

@@ -101,7 +101,7 @@ namespace Ricochet
           throw OneRankSuffices(n_unknowns);
         if (!is_automatic)
           throw InputError(
-            "What is condensed to contact is on one MPI rank: with Linear "
+            "The contact Schur complement is solved on one MPI rank: with Linear "
             "solver/Distribute = true choose Type = direct, multigrid or "
             "automatic instead of condensed.");
         is_condensed = false;
@@ -155,23 +155,21 @@ namespace Ricochet
     parameters.add_parameter(
       "Type",
       type,
-      "direct: factor the tangent for each state of contact and keep the last "
-      "few. condensed: factor the body only, by CHOLMOD on one rank, and solve for contact "
-      "alone; that of a linear body is solved for twice in each stage of a time step, and "
-      "of another one the tangent of a few steps before serves in all iterations of a "
-      "step; where that fails, the whole tangent is factored. multigrid: from "
-      "degree 2 to degree 1 and on by aggregation, not for treatments with multipliers "
-      "of one body; between bodies by aggregation, with or without. automatic: "
-      "condensed above 1000 unknowns (linear bodies against each other always, nonlinear "
-      "ones in 2D); multigrid for linear bodies in 3D "
-      "above 50000 unknowns, or 30000 on several ranks, and for others against each "
-      "other in 3D above 5000 unknowns; otherwise direct. Results are the same to the "
-      "tolerance of Newton's method.",
+      "direct: factor the tangent for each active set and keep the last few factors. "
+      "condensed: factor the body only, by CHOLMOD on one rank, and solve the contact Schur "
+      "complement; a linear body takes two solves in each stage of a time step, another one "
+      "a frozen tangent of an earlier step, and the whole tangent is factored where that "
+      "does not converge. multigrid: from degree 2 to degree 1 and on by aggregation; for "
+      "treatments with multipliers only between bodies. automatic: condensed above 1000 "
+      "unknowns (linear bodies against each other always, nonlinear ones in 2D); multigrid "
+      "for linear bodies in 3D above 50000 unknowns, or 30000 on several ranks, and for "
+      "nonlinear bodies against each other in 3D above 5000 unknowns; otherwise direct. "
+      "Results agree to the tolerance of Newton's method.",
       Patterns::Selection("automatic|direct|condensed|multigrid"));
     parameters.add_parameter(
       "Factorisation",
       factorisation,
-      "Of whole tangents. KLU: LU, fast for bars and plane meshes. MUMPS: LU, fast in 3D "
+      "Package that factors the tangent. KLU: LU, fast for bars and plane meshes. MUMPS: LU, fast in 3D "
       "and parallel. automatic: KLU for bars and plane meshes below 20000 unknowns.",
       Patterns::Selection("automatic|KLU|MUMPS"));
     parameters.add_parameter(
@@ -184,9 +182,9 @@ namespace Ricochet
     parameters.add_parameter(
       "Distribute",
       distribute,
-      "Take all MPI ranks, also where the run would be condensed to contact, which one "
-      "rank does with its threads: below 100000 unknowns, in 3D 30000, one is faster than "
-      "several, and the others wait.");
+      "Use all MPI ranks, also where the run would be condensed, which one rank does "
+      "with its threads while the others wait: below 100000 unknowns, in 3D 30000, one "
+      "rank is faster than several.");
     parameters.leave_subsection();
   }
 

@@ -139,7 +139,7 @@ namespace Ricochet
     if (rest.share == 0.)
       return system.norm_of_rows(rest.coefficients,
                                  contact_forces.row_scaling) +
-        contact_forces.weight * contact.residual_bounds().linearisation;
+        contact_forces.weight * contact.linearisation_error();
     work = 0.;
     work.add(rest.share, open_residual);
     system.add_rows(rest.coefficients, work);

@@ -85,7 +85,6 @@ namespace Ricochet
     , contact(contact)
     , unknowns(unknowns)
     , mass(mass)
-    , momenta(mass)
     , invertible_mass(invertible_mass)
     , clamped(constrained_indices(*unknowns.constraints,
                                   mass.locally_owned_range_indices()))
@@ -523,8 +522,9 @@ namespace Ricochet
   double
   SemiDiscreteSystem::kinetic_energy(const Vector &velocity) const
   {
+    mass.vmult(work, velocity);
     return .5 *
-      product(entries(momenta.with(velocity)),
+      product(entries(work),
               entries(velocity),
               velocity.get_mpi_communicator());
   }

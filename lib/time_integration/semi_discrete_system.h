@@ -8,7 +8,6 @@
 #include <discretization/follower_load.h>
 #include <solvers/body_matrix.h>
 #include <solvers/linear_solver.h>
-#include <solvers/known_product.h>
 #include <solvers/mass_solver.h>
 #include <solvers/newton.h>
 #include <time_integration/condensed_stage.h>
@@ -210,13 +209,6 @@ namespace Ricochet
     double
     kinetic_energy(const Vector &velocity) const;
 
-    /// Products of velocities with the mass matrix (kg m/s).
-    const KnownProduct &
-    momentum() const
-    {
-      return momenta;
-    }
-
     /// Mass matrix of the equation of motion (kg).
     const BodyMatrix &
     mass_matrix() const
@@ -323,9 +315,8 @@ namespace Ricochet
     void
     take_shares(State &state) const;
 
-    const BodyMatrix  &mass;
-    const KnownProduct momenta;
-    const BodyMatrix  &invertible_mass;
+    const BodyMatrix &mass;
+    const BodyMatrix &invertible_mass;
     /// Prescribed displacements of this rank.
     const dealii::IndexSet clamped;
     const Load             load;

@@ -54,7 +54,7 @@ namespace Ricochet
           parts.bulk.strain_round_off();
       }
     return *bulk_round_off +
-      stage.contact_weight_new * parts.contact.residual_bounds().round_off;
+      stage.contact_weight_new * parts.contact.round_off();
   }
 
   NewtonSolver::Problem
@@ -289,7 +289,7 @@ namespace Ricochet
   StageProblem::norm(const Vector &result)
   {
     return norm_of_forces(result) +
-      stage.contact_weight_new * parts.contact.residual_bounds().linearisation;
+      stage.contact_weight_new * parts.contact.linearisation_error();
   }
 
   double

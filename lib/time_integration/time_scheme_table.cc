@@ -15,26 +15,18 @@ namespace Ricochet
   namespace
   {
     // The table of all time schemes: a new scheme is one file and one line.
-    std::vector<TimeSchemeEntry> &
+    NamedTable<TimeSchemeEntry> &
     table()
     {
-      static std::vector<TimeSchemeEntry> schemes = {
-        time_scheme_entry<CrankNicolson>(),
-        time_scheme_entry<HHT>(),
-        time_scheme_entry<TRBDF2>(),
-        time_scheme_entry<Midpoint>(),
-        time_scheme_entry<ARKode>()};
+      static NamedTable<TimeSchemeEntry> schemes(
+        "a",
+        "time scheme",
+        {time_scheme_entry<CrankNicolson>(),
+         time_scheme_entry<HHT>(),
+         time_scheme_entry<TRBDF2>(),
+         time_scheme_entry<Midpoint>(),
+         time_scheme_entry<ARKode>()});
       return schemes;
-    }
-
-    const TimeSchemeEntry &
-    find(const std::string &name)
-    {
-      for (const TimeSchemeEntry &entry : table())
-        if (entry.traits.name == name)
-          return entry;
-      AssertThrow(false, ExcMessage("unknown time scheme " + name));
-      return table().front();
     }
   } // namespace
 
@@ -54,11 +46,7 @@ namespace Ricochet
   void
   register_time_scheme(const TimeSchemeEntry &entry)
   {
-    for (const TimeSchemeEntry &other : table())
-      AssertThrow(other.traits.name != entry.traits.name,
-                  ExcMessage("There is a time scheme '" + entry.traits.name +
-                             "' already."));
-    table().push_back(entry);
+    table().add(entry);
   }
 
 
@@ -66,7 +54,7 @@ namespace Ricochet
   SchemeTraits
   scheme_traits(const std::string &name)
   {
-    return find(name).traits;
+    return table()[name].traits;
   }
 
 
@@ -104,10 +92,7 @@ namespace Ricochet
   std::string
   time_scheme_names()
   {
-    std::string names;
-    for (const TimeSchemeEntry &entry : table())
-      names += (names.empty() ? "" : "|") + entry.traits.name;
-    return names;
+    return table().names();
   }
 
 
@@ -115,7 +100,7 @@ namespace Ricochet
   std::unique_ptr<TimeScheme>
   make_time_scheme(const TimeScheme::Parameters &parameters)
   {
-    return find(parameters.name).make(parameters.values);
+    return table()[parameters.name].make(parameters.values);
   }
 
 
@@ -123,10 +108,7 @@ namespace Ricochet
   OwnParameters
   TimeScheme::Parameters::all_parameters()
   {
-    OwnParameters all;
-    for (const TimeSchemeEntry &entry : table())
-      unite(all, entry.parameters);
-    return all;
+    return table().parameters();
   }
 
 
@@ -134,12 +116,10 @@ namespace Ricochet
   std::vector<UnusedParameter>
   TimeScheme::Parameters::unused_parameters() const
   {
-    const OwnParameters         &used = find(name).parameters;
+    const OwnParameters         &used = table()[name].parameters;
     std::vector<UnusedParameter> unused;
     for (const OwnParameter &parameter : all_parameters())
-      if (std::none_of(used.begin(), used.end(), [&](const auto &own) {
-            return own.name == parameter.name;
-          }))
+      if (!declares(used, parameter.name))
         unused.push_back({"Time/" + parameter.name,
                           parameter.owner + "; Time/Scheme is " + name});
     return unused;
@@ -153,7 +133,7 @@ namespace Ricochet
     parameters.enter_subsection("Time");
     std::string text = "Time scheme: ";
     for (const TimeSchemeEntry &entry : table())
-      text += (&entry == &table().front() ? "" : "; ") + entry.traits.name +
+      text += (&entry == &*table().begin() ? "" : "; ") + entry.traits.name +
         (entry.about.empty() ? "" : " (" + entry.about + ")");
     parameters.add_parameter("Scheme",
                              name,

@@ -2,7 +2,7 @@
 #ifndef ricochet_time_integration_time_scheme_table_h
 #define ricochet_time_integration_time_scheme_table_h
 
-#include <base/own_parameter.h>
+#include <base/named_table.h>
 #include <time_integration/scheme_traits.h>
 #include <time_integration/time_scheme.h>
 
@@ -28,6 +28,12 @@ namespace Ricochet
     OwnParameters parameters;
     std::function<std::unique_ptr<TimeScheme>(const ParameterValues &)> make;
   };
+
+  inline const std::string &
+  name_of(const TimeSchemeEntry &entry)
+  {
+    return entry.traits.name;
+  }
 
   /// Add a time scheme to the table. Programs do this before they declare parameters.
   /// @throws dealii::ExcMessage when its name is taken.

@@ -12,7 +12,6 @@
 #include <base/vector_operations.h>
 #include <discretization/linear_bulk.h>
 #include <solvers/contact_schur_complement.h>
-#include <solvers/known_product.h>
 #include <solvers/mass_solver.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -460,28 +459,6 @@ BOOST_AUTO_TEST_CASE(ghosted_values_are_those_of_the_vector)
             BOOST_TEST(ghosted(i) == factor * (1. + i));
         }
     }
-}
-
-// A product is made again when the vector is another one, be it by its last digit.
-BOOST_AUTO_TEST_CASE(products_are_those_of_the_vector)
-{
-  const CubeAbovePlane<3> cube(true, 3);
-  const Body<3>           body = cube_body(cube, {}, MPI_COMM_WORLD);
-  const BodyMatrix        mass = assemble_mass_matrix(body, 20.);
-  const KnownProduct      momentum(mass);
-  Vector                  velocity = body.make_vector(), product(velocity);
-  for (unsigned int i = 0; i < velocity.locally_owned_size(); ++i)
-    local_values(velocity)[i] = .01 * i - 1.;
-  const auto check = [&]() {
-    mass.vmult(product, velocity);
-    product -= momentum.with(velocity);
-    BOOST_CHECK_EQUAL(product.linfty_norm(), 0.);
-  };
-  check();
-  check();
-  const unsigned int last = velocity.locally_owned_size() - 1;
-  local_values(velocity)[last] += 1e-3;
-  check();
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -5,6 +5,8 @@
 // indifference, the limit of small strains; Gonzalez' stress and its identity;
 // viscosities and their dissipation.
 
+#include "deformation_gradient.h"
+
 #include <base/exceptions.h>
 #include <materials/gonzalez.h>
 #include <materials/hyperelastic_law_implementation.h>
@@ -32,21 +34,6 @@ namespace
   const CiarletGeymonat      ciarlet_geymonat{.5, .005, .35};
   const SaintVenantKirchhoff saint_venant_kirchhoff{1.2, .8};
   const NeoHookean           neo_hookean{1.2, .8};
-
-  /// A deformation gradient with a positive determinant, @p size away from the
-  /// identity.
-  template <int dim>
-  Tensor<2, dim>
-  deformation_gradient(const double size, const unsigned int seed)
-  {
-    std::mt19937                           generator(seed);
-    std::uniform_real_distribution<double> number(-1., 1.);
-    Tensor<2, dim> f(dealii::unit_symmetric_tensor<dim>());
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        f[i][j] += size * number(generator);
-    return f;
-  }
 
   template <int dim>
   SymmetricTensor<2, dim>

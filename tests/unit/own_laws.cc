@@ -4,6 +4,7 @@
 // examples/own_step, registered as in a user's own program, against their
 // definitions and in impacts.
 
+#include "deformation_gradient.h"
 #include "meshes.h"
 #include "../../examples/own_step/backward_euler.h"
 #include "../../examples/own_step/exponential_pressure.h"
@@ -20,8 +21,6 @@
 
 #include <Sacado.hpp>
 #include <boost/test/unit_test.hpp>
-
-#include <random>
 
 using namespace Ricochet;
 using dealii::SymmetricTensor;
@@ -51,12 +50,7 @@ namespace
   SymmetricTensor<2, dim>
   cauchy_green(const double size, const unsigned int seed)
   {
-    std::mt19937                           generator(seed);
-    std::uniform_real_distribution<double> number(-1., 1.);
-    Tensor<2, dim> f(dealii::unit_symmetric_tensor<dim>());
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        f[i][j] += size * number(generator);
+    const Tensor<2, dim> f = deformation_gradient<dim>(size, seed);
     return symmetrize(transpose(f) * f);
   }
 

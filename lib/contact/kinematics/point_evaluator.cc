@@ -121,6 +121,8 @@ namespace Ricochet
                              const PointVector &force,
                              Vector            &vector)
   {
+    if (force.norm_square() == 0.)
+      return;
     const ContactPoint &point    = points.points[p];
     const PointVector   weighted = point.weight * force;
     const auto          add      = [&](const auto &value) {
@@ -154,6 +156,8 @@ namespace Ricochet
                              const PointMatrix &tangent,
                              Matrix            &matrix) const
   {
+    if (tangent.norm_square() == 0.)
+      return;
     const ContactPoint &point = points.points[p];
     for (unsigned int i = point.begin; i < point.end; ++i)
       {

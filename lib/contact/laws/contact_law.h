@@ -2,11 +2,11 @@
 #ifndef ricochet_contact_laws_contact_law_h
 #define ricochet_contact_laws_contact_law_h
 
+#include <deal.II/base/template_constraints.h>
 #include <deal.II/base/tensor.h>
 
 #include <Sacado_Fad_SFad.hpp>
 
-#include <type_traits>
 #include <utility>
 
 namespace Ricochet
@@ -171,7 +171,7 @@ namespace Ricochet
             const ContactPointState<> &old_state,
             const double               cell_diameter) const override
     {
-      if constexpr (has_tangent<Law>::value)
+      if constexpr (has<tangent_of>)
         return law.tangent(new_state, old_state, cell_diameter);
       else
         {
@@ -201,7 +201,7 @@ namespace Ricochet
            const ContactPointState<> &old_state,
            const double               cell_diameter) const override
     {
-      if constexpr (has_branch<Law>::value)
+      if constexpr (has<branch_of>)
         return law.branch(new_state, old_state, cell_diameter);
       else
         return force(new_state, old_state, cell_diameter).gap != 0.;
@@ -218,7 +218,7 @@ namespace Ricochet
     pressure(const ContactPointState<> &state,
              const double               cell_diameter) const override
     {
-      if constexpr (has_pressure<Law>::value)
+      if constexpr (has<pressure_of>)
         return law.pressure(state, cell_diameter);
       else
         return -force(state, state, cell_diameter).gap;
@@ -234,38 +234,25 @@ namespace Ricochet
     }
 
   private:
-    // Which functions the law writes itself.
-    template <typename L, typename = void>
-    struct has_tangent : std::false_type
-    {};
+    // Optional functions of the law.
     template <typename L>
-    struct has_tangent<L,
-                       std::void_t<decltype(std::declval<const L &>().tangent(
-                         std::declval<ContactPointState<>>(),
-                         std::declval<ContactPointState<>>(),
-                         1.))>> : std::true_type
-    {};
+    using tangent_of = decltype(std::declval<const L &>().tangent(
+      std::declval<ContactPointState<>>(),
+      std::declval<ContactPointState<>>(),
+      1.));
+    template <typename L>
+    using branch_of = decltype(std::declval<const L &>().branch(
+      std::declval<ContactPointState<>>(),
+      std::declval<ContactPointState<>>(),
+      1.));
+    template <typename L>
+    using pressure_of =
+      decltype(std::declval<const L &>()
+                 .pressure(std::declval<ContactPointState<>>(), 1.));
 
-    template <typename L, typename = void>
-    struct has_branch : std::false_type
-    {};
-    template <typename L>
-    struct has_branch<L,
-                      std::void_t<decltype(std::declval<const L &>().branch(
-                        std::declval<ContactPointState<>>(),
-                        std::declval<ContactPointState<>>(),
-                        1.))>> : std::true_type
-    {};
-
-    template <typename L, typename = void>
-    struct has_pressure : std::false_type
-    {};
-    template <typename L>
-    struct has_pressure<L,
-                        std::void_t<decltype(std::declval<const L &>().pressure(
-                          std::declval<ContactPointState<>>(),
-                          1.))>> : std::true_type
-    {};
+    template <template <typename...> class Operation>
+    static constexpr bool has =
+      dealii::internal::is_supported_operation<Operation, Law>;
 
     const Law law;
   };

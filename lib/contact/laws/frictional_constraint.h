@@ -51,6 +51,13 @@ namespace Ricochet
     using Tangential = dealii::Tensor<1, n_tangents>;
     using State      = ConstraintState<n_tangents>;
 
+    /// Whether @p state closes a point, see choose().
+    static bool
+    closes(const State &state, const double stiffness, const double margin)
+    {
+      return state.pressure - stiffness * state.closing > margin;
+    }
+
     /// Choose the piece by @p state.
     ///
     /// @param stiffness r. @param coefficient mu; 0 without friction.
@@ -67,7 +74,7 @@ namespace Ricochet
       r          = stiffness;
       mu         = coefficient;
       own_status = ContactStatus::open;
-      if (!(state.pressure - r * state.closing > margin))
+      if (!closes(state, r, margin))
         return;
       own_status = ContactStatus::slip;
       direction  = 0.;

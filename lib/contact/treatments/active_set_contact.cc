@@ -409,8 +409,8 @@ namespace Ricochet
 
 
 
-  ResidualBounds
-  ActiveSetContact::residual_bounds() const
+  double
+  ActiveSetContact::round_off() const
   {
     double square = 0.;
     for (unsigned int p = 0; p < nodes.size(); ++p)
@@ -426,9 +426,8 @@ namespace Ricochet
               square += stick * stick;
             }
         }
-    return {0.,
-            std::sqrt(
-              dealii::Utilities::MPI::sum(square, evaluator.communicator))};
+    return std::sqrt(
+      dealii::Utilities::MPI::sum(square, evaluator.communicator));
   }
 
 

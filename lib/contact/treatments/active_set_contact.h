@@ -101,8 +101,8 @@ namespace Ricochet
     std::string
     active_set_description() const override;
 
-    ResidualBounds
-    residual_bounds() const override;
+    double
+    round_off() const override;
 
     double
     friction_dissipation() const override;

@@ -2,16 +2,17 @@
 #ifndef ricochet_contact_treatments_contact_law_table_h
 #define ricochet_contact_treatments_contact_law_table_h
 
-#include <base/own_parameter.h>
+#include <base/named_table.h>
 #include <contact/energy_promise.h>
 #include <contact/laws/contact_law.h>
 #include <contact/laws/friction_law.h>
 #include <contact/treatments/closing_condition.h>
 
+#include <deal.II/base/template_constraints.h>
+
 #include <functional>
 #include <memory>
 #include <string>
-#include <type_traits>
 
 namespace Ricochet
 {
@@ -87,45 +88,18 @@ namespace Ricochet
 
   namespace internal
   {
-    template <typename Law, typename = void>
-    struct has_contact_check : std::false_type
-    {};
+    // Optional members of a law.
     template <typename Law>
-    struct has_contact_check<
-      Law,
-      std::void_t<decltype(Law::check(std::declval<ParameterValues>()))>>
-      : std::true_type
-    {};
-
-    template <typename Law, typename = void>
-    struct has_potential_condition : std::false_type
-    {};
+    using contact_check_of =
+      decltype(Law::check(std::declval<ParameterValues>()));
     template <typename Law>
-    struct has_potential_condition<
-      Law,
-      std::void_t<decltype(std::declval<const Law &>().lacks_potential())>>
-      : std::true_type
-    {};
-
-    template <typename Law, typename = void>
-    struct has_stability_bound : std::false_type
-    {};
+    using potential_condition_of =
+      decltype(std::declval<const Law &>().lacks_potential());
     template <typename Law>
-    struct has_stability_bound<
-      Law,
-      std::void_t<decltype(std::declval<const Law &>().instability(1.))>>
-      : std::true_type
-    {};
-
-    template <typename Law, typename = void>
-    struct can_be_absent : std::false_type
-    {};
+    using stability_bound_of =
+      decltype(std::declval<const Law &>().instability(1.));
     template <typename Law>
-    struct can_be_absent<
-      Law,
-      std::void_t<decltype(Law::absent(std::declval<ParameterValues>()))>>
-      : std::true_type
-    {};
+    using absence_of = decltype(Law::absent(std::declval<ParameterValues>()));
   } // namespace internal
 
   /// The entry of the pointwise law @p Law.
@@ -133,6 +107,7 @@ namespace Ricochet
   ContactLawEntry
   contact_law_entry()
   {
+    using dealii::internal::is_supported_operation;
     ContactLawEntry entry;
     entry.name       = Law::name;
     entry.parameters = Law::parameters();
@@ -141,13 +116,13 @@ namespace Ricochet
     entry.make_law   = [](const ParameterValues &values) {
       return std::make_unique<ContactLawImplementation<Law>>(Law::make(values));
     };
-    if constexpr (internal::has_contact_check<Law>::value)
+    if constexpr (is_supported_operation<internal::contact_check_of, Law>)
       entry.check = Law::check;
-    if constexpr (internal::has_potential_condition<Law>::value)
+    if constexpr (is_supported_operation<internal::potential_condition_of, Law>)
       entry.lacks_potential = [](const ParameterValues &values) {
         return Law::make(values).lacks_potential();
       };
-    if constexpr (internal::has_stability_bound<Law>::value)
+    if constexpr (is_supported_operation<internal::stability_bound_of, Law>)
       entry.instability = [](const ParameterValues &values,
                              const double           trace_constant) {
         return Law::make(values).instability(trace_constant);
@@ -176,7 +151,8 @@ namespace Ricochet
         Law::make(values));
     };
     entry.absent = [](const ParameterValues &values) -> std::string {
-      if constexpr (internal::can_be_absent<Law>::value)
+      if constexpr (dealii::internal::
+                      is_supported_operation<internal::absence_of, Law>)
         return Law::absent(values);
       else
         return "";

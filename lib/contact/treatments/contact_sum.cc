@@ -66,24 +66,21 @@ namespace Ricochet
     if (!have_functionals)
       return;
     const MPI_Comm communicator = force.get_mpi_communicator();
-    if (!keeps_rows_apart(structures, communicator))
-      {
-        if (Utilities::MPI::n_mpi_processes(communicator) > 1)
-          return;
-        products.emplace(functionals);
-      }
-    own_structure.functionals.emplace();
+    const bool     are_apart    = keeps_rows_apart(structures, communicator);
+    if (!are_apart && Utilities::MPI::n_mpi_processes(communicator) > 1)
+      return;
+    ContactStructure::ActsThrough &all = own_structure.functionals.emplace();
     first_functional.push_back(0);
     for (const ContactStructure &structure : structures)
       {
-        functionals.add(structure.functionals->functionals);
-        first_functional.push_back(functionals.size());
-        std::vector<double> &order = own_structure.functionals->order;
-        order.insert(order.end(),
-                     structure.functionals->order.begin(),
-                     structure.functionals->order.end());
+        all.functionals.add(structure.functionals->functionals);
+        all.order.insert(all.order.end(),
+                         structure.functionals->order.begin(),
+                         structure.functionals->order.end());
+        first_functional.push_back(all.functionals.size());
       }
-    own_structure.functionals->functionals = functionals;
+    if (!are_apart)
+      products.emplace(all.functionals);
   }
 
 
@@ -214,16 +211,23 @@ namespace Ricochet
 
 
 
-  ResidualBounds
-  ContactSum::residual_bounds() const
+  double
+  ContactSum::linearisation_error() const
   {
-    ResidualBounds sum;
+    double sum = 0.;
     for (const ContactOperator *contact : in_order)
-      {
-        const ResidualBounds own = contact->residual_bounds();
-        sum.linearisation = std::hypot(sum.linearisation, own.linearisation);
-        sum.round_off     = std::hypot(sum.round_off, own.round_off);
-      }
+      sum = std::hypot(sum, contact->linearisation_error());
+    return sum;
+  }
+
+
+
+  double
+  ContactSum::round_off() const
+  {
+    double sum = 0.;
+    for (const ContactOperator *contact : in_order)
+      sum = std::hypot(sum, contact->round_off());
     return sum;
   }
 

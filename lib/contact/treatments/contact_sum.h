@@ -80,8 +80,11 @@ namespace Ricochet
         boundary_id & ((1U << boundary_bits) - 1));
     }
 
-    ResidualBounds
-    residual_bounds() const override;
+    double
+    linearisation_error() const override;
+
+    double
+    round_off() const override;
 
     std::string
     active_set_description() const override;
@@ -148,7 +151,6 @@ namespace Ricochet
     // Indices of the first row of the contact Jacobian of each of these on this
     // rank, and of the end of the last one; empty without such rows.
     std::vector<unsigned int> first_functional;
-    Functionals               functionals;
     // Products of rows, for contacts that eliminate rows in which others act.
     mutable std::optional<FunctionalProducts> products;
     // The forces of the contacts after force_at(); otherwise contacts have

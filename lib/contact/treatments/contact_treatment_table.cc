@@ -65,42 +65,44 @@ namespace Ricochet
 
     // The table of all contact treatments: a new pointwise law is one file in
     // laws/ and one line here.
-    std::vector<Treatment> &
+    NamedTable<Treatment> &
     table()
     {
-      static std::vector<Treatment> treatments = {
-        nitsche(),
-        contact_law_entry<NitscheTwoPoint>(),
-        contact_law_entry<Penalty>(),
-        contact_law_entry<ProximalAugmentedLagrangian>(),
-        contact_law_entry<SignoriniMultiplier>(),
-        active_set("Signorini active set",
-                   ClosingCondition::signorini,
-                   falls_by_complementarity()),
-        contact_law_entry<StandardNormalCompliance>(),
-        contact_law_entry<MidpointNormalCompliance>(),
-        contact_law_entry<ImprovedNormalCompliance>(),
-        contact_law_entry<HauretLeTallec>(),
-        active_set("persistent contact",
-                   ClosingCondition::persistent,
-                   keeps_by_no_work()),
-        active_set(
-          "Ayyad-Barboteu two-step",
-          ClosingCondition::two_step,
-          {EnergyPromise::Kind::keeps,
-           "in the second pass pressure times gap increment is zero in "
-           "each point, and the first one leaves no trace"})};
+      static NamedTable<Treatment> treatments(
+        "a",
+        "contact treatment",
+        {nitsche(),
+         contact_law_entry<NitscheTwoPoint>(),
+         contact_law_entry<Penalty>(),
+         contact_law_entry<ProximalAugmentedLagrangian>(),
+         contact_law_entry<SignoriniMultiplier>(),
+         active_set("Signorini active set",
+                    ClosingCondition::signorini,
+                    falls_by_complementarity()),
+         contact_law_entry<StandardNormalCompliance>(),
+         contact_law_entry<MidpointNormalCompliance>(),
+         contact_law_entry<ImprovedNormalCompliance>(),
+         contact_law_entry<HauretLeTallec>(),
+         active_set("persistent contact",
+                    ClosingCondition::persistent,
+                    keeps_by_no_work()),
+         active_set(
+           "Ayyad-Barboteu two-step",
+           ClosingCondition::two_step,
+           {EnergyPromise::Kind::keeps,
+            "in the second pass pressure times gap increment is zero in "
+            "each point, and the first one leaves no trace"})});
       return treatments;
     }
 
     // The table of friction laws: a new one is one file in laws/ and one line here.
-    std::vector<FrictionLawEntry> &
+    NamedTable<FrictionLawEntry> &
     friction_table()
     {
-      static std::vector<FrictionLawEntry> laws = [] {
+      static NamedTable<FrictionLawEntry> laws = [] {
         FrictionLawEntry coulomb = friction_law_entry<CoulombFriction>();
         coulomb.is_coulomb       = true;
-        return std::vector<FrictionLawEntry>{coulomb};
+        return NamedTable<FrictionLawEntry>("a", "friction law", {coulomb});
       }();
       return laws;
     }
@@ -108,13 +110,7 @@ namespace Ricochet
     const Treatment &
     find(const ContactParameters &parameters)
     {
-      for (const Treatment &treatment : table())
-        if (treatment.name == parameters.treatment)
-          return treatment;
-      AssertThrow(false,
-                  ExcMessage("unknown contact treatment " +
-                             parameters.treatment));
-      return table().front();
+      return table()[parameters.treatment];
     }
   } // namespace
 
@@ -123,11 +119,7 @@ namespace Ricochet
   void
   register_contact_law(const ContactLawEntry &entry)
   {
-    for (const Treatment &other : table())
-      AssertThrow(other.name != entry.name,
-                  ExcMessage("There is a contact treatment '" + entry.name +
-                             "' already."));
-    table().push_back(entry);
+    table().add(entry);
   }
 
 
@@ -135,11 +127,7 @@ namespace Ricochet
   void
   register_friction_law(const FrictionLawEntry &entry)
   {
-    for (const FrictionLawEntry &other : friction_table())
-      AssertThrow(other.name != entry.name,
-                  ExcMessage("There is a friction law '" + entry.name +
-                             "' already."));
-    friction_table().push_back(entry);
+    friction_table().add(entry);
   }
 
 
@@ -149,23 +137,7 @@ namespace Ricochet
     const FrictionLawEntry &
     find_friction(const ContactParameters &parameters)
     {
-      for (const FrictionLawEntry &entry : friction_table())
-        if (entry.name == parameters.friction_law)
-          return entry;
-      AssertThrow(false,
-                  ExcMessage("unknown friction law " +
-                             parameters.friction_law));
-      return friction_table().front();
-    }
-
-    bool
-    is_of_friction_law(const OwnParameter &parameter)
-    {
-      for (const FrictionLawEntry &entry : friction_table())
-        for (const OwnParameter &own : entry.parameters)
-          if (own.name == parameter.name)
-            return true;
-      return false;
+      return friction_table()[parameters.friction_law];
     }
 
     bool
@@ -296,10 +268,7 @@ namespace Ricochet
   std::string
   contact_treatment_names()
   {
-    std::string names;
-    for (const Treatment &treatment : table())
-      names += (names.empty() ? "" : "|") + treatment.name;
-    return names;
+    return table().names();
   }
 
 
@@ -424,9 +393,7 @@ namespace Ricochet
                     const bool               viscous)
   {
     const ContactLawTraits traits = find(parameters).traits;
-    for (const OwnParameter &parameter : ContactParameters::all_parameters())
-      if (parameter.condition)
-        parameter.condition(parameters.values[parameter.name]);
+    parameters.values.check(ContactParameters::all_parameters());
     if (!linear_material && traits.uses_stress)
       throw InputError(
         "The contact treatment '" + parameters.treatment +
@@ -635,17 +602,13 @@ namespace Ricochet
       section + "/Friction law is " + friction_law;
     for (const OwnParameter &parameter : all_parameters())
       {
-        const auto has_it = [&](const OwnParameters &list) {
-          return std::any_of(list.begin(), list.end(), [&](const auto &other) {
-            return other.name == parameter.name;
-          });
-        };
-        if (has_it(used))
+        if (declares(used, parameter.name))
           continue;
         std::string belongs_to = parameter.owner + "; ";
-        if (!has_it(RegularisedFriction::parameters()))
-          belongs_to +=
-            is_of_friction_law(parameter) ? of_friction : of_treatment;
+        if (!declares(RegularisedFriction::parameters(), parameter.name))
+          belongs_to += declares(friction_table().parameters(), parameter.name)
+            ? of_friction
+            : of_treatment;
         else if (absent.empty())
           belongs_to += of_treatment;
         else
@@ -660,11 +623,8 @@ namespace Ricochet
   OwnParameters
   ContactParameters::all_parameters()
   {
-    OwnParameters all;
-    for (const Treatment &entry : table())
-      unite(all, entry.parameters);
-    for (const FrictionLawEntry &entry : friction_table())
-      unite(all, entry.parameters);
+    OwnParameters all = table().parameters();
+    unite(all, friction_table().parameters());
     unite(all, RegularisedFriction::parameters());
     return all;
   }
@@ -818,10 +778,7 @@ namespace Ricochet
     std::vector<std::pair<std::string, double>> list;
     const OwnParameters                         used = used_parameters();
     for (const OwnParameter &parameter : all_parameters())
-      if (parameter.scale_rule &&
-          std::any_of(used.begin(), used.end(), [&](const auto &other) {
-            return other.name == parameter.name;
-          }))
+      if (parameter.scale_rule && declares(used, parameter.name))
         list.emplace_back(parameter.name, values[parameter.name]);
     return list;
   }
@@ -858,15 +815,12 @@ namespace Ricochet
                              Patterns::Selection(contact_treatment_names()));
     if (friction_table().size() > 1)
       {
-        std::string names;
-        for (const FrictionLawEntry &entry : friction_table())
-          names += (names.empty() ? "" : "|") + entry.name;
         parameters.add_parameter(
           "Friction law",
           friction_law,
           "The traction at which points slip. Only Coulomb's is there for "
           "treatments whose friction is exact.",
-          Patterns::Selection(names));
+          Patterns::Selection(friction_table().names()));
       }
     values.add_parameters(all_parameters(), parameters);
     parameters.leave_subsection();

@@ -157,11 +157,12 @@ namespace Ricochet
           const auto known = distances.emplace(index, distance).first;
           known->second    = std::min(known->second, distance);
         }
+    own_structure.functionals.emplace();
     for (const auto &[index, distance] : distances)
       if (owned.is_element(index))
         {
           skin.push_back(index);
-          skin_order.push_back(distance);
+          own_structure.functionals->order.push_back(distance);
         }
     if (!skin.empty())
       place_in_skin.resize(skin.back() - skin.front() + 1, no_place);
@@ -174,8 +175,6 @@ namespace Ricochet
 
     own_structure.has_multipliers  = !method.law;
     own_structure.couplings_change = true;
-    own_structure.functionals.emplace();
-    own_structure.functionals->order = skin_order;
     for (const auto index : skin)
       {
         own_structure.functionals->functionals.add(index, 1.);
@@ -203,8 +202,8 @@ namespace Ricochet
       {
         // A threshold, as Newton's method leaves pressures of round-off size in
         // open points.
-        const bool was_pressed = !method.law &&
-          pair.multipliers(p)[0] > stiffness(state) * pair.round_off(p);
+        const bool was_pressed =
+          !method.law && is_pressed(state, pair.multipliers(p)[0]);
         state.old_state.gap = pair.old_gap(p);
         // The predictor leads away from a surface that is not flat, and pressed
         // points would be released.
@@ -435,12 +434,13 @@ namespace Ricochet
       state.traction = current.traction;
 
     // A margin, so that round-off neither opens nor closes a point.
-    const double r         = stiffness(state);
-    const double round_off = r * pair.round_off(state.point);
-    const double margin =
-      state.accepted_status == Status::open ? round_off : -round_off;
-    current.closing = closing(state);
-    if (!(current.pressure - r * current.closing > margin))
+    const double r      = stiffness(state);
+    const double margin = state.accepted_status == Status::open
+      ? pressure_round_off(state)
+      : -pressure_round_off(state);
+    current.closing     = closing(state);
+    // Slip is not evaluated in open points.
+    if (!FrictionalConstraint<n_tangents>::closes(current, r, margin))
       return;
     bool new_sticks = false;
     if (has_exact_friction())
@@ -760,10 +760,8 @@ namespace Ricochet
         if (!own.is_before_facet)
           continue;
         own.gap        = pair.new_gap(p);
-        own.is_pressed = state.candidate &&
-          (method.law ? state.pressure > 0.
-                      : state.pressure > stiffness(state) * pair.round_off(p));
-        own.made = -potential_of(state, state.old_state);
+        own.is_pressed = state.candidate && is_pressed(state, state.pressure);
+        own.made       = -potential_of(state, state.old_state);
         if (state.candidate && state.pressure != 0.)
           own.made += point_of(state).weight * state.pressure *
             pair.rows(p).gap_increment;
@@ -809,28 +807,40 @@ namespace Ricochet
 
 
   template <int dim>
-  ResidualBounds
-  PairContact<dim>::residual_bounds() const
+  double
+  PairContact<dim>::linearisation_error() const
   {
-    double error = 0., round_off = 0.;
+    double square = 0.;
     for (unsigned int s = 0; s < states.size(); ++s)
       {
         const PointState &state  = states[s];
         const double      weight = point_of(state).weight;
-        error += std::pow(weight * state.error, 2);
+        square += std::pow(weight * state.error, 2);
         if (method.law && has_friction && state.pressure > 0.)
-          error += friction.error(s).norm_square() * weight * weight;
-        if (state.status == Status::open)
-          continue;
-        double factor =
-          method.law ? std::abs(state.with_gap) : stiffness(state);
-        if (method.law && state.status == Status::stick)
-          factor += friction.round_off(1.);
-        round_off +=
-          std::pow(weight * factor * pair_of(state).round_off(state.point), 2);
+          square += friction.error(s).norm_square() * weight * weight;
       }
-    return {std::sqrt(Utilities::MPI::sum(error, communicator)),
-            std::sqrt(Utilities::MPI::sum(round_off, communicator))};
+    return std::sqrt(Utilities::MPI::sum(square, communicator));
+  }
+
+
+
+  template <int dim>
+  double
+  PairContact<dim>::round_off() const
+  {
+    double square = 0.;
+    for (const PointState &state : states)
+      if (state.status != Status::open)
+        {
+          double factor =
+            method.law ? std::abs(state.with_gap) : stiffness(state);
+          if (method.law && state.status == Status::stick)
+            factor += friction.round_off(1.);
+          square += std::pow(point_of(state).weight * factor *
+                               pair_of(state).round_off(state.point),
+                             2);
+        }
+    return std::sqrt(Utilities::MPI::sum(square, communicator));
   }
 
 
@@ -1351,11 +1361,10 @@ namespace Ricochet
             const double normal = normal_force(state, instant.contact_force);
             ContactPoint numbers;
             numbers.weight = point.weight;
-            // Multipliers of open points are zero except for round-off.
-            const double zero = method.law ? 0.
-                                           : point.weight * stiffness(state) *
-                pair_of(state).round_off(state.point);
-            sums.add(numbers, state.state.gap, normal, normal > zero);
+            sums.add(numbers,
+                     state.state.gap,
+                     normal,
+                     is_pressed(state, normal / point.weight));
             my_area[point.boundary_id] += point.weight;
           }
         else

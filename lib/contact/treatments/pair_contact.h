@@ -100,8 +100,11 @@ namespace Ricochet
              const double  begin_time,
              const double  end_time) override;
 
-    ResidualBounds
-    residual_bounds() const override;
+    double
+    linearisation_error() const override;
+
+    double
+    round_off() const override;
 
     std::string
     active_set_description() const override;
@@ -200,6 +203,21 @@ namespace Ricochet
     stiffness(const PointState &state) const
     {
       return method.augmentation / point_of(state).cell_diameter;
+    }
+
+    /// Pressure (Pa) of a constraint that round-off in the gap can cause.
+    double
+    pressure_round_off(const PointState &state) const
+    {
+      return stiffness(state) * pair_of(state).round_off(state.point);
+    }
+
+    /// Whether the @p pressure (Pa) of a point is more than round-off: multipliers of open
+    /// points are not quite zero, laws are.
+    bool
+    is_pressed(const PointState &state, const double pressure) const
+    {
+      return pressure > (method.law ? 0. : pressure_round_off(state));
     }
 
     /// Whether the point has forces, or derivatives of forces.
@@ -391,7 +409,7 @@ namespace Ricochet
     std::vector<dealii::types::global_dof_index> skin;
     /// Index of each surface dof among this rank's unknowns.
     std::vector<unsigned int>     own_place;
-    std::vector<double>           skin_order, skin_values, skin_force;
+    std::vector<double>           skin_values, skin_force;
     static constexpr unsigned int no_place =
       dealii::numbers::invalid_unsigned_int;
     /// Index in #skin of each unknown from its first one on.

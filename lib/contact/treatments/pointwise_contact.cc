@@ -157,9 +157,7 @@ namespace Ricochet
     evaluate_laws();
     force = 0.;
     for (unsigned int p = 0; p < state.size(); ++p)
-      if (const PointVector on_point = along_direction(p, point_force[p]);
-          on_point.norm_square() != 0.)
-        evaluator.add(p, on_point, force);
+      evaluator.add(p, along_direction(p, point_force[p]), force);
     force.compress(VectorOperation::add);
     if (friction.exists())
       {
@@ -223,6 +221,21 @@ namespace Ricochet
                           pressure,
                           slip,
                           evaluator.contact_points()[p].cell_diameter);
+      }
+  }
+
+
+
+  void
+  PointwiseContact::find_open_tangents()
+  {
+    for (const ContactPoint &point : evaluator.contact_points())
+      {
+        ContactPointTangent &open =
+          open_tangents.emplace_back(open_tangent(*law, point.cell_diameter));
+        if (!rows_have_directions)
+          for (unsigned int c = 0; c < 3; ++c)
+            open[0][c] = open[c][0] = 0.;
       }
   }
 
@@ -342,26 +355,13 @@ namespace Ricochet
 
 
 
-  ContactPointTangent
-  PointwiseContact::constant_tangent(const unsigned int p) const
-  {
-    ContactPointTangent open =
-      open_tangent(*law, evaluator.contact_points()[p].cell_diameter);
-    if (!rows_have_directions)
-      for (unsigned int c = 0; c < 3; ++c)
-        open[0][c] = open[c][0] = 0.;
-    return open;
-  }
-
-
-
   ContactPointForce<>
   PointwiseContact::closing_force(const unsigned int p) const
   {
     // Forces of open contact that depend on the state, not those that depend on the
     // beginning of the step alone, which all states have.
     const Tensor<1, 3> open =
-      constant_tangent(p) *
+      open_tangents[p] *
       Tensor<1, 3>(
         {state[p].gap, state[p].stress_pressure, state[p].multiplier});
     const double        gap  = point_force[p].gap - open[0];
@@ -497,7 +497,7 @@ namespace Ricochet
           evaluator.contact_points()[p].obstacle_normal;
         evaluator.add(p,
                       weight,
-                      on_observables(constant_tangent(p), normal, normal),
+                      on_observables(open_tangents[p], normal, normal),
                       tangent);
       }
     tangent.compress(VectorOperation::add);
@@ -532,17 +532,9 @@ namespace Ricochet
       if (acts(p))
         rows->add(p,
                   weight * evaluator.contact_points()[p].weight *
-                    point_tangent(p, constant_tangent(p)),
+                    point_tangent(p, open_tangents[p]),
                   with_values);
     sum_columns(with_values);
-  }
-
-
-
-  ResidualBounds
-  PointwiseContact::residual_bounds() const
-  {
-    return {linearisation_error(), round_off()};
   }
 
 
@@ -618,7 +610,10 @@ namespace Ricochet
                                         evaluator.communicator) == 1)
           return result;
       }
-    result.tangent_key = global_hash(values, evaluator.communicator);
+    // Without friction that of the branches.
+    result.tangent_key = friction.exists()
+      ? global_hash(values, evaluator.communicator)
+      : result.hash;
     return result;
   }
 

@@ -52,6 +52,7 @@ namespace Ricochet
     {
       compute_row_scaling();
       make_rows();
+      find_open_tangents();
       set_structure();
       own_traits.has_modified_energy = modified_energy;
     }
@@ -97,8 +98,11 @@ namespace Ricochet
     std::string
     active_set_description() const override;
 
-    ResidualBounds
-    residual_bounds() const override;
+    double
+    linearisation_error() const override;
+
+    double
+    round_off() const override;
 
     double
     friction_dissipation() const override;
@@ -145,16 +149,14 @@ namespace Ricochet
     void
     set_structure();
 
-    /// The parts of residual_bounds() (N).
-    double
-    linearisation_error() const;
-    double
-    round_off() const;
-
     /// Set up the rows of the contact Jacobian; none if the law in closed points
     /// cannot be separated from that in open ones.
     void
     make_rows();
+
+    /// Tangents of open points, after make_rows().
+    void
+    find_open_tangents();
 
     /// Rows of point @p p along which closing changes the law's tangent, and with
     /// friction along the obstacle.
@@ -178,13 +180,9 @@ namespace Ricochet
     along_direction(const unsigned int         p,
                     const ContactPointForce<> &force) const;
 
-    /// The tangent of the law in a point, as in add_open_tangent().
     /// Change of the force of the law in point @p p by its closing.
     ContactPointForce<>
     closing_force(const unsigned int p) const;
-
-    ContactPointTangent
-    constant_tangent(const unsigned int p) const;
 
     /// Derivatives of the force on the observables of point @p p, less those that
     /// follow from @p left_out, a part of the law's tangent.
@@ -241,6 +239,9 @@ namespace Ricochet
     std::optional<ContactRows>       rows;
     // With rows, in each point.
     std::vector<Closing> closings;
+    // Tangent of the law in each point as add_open_tangent() has it: without the gap where
+    // directions turn.
+    std::vector<ContactPointTangent> open_tangents;
     // Whether the rows are along constant directions.
     bool rows_have_directions = false;
   };
