@@ -339,19 +339,41 @@ def friction_regularised():
     save(figure, "friction-regularised")
 
 
+@drawing
+def slip_rate_friction():
+    figure, axes = plt.subplots(figsize=(3.6, 2.6))
+    v = np.linspace(-1, 1, 801)
+    limit = 1 + 2 * np.exp(-8 * np.abs(v))
+    axes.plot(v, -np.sign(v) * limit, color=BLUE, lw=2.5)
+    friction_axes(axes)
+    axes.set_yticks([-3, -1, 0, 1, 3])
+    axes.set_yticklabels([r"$-a p$", r"$-b p$", "0", r"$b p$", r"$a p$"])
+    save(figure, "slip-rate-friction")
+
+
 # Time schemes --------------------------------------------------------------------
 
 
-def hht_matrix(w, alpha):
+def newmark_matrix(w, alpha_m, alpha_f, beta, gamma):
     """Amplification of (u, dt u', dt^2 u'') for (omega dt)^2 = w."""
-    beta, gamma = .25 * (1 + abs(alpha))**2, .5 + abs(alpha)
     columns = []
     for state in np.eye(3):
         u, v, a = state
         origin = u + v + (.5 - beta) * a
-        new_a = -((1 - alpha) * w * origin + alpha * w * u) / (1 + (1 - alpha) * w * beta)
+        new_a = (-((1 - alpha_f) * w * origin + alpha_f * w * u + alpha_m * a)
+                 / (1 - alpha_m + (1 - alpha_f) * w * beta))
         columns.append([origin + beta * new_a, v + (1 - gamma) * a + gamma * new_a, new_a])
     return np.array(columns).T
+
+
+def hht_matrix(w, alpha):
+    return newmark_matrix(w, 0., alpha, .25 * (1 + abs(alpha))**2, .5 + abs(alpha))
+
+
+def generalised_alpha_matrix(w, radius):
+    alpha_m, alpha_f = (2 * radius - 1) / (radius + 1), radius / (radius + 1)
+    return newmark_matrix(w, alpha_m, alpha_f, .25 * (1 - alpha_m + alpha_f)**2,
+                          .5 - alpha_m + alpha_f)
 
 
 def tr_bdf2_matrix(w, part=2 - 2**.5):
@@ -373,6 +395,13 @@ SCHEMES = {
     "crank-nicolson": [("Crank-Nicolson", lambda w: hht_matrix(w, 0.), BLUE)],
     "hht": [(rf"HHT, $\alpha = {a:g}$", lambda w, a=a: hht_matrix(w, a), c)
             for a, c in ((.05, BLUE), (-.02, RED), (-.05, ORANGE), (.1, GREEN))],
+    "generalised-alpha": [
+        (rf"generalised-$\alpha$, $\rho = {r:g}$",
+         lambda w, r=r: generalised_alpha_matrix(w, r), c)
+        for r, c in ((.8, BLUE), (.5, RED), (0., GREEN))],
+    "newmark": [(rf"Newmark, $\beta = {b:g}$, $\gamma = {g:g}$",
+                 lambda w, b=b, g=g: newmark_matrix(w, 0., 0., b, g), c)
+                for b, g, c in ((.3025, .6, BLUE), (.25, .5, GREY), (.5625, 1., GREEN))],
     "tr-bdf2": [("TR-BDF2", tr_bdf2_matrix, BLUE),
                 (r"HHT, $\alpha = 0.05$", lambda w: hht_matrix(w, .05), GREY)],
 }
@@ -493,11 +522,15 @@ def energies_of(law, stretch):
     if law == "neo-Hookean":
         return .5 * MU * (i1 - 3) - MU * np.log(stretch) + .5 * LAMBDA * np.log(stretch)**2
     c1, c2 = .4 * MU, .1 * MU
+    if law == "Mooney-Rivlin":
+        return (c1 * (i1 * i3**(-1 / 3) - 3) + c2 * (i2 * i3**(-2 / 3) - 3)
+                + .5 * (LAMBDA + 2 / 3 * MU) * (stretch - 1)**2)
     d = .25 * LAMBDA - c2
     return c1 * (i1 - 3) + c2 * (i2 - 3) + d * (i3 - 1) - (c1 + 2 * c2 + d) * np.log(i3)
 
 
-LAWS = ("linear elastic", "Ciarlet-Geymonat", "Saint Venant-Kirchhoff", "neo-Hookean")
+LAWS = ("linear elastic", "Ciarlet-Geymonat", "Saint Venant-Kirchhoff", "neo-Hookean",
+        "Mooney-Rivlin")
 
 
 def show_law(which):
@@ -518,7 +551,7 @@ def show_law(which):
         axes.set_ylabel(label)
     right.legend(loc="lower right")
     left.set_title("moduli that agree at small strains")
-    right.set_title("grey: the other three laws")
+    right.set_title("grey: the other laws")
     save(figure, which.lower().replace(" ", "-"))
 
 

@@ -21,7 +21,10 @@ public:
   static Ricochet::SchemeTraits
   traits()
   {
-    return {"backward Euler"};
+    return {"backward Euler",
+            /* contact_over_step */ false,
+            /* needs_potential */ false,
+            /* gives_rates */ true};
   }
 
   static std::string
@@ -57,6 +60,9 @@ public:
     stage.end_time       = new_state.time;
     stage.inertia_origin = old_state.solution;
     stage.inertia_origin.add(time_step, old_state.velocity);
+    // For friction and viscosity: v_new = (u_new - u_old)/dt
+    stage.rate_origin = old_state.solution;
+    stage.rate_time   = time_step;
     stage.load.reinit(old_state.solution, true);
     system.external_load(new_state.time, stage.load);
 
@@ -74,14 +80,8 @@ public:
     // the works are those of the mean of both forces.
     Vector old_force(old_state.solution), increment(new_state.solution);
     new_state.scheme_force.reinit(old_state.solution, true);
-    system.total_force(old_state.solution,
-                       old_state.contact_force,
-                       old_state.time,
-                       old_force);
-    system.total_force(new_state.solution,
-                       new_state.contact_force,
-                       new_state.time,
-                       new_state.scheme_force);
+    system.total_force(old_state, old_force);
+    system.total_force(new_state, new_state.scheme_force);
     increment -= old_state.solution;
     report.numerical_dissipation =
       .5 * (new_state.scheme_force * increment - old_force * increment);

@@ -157,6 +157,62 @@ namespace Ricochet
 
 
   template <int dim>
+  void
+  BulkOnSprings<dim>::viscous_force(const Vector &rate_origin,
+                                    const Vector &solution,
+                                    const double  rate_time,
+                                    Vector       &result) const
+  {
+    if (bulk->is_viscous())
+      bulk->viscous_force(rate_origin, solution, rate_time, result);
+    else
+      result = 0.;
+    if (!has_damping)
+      return;
+    work = solution;
+    work -= rate_origin;
+    damping.vmult(product, work);
+    result.add(1. / rate_time, product);
+  }
+
+
+
+  template <int dim>
+  void
+  BulkOnSprings<dim>::add_viscous_tangent(const double  factor,
+                                          const Vector &rate_origin,
+                                          const Vector &solution,
+                                          const double  rate_time,
+                                          Matrix       &tangent) const
+  {
+    if (bulk->is_viscous())
+      bulk->add_viscous_tangent(factor,
+                                rate_origin,
+                                solution,
+                                rate_time,
+                                tangent);
+    if (has_damping)
+      damping.add_to(factor / rate_time, tangent);
+  }
+
+
+
+  template <int dim>
+  MatrixSum
+  BulkOnSprings<dim>::viscous_tangent_terms(const double factor,
+                                            const double rate_time) const
+  {
+    MatrixSum terms;
+    if (bulk->is_viscous())
+      terms = bulk->viscous_tangent_terms(factor, rate_time);
+    if (has_damping)
+      terms.push_back({factor / rate_time, &damping});
+    return terms;
+  }
+
+
+
+  template <int dim>
   MatrixSum
   BulkOnSprings<dim>::tangent_terms(const double factor) const
   {

@@ -76,6 +76,29 @@ namespace Ricochet
     std::vector<double>
     energies_of_parts(const Vector &solution) const override;
 
+    bool
+    is_viscous() const override
+    {
+      return has_damping || bulk->is_viscous();
+    }
+
+    void
+    viscous_force(const Vector &rate_origin,
+                  const Vector &solution,
+                  const double  rate_time,
+                  Vector       &result) const override;
+
+    void
+    add_viscous_tangent(const double  factor,
+                        const Vector &rate_origin,
+                        const Vector &solution,
+                        const double  rate_time,
+                        Matrix       &tangent) const override;
+
+    MatrixSum
+    viscous_tangent_terms(const double factor,
+                          const double rate_time) const override;
+
     double
     viscous_dissipation(const Vector &old_solution,
                         const Vector &new_solution,

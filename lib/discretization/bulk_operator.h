@@ -4,6 +4,8 @@
 
 #include <base/types.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <string>
 #include <vector>
 
@@ -12,10 +14,10 @@ namespace Ricochet
   /**
    * The internal forces of a body as a time scheme sees them: a two-point
    * operator of the old and the new displacement, independent of contact and of
-   * the scheme. A scheme asks either for the force at one point (collocation)
-   * or for that of a step: the discrete derivative of the stored energy between
-   * two points, whose work is exactly the difference of stored energy, plus the
-   * viscous force at the rate of the step.
+   * the scheme. A scheme asks either for the force at one point (collocation),
+   * elastic and viscous, or for that of a step: the discrete derivative of the
+   * stored energy between two points, whose work is exactly the difference of
+   * stored energy, plus the viscous force at the rate of the step.
    *
    * All vectors are system vectors without ghost values; all functions are
    * collective. The force at an inadmissible state (an element is inverted) is
@@ -38,6 +40,43 @@ namespace Ricochet
                 const Vector      &solution,
                 Matrix            &tangent,
                 const UnknownList *near = nullptr) const = 0;
+
+    /// Whether there are viscous forces.
+    virtual bool
+    is_viscous() const
+    {
+      return false;
+    }
+
+    /// @p result = the viscous force (N) at @p solution, where the velocity is
+    /// (solution - rate_origin) / rate_time.
+    /// @pre is_viscous()
+    virtual void
+    viscous_force(const Vector & /*rate_origin*/,
+                  const Vector & /*solution*/,
+                  const double /*rate_time*/,
+                  Vector & /*result*/) const
+    {
+      AssertThrow(false, dealii::ExcMessage("This body is not viscous."));
+    }
+
+    /// @p tangent += @p factor times the derivative of viscous_force() with respect to
+    /// the solution, by which the velocity changes, too.
+    virtual void
+    add_viscous_tangent(const double /*factor*/,
+                        const Vector & /*rate_origin*/,
+                        const Vector & /*solution*/,
+                        const double /*rate_time*/,
+                        Matrix & /*tangent*/) const
+    {}
+
+    /// The terms of add_viscous_tangent() for a linear body.
+    virtual MatrixSum
+    viscous_tangent_terms(const double /*factor*/,
+                          const double /*rate_time*/) const
+    {
+      return {};
+    }
 
     /// @p force (N) with force . (new - old) = energy(new) - energy(old) +
     /// viscous_dissipation(old, new, time_step).

@@ -347,6 +347,29 @@ namespace Ricochet
 
 
   template <int dim>
+  void
+  HyperelasticBulk<dim>::find_strains(const Increment &increment,
+                                      const Gradient  &old_f,
+                                      const Gradient  &difference_f,
+                                      Symmetric2      &old_c,
+                                      Symmetric2      &change)
+  {
+    // Between two states C_new - C_old = 2 sym(F_mean^T (F_new - F_old)), without
+    // cancellation.
+    const Gradient f = old_f + Lanes(increment.strain) * difference_f;
+    change = Symmetric2(Lanes(2.) * symmetrize(transpose(f) * difference_f));
+    if (increment.strain == .5)
+      old_c = Symmetric2(symmetrize(transpose(old_f) * old_f));
+    else
+      {
+        const Gradient new_f = old_f + difference_f;
+        old_c = Symmetric2(symmetrize(transpose(new_f) * new_f)) - change;
+      }
+  }
+
+
+
+  template <int dim>
   Lanes
   HyperelasticBulk<dim>::mend(const unsigned int batch,
                               Gradient          &old_f,
@@ -405,7 +428,7 @@ namespace Ricochet
   void
   HyperelasticBulk<dim>::add_forces(
     const CellSize<n_points_of_cell, n_nodes_of_cell> /*size*/,
-    const double          new_weight,
+    const Increment      &increment,
     const StressFunction &stress_function,
     double               *values) const
   {
@@ -416,7 +439,7 @@ namespace Ricochet
     constexpr unsigned int n_lanes = Lanes::size();
     const unsigned int     n       = dim * n_nodes;
     Gradient               old_f, difference_f;
-    Symmetric2             stress;
+    Symmetric2             old_c, change, stress;
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
         const Material<dim> &material = materials[batch_part[batch]];
@@ -429,17 +452,10 @@ namespace Ricochet
             deformation(gradients, n_nodes, old_f, difference_f);
             const Lanes exists = mend(batch, old_f, difference_f);
 
-            // C_new - C_old = 2 sym(F_mean^T (F_new - F_old)), without
-            // cancellation.
-            const Gradient mean_f = old_f + Lanes(.5) * difference_f;
-            stress_function(material,
-                            Symmetric2(symmetrize(transpose(old_f) * old_f)),
-                            Symmetric2(
-                              Lanes(2.) *
-                              symmetrize(transpose(mean_f) * difference_f)),
-                            stress,
-                            nullptr);
-            const Gradient test_f = old_f + Lanes(new_weight) * difference_f;
+            find_strains(increment, old_f, difference_f, old_c, change);
+            stress_function(material, old_c, change, stress, nullptr);
+            const Gradient test_f =
+              old_f + Lanes(increment.test) * difference_f;
             const Lanes    weight = exists * jxw[batch * n_points + q];
             const Gradient first_piola_kirchhoff =
               weight * (test_f * Gradient(stress));
@@ -464,7 +480,7 @@ namespace Ricochet
   template <int dim>
   template <typename StressFunction>
   void
-  HyperelasticBulk<dim>::assemble_force(const double          new_weight,
+  HyperelasticBulk<dim>::assemble_force(const Increment      &increment,
                                         const StressFunction &stress_function,
                                         const Vector         &old_solution,
                                         const Vector         &new_solution,
@@ -475,7 +491,7 @@ namespace Ricochet
     std::fill_n(values, force.locally_owned_size(), 0.);
     smallest_determinant = std::numeric_limits<double>::max();
     with_cell_size([&](const auto size) {
-      add_forces(size, new_weight, stress_function, values);
+      add_forces(size, increment, stress_function, values);
     });
     if (!(smallest_determinant > flat) && force.locally_owned_size() > 0)
       values[0] = std::numeric_limits<double>::quiet_NaN();
@@ -491,7 +507,7 @@ namespace Ricochet
   HyperelasticBulk<dim>::add_matrices(
     const CellSize<n_points_of_cell, n_nodes_of_cell> /*size*/,
     const double                     factor,
-    const double                     new_weight,
+    const Increment                 &increment,
     const StressFunction            &stress_function,
     double                          *values,
     const std::vector<unsigned int> &batches) const
@@ -505,7 +521,7 @@ namespace Ricochet
     constexpr unsigned int n_lanes = Lanes::size();
     const unsigned int     n       = dim * n_nodes;
     Gradient               old_f, difference_f;
-    Symmetric2             stress;
+    Symmetric2             old_c, change, stress;
     Symmetric4             stress_derivative;
     Lanes                  moduli[n_c][n_c];
     for (const unsigned int batch : batches)
@@ -518,12 +534,10 @@ namespace Ricochet
             const Tensor<1, dim, Lanes> *gradients =
               &shape_gradients[(batch * n_points + q) * n_nodes];
             deformation(gradients, n_nodes, old_f, difference_f);
-            const Gradient mean_f = old_f + Lanes(.5) * difference_f;
+            find_strains(increment, old_f, difference_f, old_c, change);
             stress_function(material,
-                            Symmetric2(symmetrize(transpose(old_f) * old_f)),
-                            Symmetric2(
-                              Lanes(2.) *
-                              symmetrize(transpose(mean_f) * difference_f)),
+                            old_c,
+                            change,
                             stress,
                             &stress_derivative);
             const Lanes weight = factor * jxw[batch * n_points + q];
@@ -533,15 +547,17 @@ namespace Ricochet
                   stress_derivative[indices[c][0]][indices[c][1]][indices[d][0]]
                                    [indices[d][1]];
 
-            // dC = F_new^T dF + dF^T F_new.
-            const Gradient new_f  = old_f + difference_f;
-            const Gradient test_f = old_f + Lanes(new_weight) * difference_f;
+            // dC = F^T dF + dF^T F.
+            const Gradient trial_f =
+              old_f + Lanes(increment.trial) * difference_f;
+            const Gradient test_f =
+              old_f + Lanes(increment.test) * difference_f;
             for (unsigned int a = 0; a < n_nodes; ++a)
               {
                 node_strains<dim>(test_f,
                                   gradients[a],
                                   &test_strains[a * dim * n_c]);
-                node_strains<dim>(new_f,
+                node_strains<dim>(trial_f,
                                   gradients[a],
                                   &trial_strains[a * dim * n_c]);
               }
@@ -567,7 +583,7 @@ namespace Ricochet
             for (unsigned int a = 0; a < n_nodes; ++a)
               {
                 const Tensor<1, dim, Lanes> stressed_gradient =
-                  new_weight * weight * (stress * gradients[a]);
+                  increment.test * weight * (stress * gradients[a]);
                 for (unsigned int b = 0; b < n_nodes; ++b)
                   {
                     const Lanes geometric = stressed_gradient * gradients[b];
@@ -590,7 +606,7 @@ namespace Ricochet
   template <typename StressFunction>
   void
   HyperelasticBulk<dim>::add_matrix(const double          factor,
-                                    const double          new_weight,
+                                    const Increment      &increment,
                                     const StressFunction &stress_function,
                                     const Vector         &old_solution,
                                     const Vector         &new_solution,
@@ -606,7 +622,7 @@ namespace Ricochet
     with_cell_size([&](const auto size) {
       add_matrices(size,
                    factor,
-                   new_weight,
+                   increment,
                    stress_function,
                    values,
                    near ? some_batches : all_batches);
@@ -713,13 +729,48 @@ namespace Ricochet
                                                 *tangent);
       else
         stress = material.hyperelastic->step_stress(old_c, difference);
-      if (material.viscosity.is_active())
-        stress += viscous_stress(*material.hyperelastic,
-                                 material.viscosity,
-                                 old_c,
-                                 difference,
-                                 time_step,
-                                 tangent);
+      if (!material.viscosity.is_active())
+        return;
+      ViscousTangent<dim, Lanes> of_viscosity;
+      stress += viscous_stress(*material.hyperelastic,
+                               material.viscosity,
+                               Symmetric2(old_c + Lanes(.5) * difference),
+                               difference,
+                               time_step,
+                               tangent ? &of_viscosity : nullptr);
+      if (tangent)
+        *tangent += of_viscosity.with_change + Lanes(.5) * of_viscosity.with_c;
+    };
+  }
+
+
+
+  template <int dim>
+  auto
+  HyperelasticBulk<dim>::rate_stress(const double rate_time, const bool with_c)
+  {
+    return [rate_time, with_c](const Material<dim> &material,
+                               const Symmetric2    &old_c,
+                               const Symmetric2    &change,
+                               Symmetric2          &stress,
+                               Symmetric4          *tangent) {
+      stress = 0.;
+      if (tangent)
+        *tangent = 0.;
+      if (!material.viscosity.is_active())
+        return;
+      ViscousTangent<dim, Lanes> of_viscosity;
+      const Symmetric2           viscous =
+        viscous_stress(*material.hyperelastic,
+                       material.viscosity,
+                       Symmetric2(old_c + change),
+                       change,
+                       rate_time,
+                       tangent ? &of_viscosity : nullptr);
+      if (tangent)
+        *tangent = with_c ? of_viscosity.with_c : of_viscosity.with_change;
+      if (!with_c)
+        stress = viscous;
     };
   }
 
@@ -729,7 +780,11 @@ namespace Ricochet
   void
   HyperelasticBulk<dim>::force(const Vector &solution, Vector &result) const
   {
-    assemble_force(1., collocation_stress(), solution, solution, result);
+    assemble_force(Increment::none(),
+                   collocation_stress(),
+                   solution,
+                   solution,
+                   result);
   }
 
 
@@ -742,7 +797,7 @@ namespace Ricochet
                                      const UnknownList *near) const
   {
     add_matrix(factor,
-               1.,
+               Increment::none(),
                collocation_stress(),
                solution,
                solution,
@@ -759,7 +814,7 @@ namespace Ricochet
                                     const double  time_step,
                                     Vector       &result) const
   {
-    assemble_force(.5,
+    assemble_force(Increment::of_step(),
                    step_stress(time_step),
                    old_solution,
                    new_solution,
@@ -777,12 +832,68 @@ namespace Ricochet
                                           const UnknownList *near) const
   {
     add_matrix(1.,
-               .5,
+               Increment::of_step(),
                step_stress(time_step),
                old_solution,
                new_solution,
                tangent,
                near);
+  }
+
+
+
+  template <int dim>
+  bool
+  HyperelasticBulk<dim>::is_viscous() const
+  {
+    return std::any_of(materials.begin(),
+                       materials.end(),
+                       [](const Material<dim> &material) {
+                         return material.viscosity.is_active();
+                       });
+  }
+
+
+
+  template <int dim>
+  void
+  HyperelasticBulk<dim>::viscous_force(const Vector &rate_origin,
+                                       const Vector &solution,
+                                       const double  rate_time,
+                                       Vector       &result) const
+  {
+    assemble_force(Increment::of_rate(),
+                   rate_stress(rate_time, false),
+                   rate_origin,
+                   solution,
+                   result);
+  }
+
+
+
+  template <int dim>
+  void
+  HyperelasticBulk<dim>::add_viscous_tangent(const double  factor,
+                                             const Vector &rate_origin,
+                                             const Vector &solution,
+                                             const double  rate_time,
+                                             Matrix       &tangent) const
+  {
+    for (const bool with_c : {false, true})
+      if (!with_c ||
+          std::any_of(materials.begin(),
+                      materials.end(),
+                      [](const Material<dim> &material) {
+                        return material.viscosity.law ==
+                          Viscosity::Law::pioletti;
+                      }))
+        add_matrix(factor,
+                   with_c ? Increment::strain_of_rate() : Increment::of_rate(),
+                   rate_stress(rate_time, with_c),
+                   rate_origin,
+                   solution,
+                   tangent,
+                   nullptr);
   }
 
 
@@ -819,11 +930,7 @@ namespace Ricochet
                                              const Vector &new_solution,
                                              const double  time_step) const
   {
-    if (std::none_of(materials.begin(),
-                     materials.end(),
-                     [](const Material<dim> &material) {
-                       return material.viscosity.is_active();
-                     }))
+    if (!is_viscous())
       return 0.;
     const std::vector<double> sums = integrate(
       [time_step](const Material<dim> &material,
@@ -834,7 +941,7 @@ namespace Ricochet
         return Lanes(.5) *
           (viscous_stress(*material.hyperelastic,
                           material.viscosity,
-                          old_c,
+                          Symmetric2(old_c + Lanes(.5) * difference),
                           difference,
                           time_step) *
            difference);

@@ -66,6 +66,22 @@ namespace Ricochet
     std::vector<double>
     energies_of_parts(const Vector &solution) const override;
 
+    bool
+    is_viscous() const override;
+
+    void
+    viscous_force(const Vector &rate_origin,
+                  const Vector &solution,
+                  const double  rate_time,
+                  Vector       &result) const override;
+
+    void
+    add_viscous_tangent(const double  factor,
+                        const Vector &rate_origin,
+                        const Vector &solution,
+                        const double  rate_time,
+                        Matrix       &tangent) const override;
+
     double
     viscous_dissipation(const Vector &old_solution,
                         const Vector &new_solution,
@@ -115,13 +131,57 @@ namespace Ricochet
     find_matrix_entries(const Matrix &matrix);
 
     /**
-     * @p force = the virtual work of @p stress with the test gradient
-     * (1 - @p new_weight) F_old + @p new_weight F_new. Not a number when an
-     * element is inverted.
+     * Three deformation gradients F_old + weight (F_new - F_old), as weights: that of the
+     * test functions; the one at which the increment of C is taken, 2 sym(F^T (F_new -
+     * F_old)); and the one with which that increment changes with F_new, 2 sym(F^T dF).
      */
+    struct Increment
+    {
+      double test, strain, trial;
+
+      /// A stress at F_new.
+      static constexpr Increment
+      none()
+      {
+        return {1., .5, 1.};
+      }
+
+      /// A stress over the step, with C_new - C_old.
+      static constexpr Increment
+      of_step()
+      {
+        return {.5, .5, 1.};
+      }
+
+      /// A stress at F_new by the rate of C there, F_new - F_old being that of F times a
+      /// time.
+      static constexpr Increment
+      of_rate()
+      {
+        return {1., 1., 2.};
+      }
+
+      /// The same, with the derivative of C at F_new.
+      static constexpr Increment
+      strain_of_rate()
+      {
+        return {1., 1., 1.};
+      }
+    };
+
+    /// The increment of C, and C_new less that.
+    static void
+    find_strains(const Increment &increment,
+                 const Gradient  &old_f,
+                 const Gradient  &difference_f,
+                 Symmetric2      &old_c,
+                 Symmetric2      &change);
+
+    /// @p force = the virtual work of @p stress. Not a number when an element is
+    /// inverted.
     template <typename StressFunction>
     void
-    assemble_force(const double          new_weight,
+    assemble_force(const Increment      &increment,
                    const StressFunction &stress,
                    const Vector         &old_solution,
                    const Vector         &new_solution,
@@ -144,7 +204,7 @@ namespace Ricochet
               typename StressFunction>
     void
     add_forces(const CellSize<n_points_of_cell, n_nodes_of_cell> size,
-               const double                                      new_weight,
+               const Increment                                  &increment,
                const StressFunction                             &stress,
                double                                           *values) const;
 
@@ -152,7 +212,7 @@ namespace Ricochet
     template <typename StressFunction>
     void
     add_matrix(const double          factor,
-               const double          new_weight,
+               const Increment      &increment,
                const StressFunction &stress,
                const Vector         &old_solution,
                const Vector         &new_solution,
@@ -166,7 +226,7 @@ namespace Ricochet
     void
     add_matrices(const CellSize<n_points_of_cell, n_nodes_of_cell> size,
                  const double                                      factor,
-                 const double                                      new_weight,
+                 const Increment                                  &increment,
                  const StressFunction                             &stress,
                  double                                           *values,
                  const std::vector<unsigned int> &batches) const;
@@ -211,6 +271,11 @@ namespace Ricochet
 
     static auto
     step_stress(const double time_step);
+
+    /// Viscous stress at a rate. @param with_c for the derivative with respect to C at
+    /// that rate, instead of the stress and its derivative with respect to the rate.
+    static auto
+    rate_stress(const double rate_time, const bool with_c);
 
     const std::vector<Material<dim>> materials;
     const MPI_Comm                   communicator;

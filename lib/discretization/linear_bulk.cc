@@ -238,11 +238,46 @@ namespace Ricochet
     stiffness.vmult(force, work);
     if (has_viscosity)
       {
-        copy_values(new_solution, work);
-        work -= old_solution;
-        viscosity_matrix.vmult(product, work);
-        force.add(1. / time_step, product);
+        viscous_force(old_solution, new_solution, time_step, product);
+        force += product;
       }
+  }
+
+
+
+  template <int dim>
+  void
+  LinearBulk<dim>::viscous_force(const Vector &rate_origin,
+                                 const Vector &solution,
+                                 const double  rate_time,
+                                 Vector       &result) const
+  {
+    entries(work) = (entries(solution) - entries(rate_origin)) / rate_time;
+    viscosity_matrix.vmult(result, work);
+  }
+
+
+
+  template <int dim>
+  void
+  LinearBulk<dim>::add_viscous_tangent(const double factor,
+                                       const Vector & /*rate_origin*/,
+                                       const Vector & /*solution*/,
+                                       const double rate_time,
+                                       Matrix      &tangent) const
+  {
+    for (const MatrixTerm &term : viscous_tangent_terms(factor, rate_time))
+      term.matrix->add_to(term.weight, tangent);
+  }
+
+
+
+  template <int dim>
+  MatrixSum
+  LinearBulk<dim>::viscous_tangent_terms(const double factor,
+                                         const double rate_time) const
+  {
+    return {{factor / rate_time, &viscosity_matrix}};
   }
 
 
@@ -267,7 +302,8 @@ namespace Ricochet
   {
     MatrixSum terms{{.5, &stiffness}};
     if (has_viscosity)
-      terms.push_back({1. / time_step, &viscosity_matrix});
+      for (const MatrixTerm &term : viscous_tangent_terms(1., time_step))
+        terms.push_back(term);
     return terms;
   }
 
@@ -372,10 +408,8 @@ namespace Ricochet
   {
     if (!has_viscosity)
       return 0.;
-    work = new_solution;
-    work -= old_solution;
-    viscosity_matrix.vmult(product, work);
-    return (product * work) / time_step;
+    viscous_force(old_solution, new_solution, time_step, product);
+    return time_step * (product * work);
   }
 
 

@@ -116,43 +116,49 @@ namespace Ricochet
 
 
 
+  /// Derivatives of viscous_stress() with respect to @p change and @p c.
+  template <int dim, typename Number>
+  struct ViscousTangent
+  {
+    dealii::SymmetricTensor<4, dim, Number> with_change, with_c;
+  };
+
   /**
-   * The viscous second Piola-Kirchhoff stress of a step (Pa), at the rate
-   * difference/time_step; S : difference/2 is the energy that it dissipates per
-   * volume. If @p tangent is given, its derivative with respect to C_new is
-   * added to it.
+   * The viscous second Piola-Kirchhoff stress (Pa) where C has the rate
+   * @p change / @p time, and is @p c itself; S : change/2 is the energy that it
+   * dissipates per volume in that time. In a step @p c is the mean.
+   *
+   * @param tangent set if given.
    */
   template <int dim, typename Energy, typename Number>
   dealii::SymmetricTensor<2, dim, Number>
   viscous_stress(const Energy                                  &material,
                  const Viscosity                               &viscosity,
-                 const dealii::SymmetricTensor<2, dim, Number> &old_c,
-                 const dealii::SymmetricTensor<2, dim, Number> &difference,
-                 const double                                   time_step,
-                 dealii::SymmetricTensor<4, dim, Number> *tangent = nullptr)
+                 const dealii::SymmetricTensor<2, dim, Number> &c,
+                 const dealii::SymmetricTensor<2, dim, Number> &change,
+                 const double                                   time,
+                 ViscousTangent<dim, Number> *tangent = nullptr)
   {
-    const Number rate_factor(viscosity.eta / time_step);
+    const Number rate_factor(viscosity.eta / time);
     const auto   identity = dealii::identity_tensor<dim, Number>();
     if (viscosity.law == Viscosity::Law::curnier)
       {
         if (tangent)
-          *tangent += 2. * rate_factor * identity;
-        return 2. * rate_factor * difference;
+          *tangent = {2. * rate_factor * identity, {}};
+        return 2. * rate_factor * change;
       }
 
     dealii::SymmetricTensor<2, dim, Number> trace_derivative;
     const Number                            unclipped =
-      material.template trace<Number>(old_c + Number(.5) * difference,
-                                      trace_derivative) -
-      3.;
+      material.template trace<Number>(c, trace_derivative) - 3.;
     const Number zero(0.), one(1.);
     const Number factor = where_less(zero, unclipped, unclipped, zero);
     const Number slope  = where_less(zero, unclipped, one, zero);
     if (tangent)
-      *tangent += rate_factor *
-        (factor * identity +
-         outer_product(difference, .5 * slope * trace_derivative));
-    return rate_factor * factor * difference;
+      *tangent = {rate_factor * factor * identity,
+                  outer_product(change,
+                                rate_factor * slope * trace_derivative)};
+    return rate_factor * factor * change;
   }
 } // namespace Ricochet
 

@@ -3,6 +3,7 @@
 #include <base/parameter_file.h>
 #include <materials/material_parameters.h>
 #include <materials/material_table.h>
+#include <time_integration/scheme_traits.h>
 
 #include <map>
 #include <vector>
@@ -146,11 +147,18 @@ namespace Ricochet
         (small_strains ? "none, linear."
                        : "none, Curnier, Pioletti (the linear one is not "
                          "invariant under rotations)."));
-    if (scheme != "midpoint")
-      throw InputError(
-        "Viscosity cannot be combined with the time scheme '" + scheme +
-        "'.\nAllowed with it: midpoint. There the rate of a step and the mean "
-        "deformation make a dissipation that is never negative.");
+    if (!scheme_traits(scheme).has_rates())
+      {
+        std::string allowed;
+        for (const SchemeTraits &other : all_scheme_traits())
+          if (other.has_rates())
+            allowed += (allowed.empty() ? "" : ", ") + other.name;
+        throw InputError("Viscosity cannot be combined with the time scheme '" +
+                         scheme +
+                         "', whose forces are functions of the "
+                         "displacement.\nAllowed with it: " +
+                         allowed + ".");
+      }
   }
 
 

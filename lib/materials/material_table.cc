@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <materials/laws/ciarlet_geymonat.h>
+#include <materials/laws/mooney_rivlin.h>
 #include <materials/laws/neo_hookean.h>
 #include <materials/laws/saint_venant_kirchhoff.h>
 #include <materials/material_table.h>
@@ -28,7 +29,8 @@ namespace Ricochet
         {linear_elastic(),
          material_entry<CiarletGeymonat>(),
          material_entry<SaintVenantKirchhoff>(),
-         material_entry<NeoHookean>()});
+         material_entry<NeoHookean>(),
+         material_entry<MooneyRivlin>()});
       return laws;
     }
   } // namespace

@@ -21,7 +21,7 @@ namespace Ricochet
 
   namespace
   {
-    const std::string magic     = "Ricochet checkpoint, format 13\n";
+    const std::string magic     = "Ricochet checkpoint, format 14\n";
     const std::string file_name = "checkpoint.bin";
 
     /// The vectors of a checkpoint, in the order in which they are stored.
@@ -35,6 +35,10 @@ namespace Ricochet
       visit(checkpoint.state.contact_force);
       visit(checkpoint.state.mean_velocity);
       visit(checkpoint.state.scheme_force);
+      for (auto *part :
+           {&checkpoint.state.friction_force, &checkpoint.state.viscous_force})
+        if (part->size() > 0)
+          visit(*part);
       for (auto &share : checkpoint.state.contact_shares)
         visit(share);
       if (checkpoint.tangent.exists())
@@ -127,7 +131,7 @@ namespace Ricochet
 
   Checkpoint
   Checkpoint::read(const RunFolder      &folder,
-                   const Vector         &empty_vector,
+                   const State          &first_state,
                    const CheckpointMesh &mesh)
   {
     const std::string file = folder.file(file_name);
@@ -190,24 +194,24 @@ namespace Ricochet
       }
 
     Checkpoint checkpoint;
-    checkpoint.step               = payload.step;
-    checkpoint.sums               = payload.sums;
-    checkpoint.ledger             = {payload.n_rows, payload.checksum};
-    checkpoint.state.time         = payload.time;
-    checkpoint.tangent.record     = payload.tangent;
-    unsigned int n_without_shares = 0;
-    for_each_vector(checkpoint, [&](Vector &) { ++n_without_shares; });
-    if (payload.values.size() < n_without_shares)
+    checkpoint.step           = payload.step;
+    checkpoint.sums           = payload.sums;
+    checkpoint.ledger         = {payload.n_rows, payload.checksum};
+    checkpoint.state          = first_state;
+    checkpoint.state.time     = payload.time;
+    checkpoint.tangent.record = payload.tangent;
+    if (checkpoint.tangent.exists())
+      checkpoint.tangent.solution = first_state.solution;
+    unsigned int n_vectors = 0;
+    for_each_vector(checkpoint, [&](Vector &) { ++n_vectors; });
+    if (payload.values.size() != n_vectors)
       fail(strange);
     if (payload.mesh != mesh.checksum)
       fail(
         "belongs to another mesh: nodes, parts or boundaries are not those that "
         "the run began with");
-    checkpoint.state.contact_shares.resize(payload.values.size() -
-                                           n_without_shares);
     auto stored = payload.values.begin();
     for_each_vector(checkpoint, [&](Vector &vector) {
-      vector.reinit(empty_vector);
       if (stored->size() != vector.size())
         fail("has " + std::to_string(stored->size()) +
              " unknowns, this run has " + std::to_string(vector.size()) +

@@ -49,13 +49,13 @@ namespace Ricochet
      * Read what write() has written, on any number of ranks and with the same
      * parameters (except for final time, output and solvers).
      *
-     * @param empty_vector a system vector, for the layout.
+     * @param first_state that of this run at its beginning, for the layout.
      * @throws InputError no checkpoint, truncated or damaged, other parameters, another
      * mesh.
      */
     static Checkpoint
     read(const RunFolder      &folder,
-         const Vector         &empty_vector,
+         const State          &first_state,
          const CheckpointMesh &mesh);
   };
 } // namespace Ricochet

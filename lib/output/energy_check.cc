@@ -116,8 +116,11 @@ namespace Ricochet
         largest     = std::max(largest, deviations[k]);
       }
     // Friction and viscosity only dissipate.
-    most_friction  = std::max(most_friction, terms.friction_work);
-    most_viscosity = std::max(most_viscosity, terms.viscous_dissipation);
+    most_friction     = std::max(most_friction, terms.friction_work);
+    most_viscosity    = std::max(most_viscosity, terms.viscous_dissipation);
+    const double back = std::max(most_friction - terms.friction_work,
+                                 most_viscosity - terms.viscous_dissipation);
+    given_back        = std::max(given_back, back);
     if (std::isnan(values.total))
       return values;
     has_total = true;
@@ -137,9 +140,7 @@ namespace Ricochet
                                   (terms.potential - first_potential -
                                    terms.contact_work)));
     if (is_promised)
-      largest = std::max({largest,
-                          most_friction - terms.friction_work,
-                          most_viscosity - terms.viscous_dissipation});
+      largest = std::max(largest, back);
     else
       largest = of_total;
     // Without a promise there is no bound that round-off might exceed.
@@ -177,9 +178,15 @@ namespace Ricochet
       "largest balance residual: " + to_text(std::abs(worst_balance));
     balance +=
       balance_closes ? " (closed)" : " - THE ENERGY BALANCE DOES NOT CLOSE";
+    // Forces of friction and viscosity at instants may do work in between.
+    std::string back;
+    if (promise.kind == EnergyPromise::Kind::none &&
+        given_back > bound * scale + round_off)
+      back = "; friction and viscosity gave back at most " +
+        to_text(given_back / scale);
     if (!has_total)
       return {balance,
-              "total energy: nothing is promised, as " + promise.reason};
+              "total energy: nothing is promised, as " + promise.reason + back};
     std::string total = "total energy: ";
     if (promise.kind == EnergyPromise::Kind::none)
       total += "nothing is promised, as " + promise.reason + "; ";
@@ -187,7 +194,7 @@ namespace Ricochet
       total += promise.verb() + "; ";
     total += (promise.kind == EnergyPromise::Kind::keeps ? "largest change "
                                                          : "largest rise ") +
-      to_text(worst_promise);
+      to_text(worst_promise) + back;
     if (promise_is_broken)
       total += " - THE PROMISE IS BROKEN";
     else if (promise.kind != EnergyPromise::Kind::none)

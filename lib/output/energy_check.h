@@ -112,6 +112,9 @@ namespace Ricochet
     double              least_total = 0.;
     std::vector<double> least_gains, deviations;
     double              most_friction = 0., most_viscosity = 0.;
+    // Largest energy (J) that friction or viscosity have given back: zero in schemes whose
+    // forces are those of a step.
+    double given_back = 0.;
     // Round-off of all steps together, and of the last one (J).
     double round_off = 0., last_round_off = 0.;
     // The largest residuals so far.

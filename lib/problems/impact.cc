@@ -365,11 +365,10 @@ namespace Ricochet
       if (setup.springs.empty())
         return bulk;
       for (const BoundarySprings<dim> &spring : setup.springs)
-        if (spring.damping > 0. && !scheme_traits(scheme).contact_over_step)
+        if (spring.damping > 0. && !scheme_traits(scheme).has_rates())
           throw InputError(
             "Dashpots cannot be combined with the time scheme '" + scheme +
-            "'.\nAllowed with them: midpoint, over whose steps "
-            "they never make energy.");
+            "', whose forces are functions of the displacement.");
       return std::make_unique<BulkOnSprings<dim>>(body,
                                                   std::move(bulk),
                                                   setup.springs,
@@ -537,7 +536,7 @@ namespace Ricochet
       if constexpr (dim > 1)
         return std::make_unique<FollowerPressure<dim>>(body, setup.pressures);
       else
-        throw InputError("On the line pressures are loads.");
+        throw InputError("In 1D pressures are loads.");
     }
 
     /// All external loads of @p setup (N).

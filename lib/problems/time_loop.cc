@@ -826,9 +826,8 @@ namespace Ricochet
     if (folder.resume)
       {
         mesh.emplace(system.unknowns);
-        const Checkpoint checkpoint =
-          Checkpoint::read(folder, state.solution, *mesh);
-        const unsigned int step = checkpoint.step;
+        const Checkpoint   checkpoint = Checkpoint::read(folder, state, *mesh);
+        const unsigned int step       = checkpoint.step;
         const double       time = state.time + step * parameters.time_step;
         if (checkpoint.sums.size() != sums.to_list().size() ||
             checkpoint.ledger.n_rows != step + 1 ||

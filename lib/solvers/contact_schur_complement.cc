@@ -269,22 +269,28 @@ namespace Ricochet
     std::vector<int> number(n_rows(), -1);
     for (unsigned int i = 0; i < n; ++i)
       number[contact_rows[i].place] = i;
+    // The transposed matrix, whose columns are sums of rows of the compliance.
+    std::vector<const double *> of_row(n);
     for (unsigned int j = 0; j < n; ++j)
-      {
-        const std::vector<double> &compliance =
-          column(contact_rows[j].place, n_seen);
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            double sum = i == j ? 1. : 0.;
-            for (const auto &[place, value] : contact_rows[i].on_values)
-              sum += value * compliance[place];
-            dense(i, j) = sum;
-          }
-      }
+      of_row[j] = column(contact_rows[j].place, n_seen).data();
+    compliance.resize(n_seen * n);
+    for (unsigned int place = 0; place < n_seen; ++place)
+      for (unsigned int j = 0; j < n; ++j)
+        compliance[place * n + j] = of_row[j][place];
     for (unsigned int i = 0; i < n; ++i)
-      for (const auto &[place, value] : contact_rows[i].on_coefficients)
-        if (number[place] >= 0)
-          dense(i, number[place]) += value;
+      {
+        double *const sum = &dense(0, i);
+        sum[i]            = 1.;
+        for (const auto &[place, value] : contact_rows[i].on_values)
+          {
+            const double *const row = &compliance[place * n];
+            for (unsigned int j = 0; j < n; ++j)
+              sum[j] += value * row[j];
+          }
+        for (const auto &[place, value] : contact_rows[i].on_coefficients)
+          if (number[place] >= 0)
+            sum[number[place]] += value;
+      }
     try
       {
         dense.compute_lu_factorization();
@@ -324,7 +330,7 @@ namespace Ricochet
         for (const auto &[place, value] : contact_rows[i].on_coefficients)
           z[i] -= value * known[place];
       }
-    dense.solve(z);
+    dense.solve(z, /* transposed */ true);
     for (unsigned int i = 0; i < n; ++i)
       coefficients[contact_rows[i].place] = z[i];
   }

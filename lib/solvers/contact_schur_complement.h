@@ -168,7 +168,7 @@ namespace Ricochet
     unsigned int                     n_seen = 0;
     dealii::LAPACKFullMatrix<double> dense;
     // Work space.
-    std::vector<double> products_of_groups, solution_in_region;
+    std::vector<double> products_of_groups, solution_in_region, compliance;
   };
 } // namespace Ricochet
 

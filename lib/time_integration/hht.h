@@ -2,7 +2,9 @@
 #ifndef ricochet_time_integration_hht_h
 #define ricochet_time_integration_hht_h
 
-#include <time_integration/time_scheme.h>
+#include <time_integration/generalised_alpha.h>
+
+#include <cmath>
 
 namespace Ricochet
 {
@@ -15,15 +17,20 @@ namespace Ricochet
    * where F is the internal and contact force less the load. For alpha < 0 the
    * scheme is of first order only: the order condition is gamma = 1/2 + alpha.
    */
-  class HHT : public TimeScheme
+  class HHT : public GeneralisedAlpha
   {
   public:
-    explicit HHT(const double alpha);
+    explicit HHT(const double alpha)
+      : GeneralisedAlpha({0.,
+                          alpha,
+                          .25 * (1. + std::abs(alpha)) * (1. + std::abs(alpha)),
+                          .5 + std::abs(alpha)})
+    {}
 
     static SchemeTraits
     traits()
     {
-      return {"HHT"};
+      return traits_named("HHT");
     }
 
     static std::string
@@ -51,18 +58,6 @@ namespace Ricochet
     {
       return std::make_unique<HHT>(values["HHT alpha"]);
     }
-
-    StepReport
-    step(SemiDiscreteSystem &system,
-         const State        &old_state,
-         const double        time_step,
-         State              &new_state) override;
-
-  private:
-    const double alpha, beta, gamma;
-    Stage        stage;
-    // Work space.
-    Vector old_force, new_force, load, mass_times_jump, work;
   };
 
 
@@ -78,7 +73,7 @@ namespace Ricochet
     static SchemeTraits
     traits()
     {
-      return {"Crank-Nicolson"};
+      return traits_named("Crank-Nicolson");
     }
 
     static std::string
@@ -99,16 +94,6 @@ namespace Ricochet
       return std::make_unique<CrankNicolson>();
     }
   };
-
-
-
-  /// The common terms of the energy balance of schemes with collocated forces:
-  /// external work and work against contact by the trapezoidal rule.
-  void
-  add_trapezoidal_works(const SemiDiscreteSystem &system,
-                        const State              &old_state,
-                        const State              &new_state,
-                        StepReport               &report);
 } // namespace Ricochet
 
 #endif

@@ -19,6 +19,16 @@ namespace Ricochet
     /// of the state, with an invertible mass, and takes the work of contact from
     /// a potential.
     bool needs_potential = false;
+    /// The scheme gives its stages the velocity at their instant, on which friction and
+    /// viscosity depend (Stage::rate_origin); needless where contact acts over a step.
+    bool gives_rates = false;
+
+    /// Whether friction and viscosity are possible.
+    bool
+    has_rates() const
+    {
+      return contact_over_step || gives_rates;
+    }
   };
 
   /// All schemes, in the order of their table.

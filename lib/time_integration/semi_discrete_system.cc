@@ -36,27 +36,6 @@ namespace Ricochet
     }
   } // namespace
 
-  State &
-  State::operator=(const State &other)
-  {
-    if (this == &other)
-      return *this;
-    time = other.time;
-    for (Vector State::*const part : {&State::solution,
-                                      &State::velocity,
-                                      &State::acceleration,
-                                      &State::contact_force,
-                                      &State::mean_velocity,
-                                      &State::scheme_force})
-      copy_values(other.*part, this->*part);
-    contact_shares.resize(other.contact_shares.size());
-    for (unsigned int k = 0; k < contact_shares.size(); ++k)
-      copy_values(other.contact_shares[k], contact_shares[k]);
-    return *this;
-  }
-
-
-
   namespace
   {
     /// Parameters for condensed systems: their solutions have to solve the whole
@@ -119,6 +98,17 @@ namespace Ricochet
     result = 0.;
     if (load)
       load(time, result);
+  }
+
+  void
+  SemiDiscreteSystem::total_force(const State &state, Vector &result) const
+  {
+    total_force(state.solution, state.contact_force, state.time, result);
+    if (bulk.is_viscous())
+      {
+        result += state.viscous_force;
+        set_clamped_to_zero(clamped, result);
+      }
   }
 
   void
@@ -194,10 +184,19 @@ namespace Ricochet
     state.contact_force.reinit(displacement);
     state.acceleration.reinit(displacement);
     state.scheme_force.reinit(displacement);
+    if (contact.traits().has_friction)
+      state.friction_force.reinit(displacement);
     state.mean_velocity = state.velocity;
 
     set_contact_force(state);
-    total_force(state.solution, state.contact_force, time, force);
+    if (bulk.is_viscous())
+      {
+        // In one second the body comes from here.
+        entries(work) = entries(state.solution) - entries(state.velocity);
+        state.viscous_force.reinit(displacement);
+        bulk.viscous_force(work, state.solution, 1., state.viscous_force);
+      }
+    total_force(state, force);
     force *= -1.;
     solve_mass(force, state.acceleration);
 
@@ -365,8 +364,7 @@ namespace Ricochet
                           body_matrix,
                           follower},
                          stage,
-                         old_state.solution,
-                         old_state.contact_force,
+                         old_state,
                          solution,
                          safe_guess);
     // Iterates keep the prescribed displacements of the guess.
@@ -382,7 +380,10 @@ namespace Ricochet
                              old_state.mean_velocity,
                              stage.time_step,
                              stage.end_time,
-                             &old_state.contact_shares};
+                             &old_state.contact_shares,
+                             stage.rate_time > 0. ? &stage.rate_origin
+                                                           : nullptr,
+                             stage.rate_time};
     // No second attempt in this stage after a failure, which would repeat
     // itself.
     bool condenses = linear_solver.condenses() &&
@@ -468,6 +469,16 @@ namespace Ricochet
       }
     stage_round_off = newton_problem.round_off();
     copy_values(contact.contact_force(), new_state.contact_force);
+    if (!stage.bulk_step_force)
+      {
+        if (const Vector *part = contact.friction_force())
+          copy_values(*part, new_state.friction_force);
+        if (bulk.is_viscous())
+          bulk.viscous_force(stage.rate_origin,
+                             solution,
+                             stage.rate_time,
+                             new_state.viscous_force);
+      }
     take_shares(new_state);
     return problem.report;
   }

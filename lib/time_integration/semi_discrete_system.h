@@ -14,6 +14,7 @@
 #include <time_integration/frozen_tangent.h>
 #include <time_integration/quasi_newton.h>
 #include <time_integration/stage.h>
+#include <time_integration/state.h>
 
 #include <functional>
 #include <optional>
@@ -22,45 +23,6 @@
 
 namespace Ricochet
 {
-  /// All data that a time scheme needs to continue from an instant. All vectors
-  /// are system vectors without ghost values; the entries of the multipliers in
-  /// velocity, acceleration and forces are zero.
-  struct State
-  {
-    /// s
-    double time = 0.;
-    /// Displacements (m) and multipliers (Pa).
-    Vector solution;
-    /// m/s
-    Vector velocity;
-    /// Acceleration at this instant; for the midpoint scheme the mean over the last
-    /// step (m/s^2).
-    Vector acceleration;
-    /// Contact force at this instant (two-point treatments: over the last
-    /// step), on the side of the internal forces (N).
-    Vector contact_force;
-    /// The parts of contact_force of several contacts (N), see
-    /// ContactOperator::shares(); empty where there is only one.
-    std::vector<Vector> contact_shares;
-    /// Mean velocity over the last step, (u_new - u_old)/dt (m/s), which
-    /// predictors of the gap need; kept by the midpoint scheme.
-    Vector mean_velocity;
-    /// The force -M a of the scheme's own equation of motion (N); used by the
-    /// energy balance only.
-    Vector scheme_force;
-
-    State()              = default;
-    State(const State &) = default;
-    State(State &&)      = default;
-    State &
-    operator=(State &&) = default;
-
-    /// Assignment by copy_values().
-    State &
-    operator=(const State &other);
-  };
-
-
   /**
    * The system of ordinary differential equations (or inclusions)
    *
@@ -146,12 +108,24 @@ namespace Ricochet
     void
     set_contact_force(State &state) const;
 
-    /// bulk(solution) + @p contact_force - load(time).
+    /// All forces of @p state less the load: bulk, viscous and contact forces.
+    void
+    total_force(const State &state, Vector &force) const;
+
+    /// bulk(solution) + @p contact_force - load(time), without viscous forces.
     void
     total_force(const Vector &solution,
                 const Vector &contact_force,
                 const double  time,
                 Vector       &force) const;
+
+    /// Whether there are forces that depend on the velocity: schemes with forces of
+    /// instants have to set Stage::rate_origin and rate_time.
+    bool
+    needs_rates() const
+    {
+      return contact.traits().has_friction || bulk.is_viscous();
+    }
 
     /// Whether displacements are imposed that are not zero.
     bool

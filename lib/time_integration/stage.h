@@ -21,8 +21,8 @@ namespace Ricochet
     /// m
     Vector inertia_origin;
 
-    /// Length of the step (s); needed by step forces, slip and predictors of the
-    /// gap, so by the midpoint scheme only.
+    /// Length of the step (s); needed by step forces and predictors of the gap, so by
+    /// the midpoint scheme only.
     double time_step = 0.;
     /// Time of the new point (s), which determines the positions of obstacles.
     double end_time = 0.;
@@ -35,6 +35,12 @@ namespace Ricochet
     /// With a two-point contact law, contact_weight_new is 1.
     double contact_weight_new = 1.;
     double contact_weight_old = 0.;
+
+    /// The velocity at the new point is (x - rate_origin) / rate_time (m; s): for
+    /// friction and viscosity of schemes whose forces are those of instants, see
+    /// SemiDiscreteSystem::needs_rates().
+    Vector rate_origin;
+    double rate_time = 0.;
 
     /// External load (N), already weighted.
     Vector load;

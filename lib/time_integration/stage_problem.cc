@@ -12,13 +12,12 @@ namespace Ricochet
 
   StageProblem::StageProblem(const Parts  &parts,
                              const Stage  &stage,
-                             const Vector &old_solution,
-                             const Vector &old_contact_force,
+                             const State  &old_state,
                              const Vector &solution,
                              const Vector &safe_guess)
     : parts(parts)
     , stage(stage)
-    , old_solution(old_solution)
+    , old_solution(old_state.solution)
     , solution(solution)
     , safe_guess(safe_guess)
   {
@@ -27,11 +26,13 @@ namespace Ricochet
     constant_part         = 0.;
     if (!stage.bulk_step_force && stage.bulk_weight_old != 0.)
       {
-        parts.bulk.force(old_solution, parts.force);
+        parts.bulk.force(old_state.solution, parts.force);
         constant_part.add(stage.bulk_weight_old, parts.force);
+        if (parts.bulk.is_viscous())
+          constant_part.add(stage.bulk_weight_old, old_state.viscous_force);
       }
     if (stage.contact_weight_old != 0.)
-      constant_part.add(stage.contact_weight_old, old_contact_force);
+      constant_part.add(stage.contact_weight_old, old_state.contact_force);
     constant_part.add(-1., stage.load);
     constant_scale = l2_norm(constant_part);
   }
@@ -135,10 +136,18 @@ namespace Ricochet
                                   matrix,
                                   near);
     else
-      parts.bulk.add_tangent(stage.bulk_weight_new,
-                             point.solution,
-                             matrix,
-                             near);
+      {
+        parts.bulk.add_tangent(stage.bulk_weight_new,
+                               point.solution,
+                               matrix,
+                               near);
+        if (parts.bulk.is_viscous())
+          parts.bulk.add_viscous_tangent(stage.bulk_weight_new,
+                                         stage.rate_origin,
+                                         point.solution,
+                                         stage.rate_time,
+                                         matrix);
+      }
   }
 
   void
@@ -181,6 +190,15 @@ namespace Ricochet
         force_scale += l2_norm(parts.force);
         entries(result) += stage.bulk_weight_new * entries(parts.force) +
           entries(parts.constant_part);
+        if (parts.bulk.is_viscous())
+          {
+            parts.bulk.viscous_force(stage.rate_origin,
+                                     point,
+                                     stage.rate_time,
+                                     parts.force);
+            force_scale += l2_norm(parts.force);
+            result.add(stage.bulk_weight_new, parts.force);
+          }
       }
     parts.contact.add_residual(point, result);
     contact_scale =
@@ -206,6 +224,10 @@ namespace Ricochet
         tangent.body_terms = stage.bulk_step_force
           ? parts.bulk.step_tangent_terms(stage.time_step)
           : parts.bulk.tangent_terms(bulk_weight);
+        if (!stage.bulk_step_force && parts.bulk.is_viscous())
+          for (const MatrixTerm &term :
+               parts.bulk.viscous_tangent_terms(bulk_weight, stage.rate_time))
+            tangent.body_terms.push_back(term);
         AssertThrow(!tangent.body_terms.empty(), ExcInternalError());
         tangent.body_terms.push_back({stage.inertia, &parts.mass});
       }

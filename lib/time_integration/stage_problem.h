@@ -12,6 +12,7 @@
 #include <solvers/tangent_region.h>
 #include <time_integration/condensed_stage.h>
 #include <time_integration/stage.h>
+#include <time_integration/state.h>
 
 #include <optional>
 #include <vector>
@@ -56,14 +57,14 @@ namespace Ricochet
       const FollowerLoad *follower = nullptr;
     };
 
+    /// @param old_state the beginning of the stage.
     /// @param solution the iterate: residuals are evaluated at other points,
     /// too, but tangents at this vector only.
     /// @param safe_guess initial iterate if the residual at @p solution is not
     /// finite.
     StageProblem(const Parts  &parts,
                  const Stage  &stage,
-                 const Vector &old_solution,
-                 const Vector &old_contact_force,
+                 const State  &old_state,
                  const Vector &solution,
                  const Vector &safe_guess);
 

@@ -37,7 +37,8 @@ namespace Ricochet
     /// SemiDiscreteSystem::works_of_bodies (J); empty if the scheme does not
     /// compute it.
     std::vector<double> works_of_bodies = {};
-    /// Work against friction (J); never negative.
+    /// Work against friction (J); never negative in schemes whose contact acts over a
+    /// step.
     double friction_work = 0.;
     /// Viscous dissipation (J); never negative.
     double viscous_dissipation = 0.;

@@ -2,6 +2,7 @@
 #include <time_integration/arkode.h>
 #include <time_integration/hht.h>
 #include <time_integration/midpoint.h>
+#include <time_integration/newmark.h>
 #include <time_integration/scheme_traits.h>
 #include <time_integration/time_scheme_table.h>
 #include <time_integration/tr_bdf2.h>
@@ -23,6 +24,8 @@ namespace Ricochet
         "time scheme",
         {time_scheme_entry<CrankNicolson>(),
          time_scheme_entry<HHT>(),
+         time_scheme_entry<GeneralisedAlpha>(),
+         time_scheme_entry<Newmark>(),
          time_scheme_entry<TRBDF2>(),
          time_scheme_entry<Midpoint>(),
          time_scheme_entry<ARKode>()});

@@ -46,6 +46,12 @@ namespace Ricochet
     copy_values(middle.solution, stage.inertia_origin);
     stage.inertia_origin.sadd(a_middle, -a_old, old_state.solution);
     stage.inertia_origin.add(a_rate * dt, new_state.velocity);
+    if (system.needs_rates())
+      {
+        stage.rate_time = rate_step;
+        copy_values(stage.inertia_origin, stage.rate_origin);
+        stage.rate_origin.add(-rate_step, new_state.velocity);
+      }
     stage.load.reinit(old_state.solution, true);
     system.external_load(new_state.time, stage.load);
 
@@ -64,14 +70,8 @@ namespace Ricochet
     //        + a_old v_new . M d1 v - 1/2 d2 v . M d2 v.
     middle_force.reinit(old_state.solution, true);
     new_force.reinit(old_state.solution, true);
-    system.total_force(middle.solution,
-                       middle.contact_force,
-                       middle.time,
-                       middle_force);
-    system.total_force(new_state.solution,
-                       new_state.contact_force,
-                       new_state.time,
-                       new_force);
+    system.total_force(middle, middle_force);
+    system.total_force(new_state, new_force);
     copy_values(new_force, new_state.scheme_force);
 
     copy_values(new_state.solution, increment);

@@ -18,7 +18,10 @@ namespace Ricochet
     static SchemeTraits
     traits()
     {
-      return {"TR-BDF2"};
+      return {"TR-BDF2",
+              /* contact_over_step */ false,
+              /* needs_potential */ false,
+              /* gives_rates */ true};
     }
 
     static std::string

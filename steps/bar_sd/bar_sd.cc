@@ -133,7 +133,7 @@
 //
 // which is piecewise linear: there is one matrix with contact and one without.
 // Newton's method tries one, looks at the sign of $q$, and is done after one or
-// two solutions. In the library: the scheme is `lib/time_integration/hht.cc`,
+// two solutions. In the library: the scheme is `lib/time_integration/generalised_alpha.cc`,
 // the system SemiDiscreteSystem::solve_stage, the iteration
 // `lib/solvers/newton.cc`.
 //

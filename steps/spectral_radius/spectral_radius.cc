@@ -35,7 +35,7 @@
 //
 // The matrices are not typed in from the paper (C (37)): each column is one
 // step of the same integrator that the benchmarks use, from a unit state. With
-// HHT (C (24), `lib/time_integration/hht.cc`) that is
+// HHT (C (24), `lib/time_integration/generalised_alpha.cc`) that is
 //
 // $$ u_1 = u_0 + \Delta t\, \dot u_0
 //    + \Delta t^2 \big( (\tfrac12 - \beta) \ddot u_0 + \beta \ddot u_1 \big),
@@ -53,13 +53,16 @@
 // $$ \rho_\infty = \frac{1 - |\alpha|}{1 + |\alpha|} \;\text{(HHT)}, \qquad
 //    1 \;\text{(Crank-Nicolson)}, \qquad 0 \;\text{(TR-BDF2)}. $$
 //
+// The generalised-alpha method (Chung and Hulbert 1993) is made for a limit that
+// is given; its formulas stand in `lib/time_integration/generalised_alpha.h`.
+//
 // (The paper's $(1 - |\alpha|^2)/(1 + |\alpha|)^2$ after C (32) is the same
 // number.)
 //
 // The program also integrates the oscillator over a fixed time with smaller and
 // smaller steps, from which the **order** of each scheme follows: the exponent
-// of $\Delta t$ in the error. It is 2 for Crank-Nicolson, HHT with $\alpha > 0$
-// and TR-BDF2. For $\alpha < 0$ it is 1, whatever C (28) says: second order
+// of $\Delta t$ in the error. It is 2 for Crank-Nicolson, HHT with $\alpha > 0$,
+// generalised-alpha and TR-BDF2. For $\alpha < 0$ it is 1, whatever C (28) says: second order
 // takes $\gamma = \tfrac12 + \alpha$ with the sign of $\alpha$, and what is
 // used is $\gamma = \tfrac12 + |\alpha|$.
 //
@@ -127,6 +130,7 @@ private:
   double              smallest = 1e-3, largest = 1e7;
   unsigned int        n_points = 201;
   std::vector<double> alphas   = {.02, -.02, .05, -.05, .1, -.1};
+  std::vector<double> radii    = {.9, .5, 0.};
   double trbdf2_gamma = TimeScheme::Parameters().values["TR-BDF2 gamma"];
 
   // The one unknown that moves: the left end of a bar of one linear element, of
@@ -158,6 +162,10 @@ SpectralRadius::add_parameters(ParameterHandler &prm)
                     alphas,
                     "Values of alpha for HHT.",
                     Patterns::List(Patterns::Double(-1. / 3., 1. / 3.)));
+  prm.add_parameter("Spectral radii",
+                    radii,
+                    "Values of the limit for the generalised-alpha method.",
+                    Patterns::List(Patterns::Double(0., 1.)));
   prm.add_parameter("TR-BDF2 gamma",
                     trbdf2_gamma,
                     "Parameter gamma of TR-BDF2.",
@@ -190,6 +198,12 @@ SpectralRadius::schemes() const
     {
       scheme.values["HHT alpha"] = alpha;
       entries.push_back({"HHT " + to_text(alpha), scheme});
+    }
+  scheme.name = "generalised-alpha";
+  for (const double radius : radii)
+    {
+      scheme.values["Spectral radius"] = radius;
+      entries.push_back({"generalised-alpha " + to_text(radius), scheme});
     }
   scheme.name = "TR-BDF2";
   entries.push_back({"TR-BDF2", scheme});
@@ -332,17 +346,19 @@ SpectralRadius::run(RunFolder &folder)
              std::to_string(rows.back()[0]));
   for (unsigned int i = 0; i < entries.size(); ++i)
     {
-      const bool   hht   = entries[i].scheme.name == "HHT";
-      const double alpha = std::abs(entries[i].scheme.values["HHT alpha"]);
+      const auto &[name, values] = entries[i].scheme;
+      const double alpha         = std::abs(values["HHT alpha"]);
+      const double limit         = name == "HHT" ? (1. - alpha) / (1. + alpha)
+                : name == "generalised-alpha"    ? values["Spectral radius"]
+                : name == "TR-BDF2"              ? 0.
+                                                 : 1.;
       char         line[120];
       std::snprintf(line,
                     sizeof(line),
-                    "%16s %14.8f   limit %14.8f",
+                    "%21s %14.8f   limit %14.8f",
                     entries[i].name.c_str(),
                     rows.back()[i + 1],
-                    hht ? (1. - alpha) / (1. + alpha)
-                      : entries[i].name == "TR-BDF2" ? 0.
-                                                     : 1.);
+                    limit);
       folder.log(line);
     }
 
@@ -361,7 +377,7 @@ SpectralRadius::run(RunFolder &folder)
       char line[120];
       std::snprintf(line,
                     sizeof(line),
-                    "%16s order %6.3f",
+                    "%21s order %6.3f",
                     entries[i].name.c_str(),
                     std::log2(rows[rows.size() - 2][i + 1] /
                               rows.back()[i + 1]));

@@ -30,6 +30,7 @@ SCHEMES = {
     "CN": ["Time/Scheme=Crank-Nicolson"],
     "HHT 0.05": ["Time/Scheme=HHT", "Time/HHT alpha=0.05"],
     "HHT -0.02": ["Time/Scheme=HHT", "Time/HHT alpha=-0.02"],
+    "generalised-alpha": ["Time/Scheme=generalised-alpha"],
     "TR-BDF2": ["Time/Scheme=TR-BDF2"],
     "midpoint": ["Time/Scheme=midpoint"],
 }

@@ -91,7 +91,7 @@ class BadInput(Refusal):
 
     def test_arkode_with_constraints(self):
         self.refuse("cannot be combined with the time scheme 'ARKODE'",
-                    "Crank-Nicolson, HHT, TR-BDF2, midpoint.",
+                    "Crank-Nicolson, HHT, generalised-alpha, Newmark, TR-BDF2, midpoint.",
                     parameters=["Contact/Treatment=Signorini active set",
                                 "Time/Scheme=ARKODE"])
 
@@ -352,16 +352,21 @@ class BadThrownBodies(Refusal):
 
     def test_friction_with_another_scheme(self):
         self.refuse_ball("Friction cannot be combined with the time scheme "
-                         "'HHT'", "Allowed with it: midpoint",
-                         parameters=["Time/Scheme=HHT",
-                                     "Contact/Treatment=Signorini active set",
+                         "'ARKODE'", "Allowed with it: Crank-Nicolson, HHT, "
+                         "generalised-alpha, Newmark, TR-BDF2, midpoint",
+                         parameters=["Time/Scheme=ARKODE",
+                                     "Contact/Treatment=penalty",
                                      "Contact/Friction coefficient=0.1"])
-
-    def test_friction_with_nitsche(self):
-        self.refuse_ball("'Nitsche' cannot be combined with friction",
-                         "Allowed with it: penalty, Signorini multipliers",
-                         parameters=["Contact/Treatment=Nitsche",
-                                     "Contact/Friction coefficient=0.1"])
+        for name, parameters in (("Friction", ["Contact/Friction coefficient=0.1"]),
+                                 ("Viscosity", ["Material/Viscosity=linear",
+                                                "Material/Viscosity eta=1e6"])):
+            self.refuse_ball(f"{name} and the redistributed mass cannot be combined "
+                             "with the time scheme 'HHT'",
+                             "Allowed with them: midpoint; or the consistent mass",
+                             parameters=["Time/Scheme=HHT",
+                                         "Time/Mass=redistributed",
+                                         "Contact/Treatment=Signorini active set",
+                                         *parameters])
 
     def test_nitsche_with_a_hyperelastic_body(self):
         self.refuse_ring("'Nitsche' uses the stress of a linear elastic body",
@@ -378,11 +383,11 @@ class BadThrownBodies(Refusal):
         self.refuse_ring("Viscosity eta is 3 and Material/Viscosity is none",
                          parameters=["Material/Viscosity eta=3"])
         self.refuse_ring("Viscosity cannot be combined with the time scheme "
-                         "'HHT'",
+                         "'ARKODE'",
                          parameters=["Material/Viscosity=Pioletti",
                                      "Material/Viscosity eta=3",
-                                     "Time/Scheme=HHT",
-                                     "Contact/Treatment=Signorini active set"])
+                                     "Time/Scheme=ARKODE",
+                                     "Contact/Treatment=penalty"])
 
     def test_viscosity_with_nitsche(self):
         self.refuse_ball("'Nitsche' uses the elastic stress on the contact "

@@ -37,7 +37,8 @@ class Combinations(ProgramTest):
 
     def check(self, program):
         ledgers = dict(self.run_many(self.cases(program)))
-        self.assertEqual(len(ledgers), (1 if is_debug_build() else 2) * (5 * 5 + 1))
+        self.assertEqual(len(ledgers), (1 if is_debug_build() else 2) *
+                         (len(TREATMENTS) * len(SCHEMES) + 1))
         for name, ledger in ledgers.items():
             with self.subTest(name):
                 self.assertEqual(ledger["step_halvings"][-1], 0)

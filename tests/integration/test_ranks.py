@@ -46,6 +46,18 @@ class Ranks(ProgramTest):
                              [f"Contact/Treatment={treatment}",
                               f"Time/Mass={mass}"])
 
+    def test_forces_of_velocities(self):
+        """Friction and viscosity of instants, by exact and by regularised friction."""
+        for treatment, scheme in (("Signorini active set", "generalised-alpha"),
+                                  ("Nitsche", "TR-BDF2")):
+            viscous = treatment != "Nitsche"
+            with self.subTest(treatment):
+                self.compare("elastic_ball", NO_FIELDS + BALL + SCHEMES[scheme] + [
+                    "Start/Initial velocity=6, -10", "Time/Final time=0.01",
+                    "Contact/Friction coefficient=0.3",
+                    f"Contact/Treatment={treatment}"] +
+                    ["Material/Viscosity=linear", "Material/Viscosity eta=1e6"] * viscous)
+
     def test_more_ranks_than_cells(self):
         """Ranks without cells take part in everything."""
         parameters = NO_FIELDS + ["Mesh/Mesh size=0.5", "Time/Final time=1",

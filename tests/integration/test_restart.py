@@ -50,6 +50,15 @@ class Restart(ProgramTest):
                                       f"Time/Mass={mass}"], stops)
                 shutil.rmtree(self.folder / "parts")
 
+    def test_forces_of_velocities(self):
+        """Friction and viscosity of instants are part of the state."""
+        self.stop_and_resume("elastic_ball",
+                             BALL + ["Start/Initial velocity=6, -10", "Time/Scheme=HHT",
+                                     "Contact/Treatment=Signorini active set",
+                                     "Contact/Friction coefficient=0.3",
+                                     "Material/Viscosity=linear",
+                                     "Material/Viscosity eta=1e6"], [.004, .012])
+
     def test_on_two_ranks(self):
         self.stop_and_resume("bar_ss", ["Time/Scheme=TR-BDF2"], [1., 1.5], 2)
 

@@ -34,6 +34,69 @@ namespace
       viscosity);
   }
 
+  /// The viscous force at @p solution where the velocity is (solution - origin) / time:
+  /// its tangent, its power, and none for a body that turns rigidly.
+  template <int dim>
+  void
+  check_viscous_force(const Body<dim>             &body,
+                      const HyperelasticBulk<dim> &bulk,
+                      const Vector                &origin,
+                      const Vector                &solution,
+                      const Vector                &direction)
+  {
+    const double time = .3, eps = 1e-6;
+    Vector       plus(solution), minus(solution), product(solution);
+    Matrix       tangent;
+    tangent.reinit(body.sparsity_pattern());
+    bulk.add_viscous_tangent(2., origin, solution, time, tangent);
+    tangent.vmult(product, direction);
+    const auto evaluate = [&](const double distance, Vector &result) {
+      Vector point(solution);
+      point.add(distance, direction);
+      bulk.viscous_force(origin, point, time, result);
+    };
+    evaluate(eps, plus);
+    evaluate(-eps, minus);
+    plus -= minus;
+    plus *= 1. / eps;
+    plus -= product;
+    BOOST_CHECK_SMALL(plus.linfty_norm(), 1e-7 * product.linfty_norm());
+
+    // Its power is the dissipation of a short step with the same velocity about the
+    // same state, which is that of another formula, to second order.
+    Vector velocity(solution), begin(solution), end(solution);
+    velocity -= origin;
+    velocity *= 1. / time;
+    const double step = 1e-3;
+    begin.add(-.5 * step, velocity);
+    end.add(.5 * step, velocity);
+    evaluate(0., plus);
+    const double power       = plus * velocity,
+                 dissipation = bulk.viscous_dissipation(begin, end, step);
+    BOOST_CHECK_GT(power, 0.);
+    BOOST_CHECK_CLOSE(power, dissipation / step, 1e-3);
+
+    // A body at rest that begins to turn has a velocity, but no rate of strain.
+    class Turning : public dealii::Function<dim>
+    {
+    public:
+      Turning()
+        : dealii::Function<dim>(dim)
+      {}
+
+      double
+      value(const dealii::Point<dim> &x,
+            const unsigned int        component) const override
+      {
+        return component == 0 ? .5 * x[1] : component == 1 ? -.5 * x[0] : 0.;
+      }
+    };
+    body.interpolate(Turning(), begin);
+    end = 0.;
+    bulk.viscous_force(begin, end, time, plus);
+    BOOST_CHECK_SMALL(plus.linfty_norm(), 1e-15);
+  }
+
   template <int dim>
   void
   check(const bool simplices, const unsigned int degree)
@@ -101,6 +164,11 @@ namespace
             plus -= product;
             BOOST_CHECK_SMALL(plus.linfty_norm(), 1e-7 * product.linfty_norm());
           }
+
+        // Viscous forces at an instant: none if the body is not viscous.
+        BOOST_CHECK_EQUAL(bulk.is_viscous(), viscosity.is_active());
+        if (viscosity.is_active())
+          check_viscous_force(body, bulk, old_solution, solution, direction);
 
         // A rigid turn costs nothing and makes no force.
         class Turn : public dealii::Function<dim>

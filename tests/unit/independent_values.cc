@@ -520,9 +520,10 @@ BOOST_AUTO_TEST_CASE(materials_by_their_parameters)
 // 1.1).
 BOOST_AUTO_TEST_CASE(viscous_stress_at_a_known_rate)
 {
-  SymmetricTensor<2, 2> old_c, difference;
-  old_c[0][0]        = 1.2;
-  old_c[1][1]        = 1.1;
+  SymmetricTensor<2, 2> c, difference;
+  c[0][0]            = 1.3;
+  c[0][1]            = .05;
+  c[1][1]            = 1.1;
   difference[0][0]   = .2;
   difference[0][1]   = .1;
   const auto section = hyperelastic<2>(neo_hookean);
@@ -532,9 +533,17 @@ BOOST_AUTO_TEST_CASE(viscous_stress_at_a_known_rate)
   const Viscosity curnier{Viscosity::Law::curnier, 5.},
     pioletti{Viscosity::Law::pioletti, 5.};
 
-  SymmetricTensor<4, 2> tangent;
-  auto                  stress =
-    viscous_stress<2>(*section, curnier, old_c, difference, .5, &tangent);
+  // A step, with C in its middle.
+  SymmetricTensor<4, 2>     tangent;
+  ViscousTangent<2, double> parts;
+  const auto                stress_in = [&](const Hyperelastic<2> &body,
+                             const Viscosity       &viscosity) {
+    const auto result =
+      viscous_stress<2>(body, viscosity, c, difference, .5, &parts);
+    tangent = parts.with_change + .5 * parts.with_c;
+    return result;
+  };
+  auto stress = stress_in(*section, curnier);
   BOOST_CHECK_CLOSE(stress[0][0], 4., round_off);
   BOOST_CHECK_CLOSE(stress[0][1], 2., round_off);
   BOOST_CHECK_SMALL(stress[1][1], 1e-14);
@@ -543,9 +552,7 @@ BOOST_AUTO_TEST_CASE(viscous_stress_at_a_known_rate)
   BOOST_CHECK_SMALL(tangent[0][0][1][1], 1e-14);
 
   // Plane strain: tr C = 1.3 + 1.1 + 1, the factor is 0.4 and S = 4 difference.
-  tangent = SymmetricTensor<4, 2>();
-  stress =
-    viscous_stress<2>(*section, pioletti, old_c, difference, .5, &tangent);
+  stress = stress_in(*section, pioletti);
   BOOST_CHECK_CLOSE(stress[0][0], .8, round_off);
   BOOST_CHECK_CLOSE(stress[0][1], .4, round_off);
   BOOST_CHECK_SMALL(stress[1][1], 1e-14);
@@ -558,8 +565,7 @@ BOOST_AUTO_TEST_CASE(viscous_stress_at_a_known_rate)
 
   // Plane stress: C33 = 0.8, the factor is 0.2 and S = 2 difference; tr C grows
   // by half of the in-plane trace.
-  tangent = SymmetricTensor<4, 2>();
-  stress = viscous_stress<2>(*sheet, pioletti, old_c, difference, .5, &tangent);
+  stress = stress_in(*sheet, pioletti);
   BOOST_CHECK_CLOSE(stress[0][0], .4, round_off);
   BOOST_CHECK_CLOSE(stress[0][1], .2, round_off);
   BOOST_CHECK_CLOSE(tangent[0][0][0][0], 10. * (.2 + .2 / 4.), round_off);
@@ -569,7 +575,7 @@ BOOST_AUTO_TEST_CASE(viscous_stress_at_a_known_rate)
   const auto identity = dealii::unit_symmetric_tensor<3>();
   const auto solid    = viscous_stress<3>(*hyperelastic<3>(neo_hookean),
                                        pioletti,
-                                       1.15 * identity,
+                                       1.2 * identity,
                                        .1 * identity,
                                        .5);
   BOOST_CHECK_CLOSE(solid[2][2], 10. * .6 * .1, round_off);
@@ -1367,6 +1373,43 @@ BOOST_AUTO_TEST_CASE(oscillator_by_hht)
     }
 }
 
+// The spectral radius 0: alpha_m = -1, alpha_f = 0, beta = 1, gamma = 3/2. With dt = 1/2,
+// u1 = 3/2 + a1/4, v1 = 1 + 3/4 a1 and 2 a1 + 4 = -4 u1: u1 = 2/3, a1 = -10/3, v1 = -3/2.
+// The radius 1/2: 0, 1/3, 4/9, 5/6; u1 = 17/18 + a1/9, v1 = -1/3 + 5/12 a1 and a1 = -8/3 u1 -
+// 4/3: u1 = 43/70, a1 = -104/35, v1 = -11/7. And Newmark's method with 3/10 and 3/5: u1 =
+// 4/5 + 3/40 a1, v1 = -4/5 + 3/10 a1 and a1 = -4 u1.
+BOOST_AUTO_TEST_CASE(oscillator_by_generalised_alpha_and_newmark)
+{
+  const auto check = [](const TimeScheme::Parameters &parameters,
+                        const double                  u,
+                        const double                  v,
+                        const double                  a) {
+    Oscillator oscillator(parameters);
+    oscillator.step(.5);
+    BOOST_CHECK_CLOSE(oscillator.right_end(oscillator.end.solution),
+                      u,
+                      round_off);
+    BOOST_CHECK_CLOSE(oscillator.right_end(oscillator.end.velocity),
+                      v,
+                      round_off);
+    BOOST_CHECK_CLOSE(oscillator.right_end(oscillator.end.acceleration),
+                      a,
+                      round_off);
+    BOOST_CHECK_CLOSE(oscillator.report.numerical_dissipation,
+                      2. - .5 * v * v - 2. * u * u,
+                      1e-8);
+  };
+  auto parameters                      = scheme_named("generalised-alpha");
+  parameters.values["Spectral radius"] = 0.;
+  check(parameters, 2. / 3., -1.5, -10. / 3.);
+  parameters.values["Spectral radius"] = .5;
+  check(parameters, 43. / 70., -11. / 7., -104. / 35.);
+  parameters                         = scheme_named("Newmark");
+  parameters.values["Newmark beta"]  = .3;
+  parameters.values["Newmark gamma"] = .6;
+  check(parameters, 8. / 13., -20. / 13., -32. / 13.);
+}
+
 // gamma = 1/2 and dt = 1: the first half is the trapezoidal rule above. Then v2 =
 // 4/3 (-8/5) - 4/3 u2 and u2 = 4/3 3/5 - 1/3 + v2/3, so u2 = -11/65, v2 =
 // -124/65, and 8/65 J are lost.
@@ -1389,18 +1432,55 @@ BOOST_AUTO_TEST_CASE(oscillator_by_tr_bdf2)
 }
 
 // With eta = 1 Pa s beside the spring, dt = 1/2: v1 = -(1 + u1) - (u1 - 1) = -2
-// u1 and u1 = 1 + v1/4, so u1 = 2/3, and (1/3)^2/dt is dissipated.
+// u1 and u1 = 1 + v1/4, so u1 = 2/3, and (1/3)^2/dt is dissipated. The trapezoidal rule is
+// the same: its mean viscous force is v1/2 = -2/3 N.
 BOOST_AUTO_TEST_CASE(damped_oscillator)
 {
-  Oscillator oscillator(scheme_named("midpoint"), {Viscosity::Law::linear, 1.});
-  oscillator.step(.5);
-  BOOST_CHECK_CLOSE(oscillator.right_end(oscillator.end.solution),
-                    2. / 3.,
+  for (const std::string name : {"midpoint", "Crank-Nicolson"})
+    {
+      Oscillator oscillator(scheme_named(name), {Viscosity::Law::linear, 1.});
+      oscillator.step(.5);
+      BOOST_CHECK_CLOSE(oscillator.right_end(oscillator.end.solution),
+                        2. / 3.,
+                        round_off);
+      BOOST_CHECK_CLOSE(oscillator.right_end(oscillator.end.velocity),
+                        -4. / 3.,
+                        round_off);
+      BOOST_CHECK_CLOSE(oscillator.report.viscous_dissipation,
+                        2. / 9.,
+                        round_off);
+    }
+}
+
+// TR-BDF2 with gamma = 1/2 and dt = 1 begins with the step above. Then v2 = 4/3 (-4/3) - (4 u2 +
+// v2)/3 and u2 = 4/3 2/3 - 1/3 + v2/3, so u2 = 1/12, v2 = -17/12, and the means of the
+// viscous forces 0, -4/3 and -17/12 N take 2/9 and 231/288 J. Newmark's method with 3/10 and 3/5,
+// as above with a1 = -4 u1 - v1: u1 = 11/16, v1 = -5/4.
+BOOST_AUTO_TEST_CASE(damped_oscillator_by_other_schemes)
+{
+  auto parameters                    = scheme_named("TR-BDF2");
+  parameters.values["TR-BDF2 gamma"] = .5;
+  Oscillator two_stages(parameters, {Viscosity::Law::linear, 1.});
+  two_stages.step(1.);
+  BOOST_CHECK_CLOSE(two_stages.right_end(two_stages.end.solution),
+                    1. / 12.,
+                    1e-9);
+  BOOST_CHECK_CLOSE(two_stages.right_end(two_stages.end.velocity),
+                    -17. / 12.,
                     round_off);
-  BOOST_CHECK_CLOSE(oscillator.right_end(oscillator.end.velocity),
-                    -4. / 3.,
+  BOOST_CHECK_CLOSE(two_stages.report.viscous_dissipation,
+                    295. / 288.,
                     round_off);
-  BOOST_CHECK_CLOSE(oscillator.report.viscous_dissipation, 2. / 9., round_off);
+
+  parameters                         = scheme_named("Newmark");
+  parameters.values["Newmark beta"]  = .3;
+  parameters.values["Newmark gamma"] = .6;
+  Oscillator newmark(parameters, {Viscosity::Law::linear, 1.});
+  newmark.step(.5);
+  BOOST_CHECK_CLOSE(newmark.right_end(newmark.end.solution),
+                    11. / 16.,
+                    round_off);
+  BOOST_CHECK_CLOSE(newmark.right_end(newmark.end.velocity), -1.25, round_off);
 }
 
 // An obstacle at the gap 1/4 - u presses with 4 N/m (epsilon = 1/4, h_T = 1): a =

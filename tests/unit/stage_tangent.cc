@@ -74,11 +74,17 @@ namespace
     Vector zero = body.make_vector(), residual(zero), perturbed_residual(zero);
     Vector solution(zero), old_solution(zero), direction(zero);
     Vector old_force(zero), difference(zero), product(zero);
-    Vector mean_velocity(zero);
-    const ContactStart start{old_solution,
-                             old_force,
-                             mean_velocity,
-                             scheme == "midpoint" ? .1 : 0.};
+    Vector mean_velocity(zero), rate_origin(zero);
+    ContactStart start{old_solution,
+                       old_force,
+                       mean_velocity,
+                       scheme == "midpoint" ? .1 : 0.};
+    // Friction of an instant, with a velocity that is not that of a step.
+    if (scheme != "midpoint" && friction > 0.)
+      {
+        start.rate_origin = &rate_origin;
+        start.rate_time   = .07;
+      }
 
     bool         contact_seen  = false;
     unsigned int n_comparisons = 0;
@@ -87,6 +93,7 @@ namespace
         {
           randomise(solution, size, seed);
           randomise(old_solution, size, seed + 10);
+          randomise(rate_origin, size, seed + 30);
           randomise(direction, 1., seed + 20);
           // A mean velocity towards the plane, so that predictors touch it.
           mean_velocity = -10.;
@@ -152,6 +159,12 @@ namespace
         check<dim>("Nitsche", "midpoint", theta, simplices, degree);
         check<dim>("Nitsche-hybrid", "midpoint", theta, simplices, degree);
       }
+    if (dim > 1)
+      for (const std::string treatment :
+           {"Nitsche", "Nitsche-hybrid", "proximal augmented Lagrangian"})
+        for (const std::string scheme : {"HHT", "midpoint"})
+          if (treatment != "Nitsche-hybrid" || scheme == "midpoint")
+            check<dim>(treatment, scheme, 1., simplices, degree, .3);
     check<dim>("penalty", "HHT", 1., simplices, degree);
     check<dim>("Hauret-Le Tallec", "midpoint", 1., simplices, degree);
     check<dim>("proximal augmented Lagrangian", "HHT", 1., simplices, degree);
@@ -176,6 +189,10 @@ namespace
                                               "persistent contact",
                                               "Ayyad-Barboteu two-step"})
             check<dim>(treatment, "midpoint", 1., simplices, degree, .3);
+        if (dim > 1)
+          for (const std::string treatment :
+               {"penalty", "Signorini multipliers", "Signorini active set"})
+            check<dim>(treatment, "HHT", 1., simplices, degree, .3);
       }
   }
 } // namespace
@@ -213,7 +230,8 @@ namespace
                                         "proximal augmented Lagrangian",
                                         "Signorini multipliers",
                                         "Signorini active set"})
-      check<dim>(treatment, "HHT", 1., true, 1, 0., obstacles);
+      for (const double friction : {0., .3})
+        check<dim>(treatment, "HHT", 1., true, 1, friction, obstacles);
     for (const double theta : {1., 0.})
       {
         check<dim>("Nitsche", "HHT", theta, true, 1, 0., obstacles);
@@ -339,8 +357,9 @@ BOOST_AUTO_TEST_CASE(boundary_masses_of_quadratic_tetrahedra)
                     1e-10);
   // 3 x 3 vertices.
   BOOST_CHECK_EQUAL(dealii::Utilities::MPI::sum(n_zero, MPI_COMM_WORLD), 9u);
-  BOOST_CHECK_THROW(make_nodal_contact_points(body, cube.plane(0.), false),
-                    InputError);
+  BOOST_CHECK_THROW(
+    make_nodal_contact_points(body, cube.plane(0.), false, true),
+    InputError);
 }
 
 // A contact point with an unknown that is not on the rank is an error, and not

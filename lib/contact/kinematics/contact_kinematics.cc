@@ -34,6 +34,9 @@ namespace Ricochet
     end_time  = start.end_time;
     place_obstacles();
     evaluator.evaluate(start.solution, old);
+    has_rate_origin = start.rate_origin != nullptr;
+    if (has_rate_origin)
+      evaluator.evaluate(*start.rate_origin, rate_origin);
     find_states(old, Instant::begin, old_states);
   }
 
@@ -42,8 +45,9 @@ namespace Ricochet
   void
   ContactKinematics::begin_instant(const double time)
   {
-    time_step = 0.;
-    end_time  = time;
+    time_step       = 0.;
+    end_time        = time;
+    has_rate_origin = false;
     place_obstacles();
   }
 

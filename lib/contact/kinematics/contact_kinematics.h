@@ -28,6 +28,18 @@ namespace Ricochet
     /// The parts of contact_force that belong to several contacts; null where
     /// there is only one.
     const std::vector<Vector> *shares = nullptr;
+    /// For the friction of an instant: its velocity is (displacement - rate_origin) /
+    /// rate_time, so that slip is counted from there (m). Null for that of a step.
+    const Vector *rate_origin = nullptr;
+    /// s
+    double rate_time = 0.;
+
+    /// The time in which slip adds up (s).
+    double
+    slip_time() const
+    {
+      return rate_origin ? rate_time : time_step;
+    }
   };
 
   /// Geometry in a point over a step, as laws and conditions may use it.
@@ -45,8 +57,9 @@ namespace Ricochet
     dealii::Tensor<1, 3> gap_gradient;
     /// Change of the gap (m).
     double gap_increment = 0.;
-    /// Displacement increment of the point less that of the obstacle there (m);
-    /// slip is its part across the normal.
+    /// Displacement increment of the point less that of the obstacle there (m), since
+    /// the beginning of the step or ContactStart::rate_origin; slip is its part across the
+    /// normal.
     dealii::Tensor<1, 3> relative_way;
     /// Derivative of #relative_way (1).
     dealii::Tensor<2, 3> relative_way_derivative;
@@ -227,6 +240,14 @@ namespace Ricochet
       return displacement_of(old[p]);
     }
 
+    /// The displacement of a point since where slip is counted from (m).
+    dealii::Tensor<1, 3>
+    displacement_with_slip(const unsigned int p) const
+    {
+      return displacement(p) -
+        displacement_of(has_rate_origin ? rate_origin[p] : old[p]);
+    }
+
     // Length and end of the step (s); the length is zero in an instant.
     double                     time_step = 0., end_time = 0.;
     std::vector<PointGeometry> geometries;
@@ -241,6 +262,9 @@ namespace Ricochet
                 std::vector<ContactPointState<>> &states) const;
 
     std::vector<bool> up_to_date;
+    // See ContactStart.
+    bool                     has_rate_origin = false;
+    std::vector<PointVector> rate_origin;
   };
 
   /// The kinematics for the obstacles of the @p points: planes at rest, or any

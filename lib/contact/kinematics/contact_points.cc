@@ -282,7 +282,8 @@ namespace Ricochet
   ContactPoints
   make_nodal_contact_points(const Body<dim> &body,
                             const Obstacles &obstacles,
-                            const bool       with_multipliers)
+                            const bool       with_multipliers,
+                            const bool       eliminates_rows)
   {
     const unsigned int degree = body.dof_handler().get_fe().degree;
     if (with_multipliers && degree > 1)
@@ -298,16 +299,35 @@ namespace Ricochet
     for (const ContactPoint &point : points.points)
       {
         positive = positive && point.weight > 0.;
+        // The parts of the normal along which the node is held, and is free.
+        Tensor<1, 3> held, free;
         for (unsigned int k = point.begin; k < point.end; ++k)
-          clamped =
-            clamped || body.constraints().is_constrained(points.index[k]);
+          if (points.shape_value[k] != 0.)
+            (body.constraints().is_constrained(points.index[k])
+               ? held
+               : free)[points.component[k]] = 1.;
+        if (held.norm() == 0.)
+          continue;
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            held[c] *= point.obstacle_normal[c];
+            free[c] *= point.obstacle_normal[c];
+          }
+        // Where rows are replaced, that along the normal has to be one of the body.
+        if (with_multipliers)
+          clamped = clamped || free.norm() < 1e-12;
+        else if (eliminates_rows)
+          clamped = clamped || held.norm() > 1e-12 ||
+            !point.obstacle->is_plane_at_rest();
       }
     if (Utilities::MPI::max(clamped ? 1 : 0, body.communicator) == 1)
       throw InputError(
-        "Nodal contact needs nodes that can move: the contact "
-        "boundary and the clamped boundary share some. Leave a "
-        "part of the boundary free between them, or take one of "
-        "the treatments that integrate over the boundary.");
+        "Constraints in the nodes need nodes that can move: the contact "
+        "boundary and the held boundary share some. They may where the held "
+        "component lies in the plane of an obstacle at rest, as on a plane of "
+        "symmetry. Leave a part of the boundary free between them, or take a "
+        "treatment that is a law: normal compliance, or one that integrates "
+        "over the boundary.");
     if (Utilities::MPI::min(positive ? 1 : 0, body.communicator) == 0)
       throw InputError(
         "Nodal contact needs nodes with a positive lumped "
@@ -334,13 +354,22 @@ namespace Ricochet
   template ContactPoints
   make_contact_nodes(const Body<1> &, const Obstacles &, const bool);
   template ContactPoints
-  make_nodal_contact_points(const Body<1> &, const Obstacles &, const bool);
+  make_nodal_contact_points(const Body<1> &,
+                            const Obstacles &,
+                            const bool,
+                            const bool);
   template ContactPoints
   make_contact_nodes(const Body<2> &, const Obstacles &, const bool);
   template ContactPoints
-  make_nodal_contact_points(const Body<2> &, const Obstacles &, const bool);
+  make_nodal_contact_points(const Body<2> &,
+                            const Obstacles &,
+                            const bool,
+                            const bool);
   template ContactPoints
   make_contact_nodes(const Body<3> &, const Obstacles &, const bool);
   template ContactPoints
-  make_nodal_contact_points(const Body<3> &, const Obstacles &, const bool);
+  make_nodal_contact_points(const Body<3> &,
+                            const Obstacles &,
+                            const bool,
+                            const bool);
 } // namespace Ricochet

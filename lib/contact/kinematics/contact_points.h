@@ -144,16 +144,18 @@ namespace Ricochet
    *
    * @param with_multipliers as above: a body may have multipliers that are not for
    * its obstacles.
+   * @param eliminates_rows the treatment replaces rows of the nodes.
    *
    * @throws InputError when a lumped boundary mass is not positive (vertices of
    * quadratic tetrahedra), for nodal multipliers with degree > 1, and when a node
-   * is clamped.
+   * of a constraint is held along the normal.
    */
   template <int dim>
   ContactPoints
   make_nodal_contact_points(const Body<dim> &body,
                             const Obstacles &obstacles,
-                            const bool       with_multipliers);
+                            const bool       with_multipliers,
+                            const bool       eliminates_rows);
 } // namespace Ricochet
 
 #endif

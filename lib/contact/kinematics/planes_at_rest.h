@@ -59,8 +59,9 @@ namespace Ricochet
       // Difference of displacements instead of positions, to avoid cancellation
       // far from the origin.
       PointGeometry &geometry = geometries[p];
-      geometry.relative_way   = displacement(p) - old_displacement(p);
-      geometry.gap_increment  = geometry.normal * geometry.relative_way;
+      geometry.relative_way   = displacement_with_slip(p);
+      geometry.gap_increment =
+        geometry.normal * (displacement(p) - old_displacement(p));
     }
   };
 } // namespace Ricochet

@@ -64,6 +64,9 @@ namespace Ricochet
         // with it.
         rows = obstacles[i]->rows(steps[i], x, x, Tensor<1, 3>());
         rows.direction_derivative *= 2.;
+        // Friction of an instant is that on obstacles at rest.
+        rows.relative_way            = displacement_with_slip(p);
+        rows.relative_way_derivative = dealii::unit_symmetric_tensor<3>();
       }
     else
       rows =

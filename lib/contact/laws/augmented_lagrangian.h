@@ -46,6 +46,7 @@ namespace Ricochet
     {
       ContactLawTraits traits;
       traits.needs_multiplier = true;
+      traits.takes_friction   = true;
       return traits;
     }
 

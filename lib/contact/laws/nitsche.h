@@ -97,7 +97,8 @@ namespace Ricochet
     traits()
     {
       ContactLawTraits traits;
-      traits.uses_stress = true;
+      traits.uses_stress    = true;
+      traits.takes_friction = true;
       return traits;
     }
 

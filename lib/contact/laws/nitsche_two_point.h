@@ -91,8 +91,9 @@ namespace Ricochet
     traits()
     {
       ContactLawTraits traits;
-      traits.is_two_point = true;
-      traits.uses_stress  = true;
+      traits.is_two_point   = true;
+      traits.uses_stress    = true;
+      traits.takes_friction = true;
       return traits;
     }
 

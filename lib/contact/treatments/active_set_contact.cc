@@ -160,6 +160,21 @@ namespace Ricochet
 
 
   void
+  ActiveSetContact::find_held(const Constraints &constraints)
+  {
+    const ContactPoints &coefficients = evaluator.coefficients();
+    for (const ContactPoint &point : evaluator.contact_points())
+      {
+        Tensor<1, 3> &free = is_free.emplace_back();
+        for (unsigned int k = point.begin; k < point.end; ++k)
+          free[coefficients.component[k]] =
+            constraints.is_constrained(coefficients.index[k]) ? 0. : 1.;
+      }
+  }
+
+
+
+  void
   ActiveSetContact::choose_status(const unsigned int p)
   {
     Node &node = nodes[p];
@@ -227,6 +242,8 @@ namespace Ricochet
           {
             look_at_geometry(p);
             node.excess = evaluator.at_node(p, residual);
+            for (unsigned int c = 0; c < 3; ++c)
+              node.excess[c] *= is_free[p][c];
           }
         choose_status(p);
         if (!is_active(p))

@@ -60,6 +60,7 @@ namespace Ricochet
       , nodes(evaluator.contact_points().size())
     {
       make_rows();
+      find_held(body.constraints());
     }
 
     void
@@ -194,6 +195,10 @@ namespace Ricochet
     void
     make_rows();
 
+    /// Set #is_free.
+    void
+    find_held(const Constraints &constraints);
+
     /// Choose the status of node @p p from its closing, slip and excess, and
     /// compute its exchange.
     void
@@ -227,14 +232,17 @@ namespace Ricochet
     // The evaluator of the kinematics.
     ContactPointEvaluator &evaluator;
     // The rows of the contact Jacobian.
-    ContactRows           jacobian;
-    ContactPointEvaluator stress_evaluator;
-    const Condition       condition;
-    const double          augmentation;
-    const double          friction_coefficient;
-    double                weight         = 1.;
-    bool                  first_in_stage = true;
-    unsigned int          pass           = 0;
+    ContactRows jacobian;
+    /// For each node, 1 in the components in which it is free: the residual in others is
+    /// the reaction of a support, not of contact.
+    std::vector<dealii::Tensor<1, 3>> is_free;
+    ContactPointEvaluator             stress_evaluator;
+    const Condition                   condition;
+    const double                      augmentation;
+    const double                      friction_coefficient;
+    double                            weight         = 1.;
+    bool                              first_in_stage = true;
+    unsigned int                      pass           = 0;
 
     std::vector<ContactPointState<>> state, old_state;
     std::vector<PointVector>         stress_observables;

@@ -116,7 +116,10 @@ namespace Ricochet
                                 (*start.shares)[k],
                                 start.mean_velocity,
                                 start.time_step,
-                                start.end_time},
+                                start.end_time,
+                                nullptr,
+                                start.rate_origin,
+                                start.rate_time},
                                weight);
     at_instant = false;
   }

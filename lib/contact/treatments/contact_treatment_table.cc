@@ -13,6 +13,7 @@
 #include <contact/laws/penalty.h>
 #include <contact/laws/regularised_friction.h>
 #include <contact/laws/signorini_multiplier.h>
+#include <contact/laws/slip_rate_friction.h>
 #include <contact/treatments/contact_law_table.h>
 #include <contact/treatments/cut_face_contact.h>
 #include <contact/treatments/nitsche_bound.h>
@@ -102,7 +103,10 @@ namespace Ricochet
       static NamedTable<FrictionLawEntry> laws = [] {
         FrictionLawEntry coulomb = friction_law_entry<CoulombFriction>();
         coulomb.is_coulomb       = true;
-        return NamedTable<FrictionLawEntry>("a", "friction law", {coulomb});
+        return NamedTable<FrictionLawEntry>(
+          "a",
+          "friction law",
+          {coulomb, friction_law_entry<SlipRateFriction>()});
       }();
       return laws;
     }
@@ -345,6 +349,17 @@ namespace Ricochet
         [&](const Treatment &treatment) { return good(treatment.traits); });
     }
 
+    /// The names of all schemes that are good.
+    std::string
+    names_of_schemes(const std::function<bool(const SchemeTraits &)> &good)
+    {
+      std::vector<std::string> names;
+      for (const SchemeTraits &scheme : all_scheme_traits())
+        if (good(scheme))
+          names.push_back(scheme.name);
+      return join(names);
+    }
+
     /// The laws that give a differential equation with a potential, with the choices
     /// that this depends on: "A with theta = 1, B or C".
     std::string
@@ -408,6 +423,18 @@ namespace Ricochet
         names_of([](const auto &t) { return !t.uses_stress; }) + ".");
     if (find(parameters).check)
       find(parameters).check(parameters.values);
+    if ((viscous || has_friction(parameters)) && redistributed_mass &&
+        !scheme.contact_over_step)
+      throw InputError(
+        (viscous ? "Viscosity" : "Friction") +
+        std::string(" and the redistributed mass cannot be combined with the "
+                    "time scheme '") +
+        scheme.name +
+        "': nodes without inertia have no velocity at an instant, against "
+        "which it could act.\nAllowed with them: " +
+        names_of_schemes(
+          [](const SchemeTraits &s) { return s.contact_over_step; }) +
+        "; or the consistent mass.");
     if (has_friction(parameters))
       {
         if (!traits.takes_friction)
@@ -415,11 +442,14 @@ namespace Ricochet
             "The contact treatment '" + parameters.treatment +
             "' cannot be combined with friction.\nAllowed with it: " +
             names_of([](const auto &t) { return t.takes_friction; }) + ".");
-        if (!scheme.contact_over_step)
+        if (!scheme.has_rates())
           throw InputError(
             "Friction cannot be combined with the time scheme '" + scheme.name +
-            "'.\nAllowed with it: midpoint. There friction acts against the "
-            "mean slip rate of the step, so that its work is never negative.");
+            "', which takes contact as a function of the displacement.\nAllowed "
+            "with it: " +
+            names_of_schemes(
+              [](const SchemeTraits &s) { return s.has_rates(); }) +
+            ".");
         if (find(parameters).make_law)
           RegularisedFriction::check(parameters.values);
         else if (!find_friction(parameters).is_coulomb)
@@ -477,8 +507,8 @@ namespace Ricochet
       {
         if (dim == 3)
           throw InputError(
-            "Contact/Coupling = cut faces is there in the plane only.\nAllowed in "
-            "space: points, mortar, dual mortar.");
+            "Contact/Coupling = cut faces is there in 2D only.\nAllowed in 3D: "
+            "points, mortar, dual mortar.");
         const auto integrates = [](const ContactLawTraits &traits) {
           return !traits.nodal;
         };
@@ -524,7 +554,7 @@ namespace Ricochet
     if (dim == 3 && parameters.coupling != "points" &&
         !is_good_in_space(find(parameters).traits))
       throw InputError(
-        "In space the contact treatment '" + parameters.treatment +
+        "In 3D the contact treatment '" + parameters.treatment +
         "' cannot be combined with Contact/Coupling = " + parameters.coupling +
         ": gaps are means over pieces that are cut anew in each step, and what was "
         "stored at the end of one would not be what the next one gives back.\nAllowed "
@@ -744,7 +774,8 @@ namespace Ricochet
     ContactPoints points = treatment.traits.nodal
       ? make_nodal_contact_points(body,
                                   obstacles,
-                                  treatment.traits.needs_multiplier)
+                                  treatment.traits.needs_multiplier,
+                                  !treatment.make_law)
       : stress_points;
     if (!stress)
       stress_points = ContactPoints();
@@ -813,15 +844,12 @@ namespace Ricochet
                              treatment,
                              "How the Signorini condition is treated.",
                              Patterns::Selection(contact_treatment_names()));
-    if (friction_table().size() > 1)
-      {
-        parameters.add_parameter(
-          "Friction law",
-          friction_law,
-          "The traction at which points slip. Only Coulomb's is there for "
-          "treatments whose friction is exact.",
-          Patterns::Selection(friction_table().names()));
-      }
+    parameters.add_parameter(
+      "Friction law",
+      friction_law,
+      "The traction at which points slip. Only Coulomb's is there for "
+      "treatments whose friction is exact.",
+      Patterns::Selection(friction_table().names()));
     values.add_parameters(all_parameters(), parameters);
     parameters.leave_subsection();
   }
@@ -836,13 +864,13 @@ namespace Ricochet
       coupling,
       "How surfaces whose nodes do not match are coupled. points: each node (or "
       "quadrature point, as the treatment has it) of the one with the facet of the "
-      "other before it. mortar: the mean of the gap around each node, integrated "
+      "other that it faces. mortar: the mean of the gap around each node, integrated "
       "exactly, so that a uniform pressure passes. dual mortar: the same with weights "
       "that are orthogonal to the shape functions of other nodes. Both are for "
       "treatments in nodes. cut faces: points on faces that are cut where the other "
       "ones end, for Nitsche, its hybrid, penalty and the proximal augmented "
-      "Lagrangian between linear elastic bodies; small displacements, what is before "
-      "what stays as it is at the start.",
+      "Lagrangian between linear elastic bodies; small displacements, and faces that "
+      "face each other at the start do so for ever.",
       Patterns::Selection("points|mortar|dual mortar|cut faces"));
     parameters.leave_subsection();
   }

@@ -54,7 +54,7 @@ namespace Ricochet
         return std::make_unique<MortarPair>(body, pair, mortar_shape(method));
       else
         throw InputError(
-          "On the line surfaces are points, which match: "
+          "In 1D surfaces are points, which match: "
           "Contact/Coupling can only be 'points'.");
     }
 

@@ -18,7 +18,7 @@ namespace Ricochet
   {
     weight     = weight_;
     n_iterates = 0;
-    friction.begin_stage(start.time_step);
+    friction.begin_stage(start.slip_time());
     point_force.assign(evaluator.contact_points().size(), {});
     kinematics->begin_step(start, old_state);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/vector_operations.h>
-#include <time_integration/hht.h>
+#include <time_integration/generalised_alpha.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -10,41 +10,50 @@ namespace Ricochet
 {
   using namespace dealii;
 
-  HHT::HHT(const double alpha)
-    : alpha(alpha)
-    , beta(.25 * (1. + std::abs(alpha)) * (1. + std::abs(alpha)))
-    , gamma(.5 + std::abs(alpha))
-  {}
-
-
-
   StepReport
-  HHT::step(SemiDiscreteSystem &system,
-            const State        &old_state,
-            const double        time_step,
-            State              &new_state)
+  GeneralisedAlpha::step(SemiDiscreteSystem &system,
+                         const State        &old_state,
+                         const double        time_step,
+                         State              &new_state)
   {
-    const double dt = time_step;
-    new_state       = old_state;
-    new_state.time  = old_state.time + dt;
+    const double dt                             = time_step;
+    const auto &[alpha_m, alpha_f, beta, gamma] = coefficients;
+    new_state                                   = old_state;
+    new_state.time                              = old_state.time + dt;
 
-    // u_new = inertia_origin + beta dt^2 a_new
-    stage.inertia  = 1. / (beta * dt * dt);
+    // u_new = predicted + beta dt^2 a_new
+    const double rate = 1. / (beta * dt * dt);
+    copy_values(old_state.solution, predicted);
+    predicted.add(dt,
+                  old_state.velocity,
+                  (.5 - beta) * dt * dt,
+                  old_state.acceleration);
+    // M ((1 - alpha_m) a_new + alpha_m a_old)
+    stage.inertia  = (1. - alpha_m) * rate;
     stage.end_time = new_state.time;
-    copy_values(old_state.solution, stage.inertia_origin);
-    stage.inertia_origin.add(dt,
-                             old_state.velocity,
-                             (.5 - beta) * dt * dt,
-                             old_state.acceleration);
-    stage.bulk_weight_new = stage.contact_weight_new = 1. - alpha;
-    stage.bulk_weight_old = stage.contact_weight_old = alpha;
+    copy_values(predicted, stage.inertia_origin);
+    if (alpha_m != 0.)
+      stage.inertia_origin.add(-alpha_m / stage.inertia,
+                               old_state.acceleration);
+    // v_new = v_old + (1 - gamma) dt a_old + gamma dt a_new
+    if (system.needs_rates())
+      {
+        stage.rate_time = beta * dt / gamma;
+        copy_values(predicted, stage.rate_origin);
+        stage.rate_origin.add(-stage.rate_time,
+                              old_state.velocity,
+                              -stage.rate_time * (1. - gamma) * dt,
+                              old_state.acceleration);
+      }
+    stage.bulk_weight_new = stage.contact_weight_new = 1. - alpha_f;
+    stage.bulk_weight_old = stage.contact_weight_old = alpha_f;
 
     work.reinit(old_state.solution, true);
     load.reinit(old_state.solution, true);
     system.external_load(old_state.time, work);
     system.external_load(new_state.time, load);
     copy_values(load, stage.load);
-    stage.load.sadd(1. - alpha, alpha, work);
+    stage.load.sadd(1. - alpha_f, alpha_f, work);
 
     // The guess is free flight over the step.
     new_state.solution.add(dt,
@@ -55,8 +64,8 @@ namespace Ricochet
     report.solver = system.solve_stage(stage, old_state, new_state);
 
     copy_values(new_state.solution, new_state.acceleration);
-    new_state.acceleration -= stage.inertia_origin;
-    new_state.acceleration *= stage.inertia;
+    new_state.acceleration -= predicted;
+    new_state.acceleration *= rate;
     new_state.velocity.add((1. - gamma) * dt,
                            old_state.acceleration,
                            gamma * dt,
@@ -69,16 +78,14 @@ namespace Ricochet
     // and M a is minus the force that the scheme balances it with.
     old_force.reinit(old_state.solution, true);
     new_force.reinit(old_state.solution, true);
-    system.total_force(old_state.solution,
-                       old_state.contact_force,
-                       old_state.time,
-                       old_force);
-    system.total_force(new_state.solution,
-                       new_state.contact_force,
-                       new_state.time,
-                       new_force);
+    system.total_force(old_state, old_force);
+    system.total_force(new_state, new_force);
     copy_values(new_force, new_state.scheme_force);
-    new_state.scheme_force.sadd(1. - alpha, alpha, old_force);
+    new_state.scheme_force.sadd(1. - alpha_f, alpha_f, old_force);
+    if (alpha_m != 0.)
+      new_state.scheme_force.sadd(1. / (1. - alpha_m),
+                                  -alpha_m / (1. - alpha_m),
+                                  old_state.scheme_force);
 
     // (mean scheme force - mean force) . (u_new - u_old)
     const MPI_Comm communicator = new_state.solution.get_mpi_communicator();
@@ -154,11 +161,19 @@ namespace Ricochet
     const MPI_Comm communicator = new_state.solution.get_mpi_communicator();
     const auto     increment =
       entries(new_state.solution) - entries(old_state.solution);
-    report.contact_work += .5 *
-      product(entries(new_state.contact_force) +
-                entries(old_state.contact_force),
-              increment,
-              communicator);
+    const auto work_against = [&](Vector State::*const force) {
+      return .5 *
+        product(entries(new_state.*force) + entries(old_state.*force),
+                increment,
+                communicator);
+    };
+    const double friction_work = system.contact.traits().has_friction
+      ? work_against(&State::friction_force)
+      : 0.;
+    report.friction_work += friction_work;
+    report.contact_work += work_against(&State::contact_force) - friction_work;
+    if (system.bulk.is_viscous())
+      report.viscous_dissipation += work_against(&State::viscous_force);
     Vector old_part, new_part;
     old_part.reinit(new_state.solution, true);
     new_part.reinit(new_state.solution, true);

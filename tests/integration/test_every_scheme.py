@@ -1,0 +1,306 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Friction and viscosity in every scheme with stages, against results by hand.
+
+A block slides down a slope, in 2D and 3D, with exact and with regularised friction: as a
+rigid body it has the acceleration g (sin - mu cos). A bar that vibrates in its first mode
+with Kelvin and Voigt's viscosity loses the part exp(-delta) of its amplitude in a period.
+"""
+
+import math
+
+from common import *
+
+SLOPE = """
+set Program   = ricochet
+set Dimension = {dim}
+subsection Material rubber
+  set Law           = {law}
+  set Young modulus = 1e7
+  set Poisson ratio = 0.3
+  set Density       = 1000
+  set Viscosity     = {viscosity}
+  set Viscosity eta = 1e4
+end
+subsection Body block
+  set Shape       = {shape}
+  set Size        = {size}
+  set Cells along = {cells}
+  set Material    = rubber
+end
+subsection Obstacle slope
+  set Shape = half space
+end
+subsection Contact slope
+  set Surface                  = block: lower
+  set Against                  = slope
+  set Treatment                = {treatment}
+  set Friction coefficient     = 0.3
+  set Tangential compliance    = 1e6
+end
+subsection Probe block
+  set Body = block
+end
+subsection Start
+  set Gravity = {gravity}
+end
+subsection Time
+  set Final time = 1
+  set Time step  = 4e-3
+end
+subsection Output
+  set Fields every = 0
+end
+"""
+
+# A bar, held at its left end, under a force with the shape of its first mode.
+BAR = """
+set Program   = ricochet
+set Dimension = 2
+subsection Body bar
+  set Shape         = rectangle
+  set Size          = 1, 0.1
+  set Cells along   = 20, 1
+  set Law           = {law}
+  set Young modulus = 1e6
+  set Poisson ratio = 0
+  set Density       = 1000
+  set Viscosity     = {viscosity}
+  set Viscosity eta = {eta}
+  set Acceleration  = 1e-2*sin(pi*x/2); 0
+end
+subsection Obstacle far
+  set Shape       = half space
+  set Translation = 0; -10
+end
+subsection Contact far
+  set Surface   = bar: lower
+  set Against   = far
+  set Treatment = penalty
+end
+subsection Condition held
+  set Boundary = bar: left
+  set Kind     = fixed
+end
+subsection Probe end
+  set Point = 1, 0.05
+  set Body  = bar
+end
+subsection Time
+  set Final time = 0.07
+  set Time step  = 5e-4
+end
+subsection Output
+  set Fields every = 0
+end
+"""
+
+# A block on a belt, held by a spring of 360 N/m: m = 10 kg, omega = 6/s.
+BELT = """
+set Program   = ricochet
+set Dimension = 2
+subsection Body block
+  set Shape         = rectangle
+  set Size          = 0.2, 0.05
+  set Cells along   = 8, 2
+  set Law           = linear elastic
+  set Young modulus = 1e8
+  set Density       = 1000
+  set Viscosity     = linear
+  set Viscosity eta = 1e6
+end
+subsection Obstacle belt
+  set Shape       = half space
+  set Translation = 0.3*t; 0
+end
+subsection Contact belt
+  set Surface               = block: lower
+  set Against               = belt
+  set Treatment             = improved normal compliance
+  set Friction law          = slip-rate dependent
+  set Static coefficient    = 0.4
+  set Dynamic coefficient   = 0.2
+  set Slip-rate decay       = 1000
+  set Tangential compliance = 1e7
+end
+subsection Condition spring
+  set Boundary   = block: left
+  set Kind       = springs
+  set Components = x
+  set Stiffness  = 7200
+end
+subsection Probe block
+  set Body = block
+end
+subsection Start
+  set Gravity = 0, -9.81
+end
+subsection Time
+  set Final time = 3
+  set Time step  = 5e-4
+end
+subsection Output
+  set Fields every = 0
+end
+"""
+
+# A block falls on a floor, or its right half, whose left side is a plane of symmetry.
+FALLING = """
+set Program   = ricochet
+set Dimension = {dim}
+subsection Body block
+  set Shape         = {shape}
+  set Size          = {size}
+  set Cells along   = {cells}
+  set Translation   = {translation}
+  set Velocity      = {velocity}
+  set Young modulus = 1e6
+  set Density       = 1000
+end
+subsection Obstacle floor
+  set Shape = half space
+end
+subsection Contact floor
+  set Surface              = block: lower
+  set Against              = floor
+  set Friction coefficient = 0.2
+end
+{mirror}
+subsection Time
+  set Final time = 0.02
+  set Time step  = 2e-4
+end
+subsection Output
+  set Fields every = 0
+end
+"""
+
+MIRROR = """
+subsection Condition mirror
+  set Boundary   = block: left
+  set Kind       = fixed
+  set Components = x
+end
+"""
+
+WITH_STAGES = {name: values for name, values in SCHEMES.items() if name != "HHT -0.02"}
+
+MATERIALS = (("linear elastic", "linear"), ("neo-Hookean", "Curnier"))
+
+
+class EveryScheme(ProgramTest):
+
+    def scene(self, name, text, **values):
+        path = pathlib.Path(self.folder) / (name.replace(" ", "_") + ".prm")
+        path.write_text(text.format(**values), encoding="utf-8")
+        return path
+
+    def slopes(self):
+        """Scenes of a slope with tan = 1/2, linear in 2D and nonlinear in 3D."""
+        angle = math.atan(.5)
+        along, down = 9.81 * math.sin(angle), -9.81 * math.cos(angle)
+        shapes = {2: {"shape": "rectangle", "size": "1, 0.5", "cells": "4, 2",
+                      "gravity": f"{along}, {down}"},
+                  3: {"shape": "block", "size": "1, 0.5, 0.5", "cells": "3, 2, 2",
+                      "gravity": f"{along}, 0, {down}"}}
+        for dim, shape in shapes.items():
+            for treatment in ("Signorini active set", "penalty", "Signorini multipliers"):
+                law, viscosity = MATERIALS[dim - 2]
+                name = f"{dim} {treatment} {law}"
+                yield name, self.scene(name, SLOPE, dim=dim, treatment=treatment, law=law,
+                                       viscosity=viscosity, **shape)
+
+    def runs(self, scenes):
+        """(name, ledger) of each scene with each scheme."""
+        def run(numbered):
+            number, ((name, scene), (scheme, values)) = numbered
+            return f"{name}, {scheme}", self.run_program(
+                "ricochet", NO_FIELDS + values, self.folder / f"case-{number}", prm=scene)
+        with ThreadPoolExecutor(max_workers=2) as pool:
+            yield from pool.map(run, enumerate(
+                (scene, scheme) for scene in scenes for scheme in WITH_STAGES.items()))
+
+    def check_run(self, ledger):
+        self.assertLess(largest(ledger["balance_residual"]), 1e-9)
+        self.assertEqual(ledger["step_halvings"][-1], 0)
+
+    def test_slope(self):
+        """A rigid block slides by 1/2 g (sin - mu cos) t^2, and friction takes mu m g cos
+        times that."""
+        angle = math.atan(.5)
+        slides = .5 * 9.81 * (math.sin(angle) - .3 * math.cos(angle))
+        for name, ledger in self.runs(self.slopes()):
+            with self.subTest(name):
+                self.check_run(ledger)
+                self.assertAlmostEqual(ledger["block_displacement_x"][-1] / slides, 1.,
+                                       delta=.01)
+                mass = 250 if name.startswith("3") else 500
+                self.assertAlmostEqual(
+                    ledger["friction_work"][-1] /
+                    (.3 * mass * 9.81 * math.cos(angle) * slides), 1., delta=.01)
+
+    def test_damped_bar(self):
+        """The first overshoot of an oscillator with the damping ratio eta omega / (2 E)."""
+        omega, ratio = .5 * math.pi * math.sqrt(1e3), .1
+        largest_displacement = 1e-2 / omega**2 * (
+            1. + math.exp(-math.pi * ratio / math.sqrt(1. - ratio**2)))
+        # Curnier's power density is that of eta C_dot^2 = 4 eta strain_rate^2.
+        scenes = [(law, self.scene(law, BAR, law=law, viscosity=viscosity,
+                                   eta=2e6 * ratio / omega / factor))
+                  for (law, viscosity), factor in zip(MATERIALS, (1., 4.))]
+        for name, ledger in self.runs(scenes):
+            with self.subTest(name):
+                self.check_run(ledger)
+                self.assertAlmostEqual(
+                    max(ledger["end_displacement_x"]) / largest_displacement, 1., delta=.005)
+                self.assertGreater(ledger["viscous_dissipation"][-1], 0.)
+
+    def falling(self, dim, is_half):
+        """The scene, the block 0.2 wide or its right half."""
+        width, left = (.1, 0.) if is_half else (.2, -.1)
+        n = (4 if is_half else 8) if dim == 2 else (2 if is_half else 4)
+        values = {2: {"shape": "rectangle", "size": f"{width}, 0.1", "cells": f"{n}, 4",
+                      "translation": f"{left}, 0.001", "velocity": "0, -1"},
+                  3: {"shape": "block", "size": f"{width}, 0.1, 0.1", "cells": f"{n}, 2, 2",
+                      "translation": f"{left}, 0, 0.001", "velocity": "0, 0, -1"}}[dim]
+        return self.scene(f"falling {dim} {is_half}", FALLING, dim=dim,
+                          mirror=MIRROR if is_half else "", **values)
+
+    def test_half_of_a_symmetric_body(self):
+        """Nodes in contact that a plane of symmetry holds across: half of the whole."""
+        treatments = KEEP_ENERGY + ["improved normal compliance", "Signorini active set",
+                                    "Signorini multipliers", "standard normal compliance"]
+        for dim in (2, 3):
+            for treatment in treatments:
+                whole, half = (
+                    self.run_program("ricochet",
+                                     NO_FIELDS + [f"Contact floor/Treatment={treatment}"],
+                                     prm=self.falling(dim, is_half))
+                    for is_half in (False, True))
+                for name in ("elastic_energy", "kinetic_energy", "friction_work",
+                             "contact_force_floor"):
+                    with self.subTest(f"{dim} {treatment} {name}"):
+                        scale = largest(whole[name])
+                        self.assertGreater(scale, 0.)
+                        self.assertLess(largest(
+                            [2. * a - b for a, b in zip(half[name], whole[name])]),
+                            1e-9 * scale)
+
+    def test_stick_slip(self):
+        """A coefficient that falls with the slip rate makes jerks, whose period is that
+        of the closed solution for a static and a dynamic coefficient."""
+        ledger = self.run_program("ricochet", NO_FIELDS, prm=self.scene("belt", BELT))
+        self.check_run(ledger)
+        velocity, omega = .3, 6.
+        force = (.4 - .2) * 10. * 9.81
+        ratio = force * omega / (360. * velocity)
+        period = (2. * force / (360. * velocity) +
+                  2. * (math.pi - math.atan(ratio)) / omega)
+        u, t = ledger["block_displacement_x"], ledger["time"]
+        peaks = [t[k] for k in range(1, len(u) - 1) if u[k - 1] < u[k] >= u[k + 1] > .1]
+        self.assertGreaterEqual(len(peaks), 2)
+        for first, second in zip(peaks, peaks[1:]):
+            self.assertAlmostEqual((second - first) / period, 1., delta=.01)
+
+
+if __name__ == "__main__":
+    main()
