@@ -265,6 +265,22 @@ class EveryScheme(ProgramTest):
         return self.scene(f"falling {dim} {is_half}", FALLING, dim=dim,
                           mirror=MIRROR if is_half else "", **values)
 
+    def test_what_friction_gives_back(self):
+        """With forces at instants friction can do work on the body, and the run says so."""
+        parameters = BALL + NO_FIELDS + [
+            "Start/Initial velocity=6, -10", "Contact/Treatment=Signorini active set",
+            "Contact/Friction coefficient=0.3", "Time/Final time=0.1"]
+        for scheme, gives_back in (("HHT 0.05", True), ("midpoint", False)):
+            with self.subTest(scheme):
+                code, out, error = self.attempt("elastic_ball", parameters + SCHEMES[scheme],
+                                                self.folder / scheme.replace(" ", "_"))
+                self.assertEqual(code, 0, msg=error)
+                self.assertEqual("friction and viscosity gave back at most" in out,
+                                 gives_back, msg=out)
+                work = Ledger(self.folder / scheme.replace(" ", "_"))["friction_work"]
+                falls = max(a - b for a, b in zip(work, work[1:]))
+                self.assertEqual(falls > 1e-9 * max(work), gives_back)
+
     def test_half_of_a_symmetric_body(self):
         """Nodes in contact that a plane of symmetry holds across: half of the whole."""
         treatments = KEEP_ENERGY + ["improved normal compliance", "Signorini active set",

@@ -231,14 +231,15 @@ class Scenes(ProgramTest):
             return
         def compare(other):
             for column in other.names:
-                if "residual" in column:
+                # Counts differ where a residual sits at the tolerance, and tangents are
+                # renewed by counts.
+                if column in NOISE:
                     continue
                 scale = largest([x for x in whole[column] if not math.isnan(x)])
                 difference = largest([a - b for a, b in
                                       zip(whole[column], other[column])
                                       if not math.isnan(a)])
-                if scale > 1e-6 and "iterations" not in column \
-                        and "solves" not in column:
+                if scale > 1e-6:
                     self.assertLess(difference, 1e-9 * scale, msg=column)
 
         compare(self.scene(scene(), name="two", n_ranks=2))

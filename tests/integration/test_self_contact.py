@@ -40,6 +40,12 @@ CIRCLES = ("outer_circle", "inner_circle")
 PICTURES = ["Output/Fields every=3", "Output/Log every=0"]
 SHARED = {name: ring() + [SELF, f"Contact/Treatment={name}"] + special
           for name, special in TREATMENTS.items()}
+# With 64 nodes two of them meet on the axis of symmetry, each in the valley that the other's
+# facets make. A law has no solution there but at the vertex itself, where its
+# force is between those of both facets: round-off decides, in half of the runs with
+# perturbations of 1e-12, whether Newton's method leaves it. With 66 none fails of
+# 8 runs, with AVX2 and without.
+SHARED["improved normal compliance"][0] = "Mesh/Nodes around=66"
 SHARED["without"] = ring(end=1.7) + ["Contact/Treatment=persistent contact"]
 for shape in ((48, 3), (96, 5)):
     SHARED[shape] = ring(*shape, end=1.65) + [
@@ -253,7 +259,7 @@ class Nodes(SelfContactTest):
         ledger = self.shared_run("improved normal compliance")
         depths = self.depths(ledger)
         self.assertGreater(max(depths), 1e-3)
-        length = 2. * INNER_RADIUS * math.sin(math.pi / 64)
+        length = 2. * INNER_RADIUS * math.sin(math.pi / 66)
         for modified, energy, inside, below in zip(
                 ledger["modified_energy"], ledger["energy"], depths,
                 ledger["penetration_foundation"]):
@@ -422,8 +428,9 @@ class RestartAndRanks(SelfContactTest):
                 options, touching = [], 0
                 for end in (1.49, 1.51, 1.56):
                     ledger = self.run_program(
-                        "hyperelastic_ring", self.parameters(name, end) + PICTURES +
-                        ["Output/Checkpoint every=1000"], parts, options=options)
+                        "hyperelastic_ring", SHARED[name] + PICTURES +
+                        [f"Time/Final time={end}", "Output/Checkpoint every=1000"],
+                        parts, options=options)
                     options = ["--resume"]
                     touching += ledger["active_points_inner_circle"][-1] > 0.
                 self.assertGreater(touching, 1)
