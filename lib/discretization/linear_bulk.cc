@@ -238,8 +238,10 @@ namespace Ricochet
     stiffness.vmult(force, work);
     if (has_viscosity)
       {
-        viscous_force(old_solution, new_solution, time_step, product);
-        force += product;
+        copy_values(new_solution, work);
+        work -= old_solution;
+        viscosity_matrix.vmult(product, work);
+        force.add(1. / time_step, product);
       }
   }
 
@@ -408,8 +410,10 @@ namespace Ricochet
   {
     if (!has_viscosity)
       return 0.;
-    viscous_force(old_solution, new_solution, time_step, product);
-    return time_step * (product * work);
+    work = new_solution;
+    work -= old_solution;
+    viscosity_matrix.vmult(product, work);
+    return (product * work) / time_step;
   }
 
 

@@ -65,13 +65,9 @@ namespace Ricochet
         node.initial_reaction = -1. * evaluator.at_node(p, start.contact_force);
         node.candidate        = true;
         // The mean velocity leads away from a curved surface, and pressed nodes
-        // would be released. A node that is predicted to touch exactly, as after a
-        // fall of whole steps, is a candidate: round-off adds up in its gap. Whatever
-        // the candidates are, the condition does no work.
-        constexpr double exactly = 1e-12;
+        // would be released.
         if (condition == Condition::persistent)
-          node.candidate = kinematics->predicted_gap(p) <=
-              exactly * evaluator.contact_points()[p].cell_diameter ||
+          node.candidate = kinematics->predicted_gap(p) <= 0. ||
             (!kinematics->has_constant_rows() &&
              node.initial_reaction.norm_square() > 0.);
       }
