@@ -754,9 +754,9 @@ namespace Ricochet
                                const Symmetric2    &change,
                                Symmetric2          &stress,
                                Symmetric4          *tangent) {
-      stress = 0.;
+      stress = Symmetric2();
       if (tangent)
-        *tangent = 0.;
+        *tangent = Symmetric4();
       if (!material.viscosity.is_active())
         return;
       ViscousTangent<dim, Lanes> of_viscosity;
