@@ -21,10 +21,7 @@ public:
   static Ricochet::SchemeTraits
   traits()
   {
-    return {"backward Euler",
-            /* contact_over_step */ false,
-            /* needs_potential */ false,
-            /* gives_rates */ true};
+    return Ricochet::SchemeTraits::at_instants_with_rates("backward Euler");
   }
 
   static std::string

@@ -128,10 +128,19 @@ namespace Ricochet
     force += product;
     if (!has_damping)
       return;
-    work = new_solution;
-    work -= old_solution;
-    damping.vmult(product, work);
+    apply_damping(old_solution, new_solution);
     force.add(1. / time_step, product);
+  }
+
+
+
+  template <int dim>
+  void
+  BulkOnSprings<dim>::apply_damping(const Vector &begin, const Vector &end) const
+  {
+    work = end;
+    work -= begin;
+    damping.vmult(product, work);
   }
 
 
@@ -169,9 +178,7 @@ namespace Ricochet
       result = 0.;
     if (!has_damping)
       return;
-    work = solution;
-    work -= rate_origin;
-    damping.vmult(product, work);
+    apply_damping(rate_origin, solution);
     result.add(1. / rate_time, product);
   }
 
@@ -277,9 +284,7 @@ namespace Ricochet
       bulk->viscous_dissipation(old_solution, new_solution, time_step);
     if (has_damping)
       {
-        work = new_solution;
-        work -= old_solution;
-        damping.vmult(product, work);
+        apply_damping(old_solution, new_solution);
         taken += (product * work) / time_step;
       }
     return taken;

@@ -135,6 +135,10 @@ namespace Ricochet
     }
 
   private:
+    /// #product = damping times the difference @p end - @p begin, which is left in #work.
+    void
+    apply_damping(const Vector &begin, const Vector &end) const;
+
     const std::unique_ptr<BulkOperator> bulk;
     const std::vector<unsigned int>     part_of_unknown;
     const MPI_Comm                      communicator;

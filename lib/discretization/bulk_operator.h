@@ -62,13 +62,19 @@ namespace Ricochet
 
     /// @p tangent += @p factor times the derivative of viscous_force() with respect to
     /// the solution, by which the velocity changes, too.
+    /// @pre is_viscous()
     virtual void
-    add_viscous_tangent(const double /*factor*/,
+    add_viscous_tangent(const double factor,
                         const Vector & /*rate_origin*/,
                         const Vector & /*solution*/,
-                        const double /*rate_time*/,
-                        Matrix & /*tangent*/) const
-    {}
+                        const double rate_time,
+                        Matrix      &tangent) const
+    {
+      AssertThrow(is_linear() && is_viscous(),
+                  dealii::ExcMessage("This body has no viscous tangent."));
+      for (const MatrixTerm &term : viscous_tangent_terms(factor, rate_time))
+        term.matrix->add_to(term.weight, tangent);
+    }
 
     /// The terms of add_viscous_tangent() for a linear body.
     virtual MatrixSum

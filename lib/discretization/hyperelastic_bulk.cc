@@ -879,21 +879,24 @@ namespace Ricochet
                                              const double  rate_time,
                                              Matrix       &tangent) const
   {
-    for (const bool with_c : {false, true})
-      if (!with_c ||
-          std::any_of(materials.begin(),
-                      materials.end(),
-                      [](const Material<dim> &material) {
-                        return material.viscosity.law ==
-                          Viscosity::Law::pioletti;
-                      }))
-        add_matrix(factor,
-                   with_c ? Increment::strain_of_rate() : Increment::of_rate(),
-                   rate_stress(rate_time, with_c),
-                   rate_origin,
-                   solution,
-                   tangent,
-                   nullptr);
+    // The stress depends on the rate of C and, with Pioletti's law, on C itself; their
+    // trial gradients differ.
+    const auto add = [&](const Increment &increment, const bool with_c) {
+      add_matrix(factor,
+                 increment,
+                 rate_stress(rate_time, with_c),
+                 rate_origin,
+                 solution,
+                 tangent,
+                 nullptr);
+    };
+    add(Increment::of_rate(), false);
+    if (std::any_of(materials.begin(),
+                    materials.end(),
+                    [](const Material<dim> &material) {
+                      return material.viscosity.law == Viscosity::Law::pioletti;
+                    }))
+      add(Increment::strain_of_rate(), true);
   }
 
 

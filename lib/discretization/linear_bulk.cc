@@ -238,11 +238,20 @@ namespace Ricochet
     stiffness.vmult(force, work);
     if (has_viscosity)
       {
-        copy_values(new_solution, work);
-        work -= old_solution;
-        viscosity_matrix.vmult(product, work);
+        apply_viscosity(old_solution, new_solution);
         force.add(1. / time_step, product);
       }
+  }
+
+
+
+  template <int dim>
+  void
+  LinearBulk<dim>::apply_viscosity(const Vector &begin, const Vector &end) const
+  {
+    copy_values(end, work);
+    work -= begin;
+    viscosity_matrix.vmult(product, work);
   }
 
 
@@ -254,22 +263,8 @@ namespace Ricochet
                                  const double  rate_time,
                                  Vector       &result) const
   {
-    entries(work) = (entries(solution) - entries(rate_origin)) / rate_time;
-    viscosity_matrix.vmult(result, work);
-  }
-
-
-
-  template <int dim>
-  void
-  LinearBulk<dim>::add_viscous_tangent(const double factor,
-                                       const Vector & /*rate_origin*/,
-                                       const Vector & /*solution*/,
-                                       const double rate_time,
-                                       Matrix      &tangent) const
-  {
-    for (const MatrixTerm &term : viscous_tangent_terms(factor, rate_time))
-      term.matrix->add_to(term.weight, tangent);
+    apply_viscosity(rate_origin, solution);
+    result.equ(1. / rate_time, product);
   }
 
 
@@ -410,9 +405,7 @@ namespace Ricochet
   {
     if (!has_viscosity)
       return 0.;
-    work = new_solution;
-    work -= old_solution;
-    viscosity_matrix.vmult(product, work);
+    apply_viscosity(old_solution, new_solution);
     return (product * work) / time_step;
   }
 

@@ -77,13 +77,6 @@ namespace Ricochet
                   const double  rate_time,
                   Vector       &result) const override;
 
-    void
-    add_viscous_tangent(const double  factor,
-                        const Vector &rate_origin,
-                        const Vector &solution,
-                        const double  rate_time,
-                        Matrix       &tangent) const override;
-
     MatrixSum
     viscous_tangent_terms(const double factor,
                           const double rate_time) const override;
@@ -111,6 +104,11 @@ namespace Ricochet
     /// its differences.
     void
     remove_translation() const;
+
+    /// #product = viscosity matrix times the difference @p end - @p begin, which is left
+    /// in #work.
+    void
+    apply_viscosity(const Vector &begin, const Vector &end) const;
 
     /// Displacements of this rank that follow each other: those of one part, of one
     /// component after the other.

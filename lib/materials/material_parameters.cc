@@ -148,17 +148,13 @@ namespace Ricochet
                        : "none, Curnier, Pioletti (the linear one is not "
                          "invariant under rotations)."));
     if (!scheme_traits(scheme).has_rates())
-      {
-        std::string allowed;
-        for (const SchemeTraits &other : all_scheme_traits())
-          if (other.has_rates())
-            allowed += (allowed.empty() ? "" : ", ") + other.name;
-        throw InputError("Viscosity cannot be combined with the time scheme '" +
-                         scheme +
-                         "', whose forces are functions of the "
-                         "displacement.\nAllowed with it: " +
-                         allowed + ".");
-      }
+      throw InputError("Viscosity cannot be combined with the time scheme '" +
+                       scheme +
+                       "', whose forces are functions of the "
+                       "displacement.\nAllowed with it: " +
+                       names_of_schemes(
+                         [](const SchemeTraits &s) { return s.has_rates(); }) +
+                       ".");
   }
 
 

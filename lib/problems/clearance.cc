@@ -56,21 +56,32 @@ namespace Ricochet
 
 
   void
-  check_motions(const SchemeTraits &scheme, const Obstacles &obstacles)
+  check_motions(const SchemeTraits &scheme,
+                const Obstacles    &obstacles,
+                const bool          with_friction)
   {
-    if (!scheme.needs_potential)
+    if (std::all_of(obstacles.begin(), obstacles.end(), [](const auto &entry) {
+          return entry.second->motion().is_at_rest();
+        }))
       return;
-    std::string allowed;
-    for (const SchemeTraits &other : all_scheme_traits())
-      if (!other.needs_potential)
-        allowed += (allowed.empty() ? "" : ", ") + other.name;
-    for (const auto &entry : obstacles)
-      if (!entry.second->motion().is_at_rest())
-        throw InputError(
-          "The time scheme " + scheme.name +
-          " cannot be combined with an obstacle that moves: it "
-          "reads the work of contact off a potential.\nAllowed: " +
-          allowed + ".");
+    if (scheme.needs_potential)
+      throw InputError(
+        "The time scheme " + scheme.name +
+        " cannot be combined with an obstacle that moves: it "
+        "reads the work of contact off a potential.\nAllowed: " +
+        names_of_schemes(
+          [](const SchemeTraits &s) { return !s.needs_potential; }) +
+        ".");
+    if (with_friction && !scheme.contact_over_step)
+      throw InputError(
+        "Friction on an obstacle that moves cannot be combined with the time "
+        "scheme '" +
+        scheme.name +
+        "': its slip is known over a step between two states, not at an "
+        "instant.\nAllowed with it: " +
+        names_of_schemes(
+          [](const SchemeTraits &s) { return s.contact_over_step; }) +
+        ".");
   }
 
 

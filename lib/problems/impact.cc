@@ -665,9 +665,10 @@ namespace Ricochet
              follower.get())
     , scheme(make_time_scheme(parameters.scheme))
   {
-    check_motions(scheme_traits(parameters.scheme.name), obstacles);
-    if (is_moved(setup) &&
-        !scheme_traits(parameters.scheme.name).contact_over_step)
+    const SchemeTraits traits = scheme_traits(parameters.scheme.name);
+    for (const Contact &one : contacts)
+      check_motions(traits, one.obstacles, has_friction(one.parameters));
+    if (is_moved(setup) && !traits.contact_over_step)
       throw InputError(
         "An imposed displacement cannot be combined with the time "
         "scheme '" +

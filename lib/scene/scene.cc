@@ -191,9 +191,6 @@ namespace Ricochet
           (material.viscosity != "none" && material.viscosity_eta > 0.);
       }
 
-    for (const auto &obstacle : obstacles)
-      check_motions(scheme_traits(impact.scheme.name),
-                    {{0, obstacle.second.make(impact.time.final_time)}});
     find_missing_values();
     for (const ContactSection &contact : contacts)
       {
@@ -205,6 +202,11 @@ namespace Ricochet
                               impact.redistributed_mass(),
                               is_linear,
                               is_viscous);
+            for (const unsigned int k : touching.obstacles)
+              check_motions(
+                scheme_traits(impact.scheme.name),
+                {{0, obstacles[k].second.make(impact.time.final_time)}},
+                has_friction(contact.parameters));
             if (touching.obstacles.empty())
               check_pair_combination(contact.parameters,
                                      scheme_traits(impact.scheme.name),

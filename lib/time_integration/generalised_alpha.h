@@ -47,7 +47,7 @@ namespace Ricochet
     static SchemeTraits
     traits()
     {
-      return traits_named("generalised-alpha");
+      return SchemeTraits::at_instants_with_rates("generalised-alpha");
     }
 
     static std::string
@@ -83,17 +83,6 @@ namespace Ricochet
          const double        time_step,
          State              &new_state) override;
 
-  protected:
-    /// The traits of all schemes of this family.
-    static SchemeTraits
-    traits_named(const std::string &name)
-    {
-      SchemeTraits traits;
-      traits.name        = name;
-      traits.gives_rates = true;
-      return traits;
-    }
-
   private:
     static Coefficients
     of_radius(const double radius)
@@ -112,8 +101,10 @@ namespace Ricochet
 
 
 
-  /// The common terms of the energy balance of schemes with collocated forces:
-  /// external work and work against contact by the trapezoidal rule.
+  /// The common terms of the energy balance of schemes whose forces are those of
+  /// instants: external work, work against contact and friction, and viscous dissipation
+  /// by the trapezoidal rule, i.e. the mean of both forces times the increment of
+  /// displacement. Terms of contact, friction and viscosity may have either sign.
   void
   add_trapezoidal_works(const SemiDiscreteSystem &system,
                         const State              &old_state,

@@ -30,7 +30,7 @@ namespace Ricochet
     static SchemeTraits
     traits()
     {
-      return traits_named("HHT");
+      return SchemeTraits::at_instants_with_rates("HHT");
     }
 
     static std::string
@@ -73,7 +73,7 @@ namespace Ricochet
     static SchemeTraits
     traits()
     {
-      return traits_named("Crank-Nicolson");
+      return SchemeTraits::at_instants_with_rates("Crank-Nicolson");
     }
 
     static std::string

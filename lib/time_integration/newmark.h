@@ -18,7 +18,7 @@ namespace Ricochet
     static SchemeTraits
     traits()
     {
-      return traits_named("Newmark");
+      return SchemeTraits::at_instants_with_rates("Newmark");
     }
 
     static std::string

@@ -2,6 +2,7 @@
 #ifndef ricochet_time_integration_scheme_traits_h
 #define ricochet_time_integration_scheme_traits_h
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,16 @@ namespace Ricochet
     /// viscosity depend (Stage::rate_origin); needless where contact acts over a step.
     bool gives_rates = false;
 
+    /// Those of a scheme whose contact acts at instants and which knows the velocity there.
+    static SchemeTraits
+    at_instants_with_rates(const std::string &name)
+    {
+      SchemeTraits traits;
+      traits.name        = name;
+      traits.gives_rates = true;
+      return traits;
+    }
+
     /// Whether friction and viscosity are possible.
     bool
     has_rates() const
@@ -34,6 +45,10 @@ namespace Ricochet
   /// All schemes, in the order of their table.
   std::vector<SchemeTraits>
   all_scheme_traits();
+
+  /// The names of the schemes that are @p good, with commas, for messages.
+  std::string
+  names_of_schemes(const std::function<bool(const SchemeTraits &)> &good);
 
   /// The traits of the scheme @p name.
   SchemeTraits

@@ -343,6 +343,9 @@ namespace Ricochet
                                   const State &old_state,
                                   State       &new_state)
   {
+    AssertThrow(stage.bulk_step_force || stage.rate_time > 0. || !needs_rates(),
+                ExcMessage("A time scheme that declares gives_rates has to set "
+                           "Stage::rate_origin and rate_time."));
     Vector      &solution = new_state.solution;
     StageProblem problem({mass,
                           bulk,

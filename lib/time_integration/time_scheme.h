@@ -40,7 +40,7 @@ namespace Ricochet
     /// Work against friction (J); never negative in schemes whose contact acts over a
     /// step.
     double friction_work = 0.;
-    /// Viscous dissipation (J); never negative.
+    /// Viscous dissipation (J); never negative in schemes whose contact acts over a step.
     double viscous_dissipation = 0.;
     /// Energy dissipated by the scheme (J); negative if it adds some.
     double numerical_dissipation = 0.;

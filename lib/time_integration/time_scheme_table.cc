@@ -46,6 +46,18 @@ namespace Ricochet
 
 
 
+  std::string
+  names_of_schemes(const std::function<bool(const SchemeTraits &)> &good)
+  {
+    std::string names;
+    for (const SchemeTraits &scheme : all_scheme_traits())
+      if (good(scheme))
+        names += (names.empty() ? "" : ", ") + scheme.name;
+    return names;
+  }
+
+
+
   void
   register_time_scheme(const TimeSchemeEntry &entry)
   {

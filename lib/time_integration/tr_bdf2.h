@@ -18,10 +18,7 @@ namespace Ricochet
     static SchemeTraits
     traits()
     {
-      return {"TR-BDF2",
-              /* contact_over_step */ false,
-              /* needs_potential */ false,
-              /* gives_rates */ true};
+      return SchemeTraits::at_instants_with_rates("TR-BDF2");
     }
 
     static std::string

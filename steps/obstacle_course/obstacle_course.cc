@@ -252,7 +252,8 @@ ObstacleCourse::validate() const
   impact.validate(material.is_linear(),
                   material.viscosity != "none" && material.viscosity_eta > 0.);
   check_motions(scheme_traits(impact.scheme.name),
-                {{surface, obstacle.make(impact.time.final_time)}});
+                {{surface, obstacle.make(impact.time.final_time)}},
+                has_friction(impact.contact));
   impact.check_size(2. * n_boundary_nodes * n_boundary_nodes / 8., 2);
   Triangulation<2> triangulation;
   make_grid(triangulation);

@@ -324,7 +324,7 @@ namespace Ricochet
       throw InputError(
         "Constraints in the nodes need nodes that can move: the contact "
         "boundary and the held boundary share some. They may where the held "
-        "component lies in the plane of an obstacle at rest, as on a plane of "
+        "component is tangential to a plane obstacle at rest, as on a plane of "
         "symmetry. Leave a part of the boundary free between them, or take a "
         "treatment that is a law: normal compliance, or one that integrates "
         "over the boundary.");

@@ -123,6 +123,10 @@ namespace Ricochet
   bool
   is_constraint(const ContactParameters &parameters);
 
+  /// Whether there is friction.
+  bool
+  has_friction(const ContactParameters &parameters);
+
   /// Whether the treatment uses the stress of the body at the surface.
   bool
   uses_stress(const ContactParameters &parameters);

@@ -143,13 +143,20 @@ namespace Ricochet
     {
       return friction_table()[parameters.friction_law];
     }
+  } // namespace
 
-    bool
-    has_friction(const ContactParameters &parameters)
-    {
-      return find_friction(parameters).absent(parameters.values).empty();
-    }
 
+
+  bool
+  has_friction(const ContactParameters &parameters)
+  {
+    return find_friction(parameters).absent(parameters.values).empty();
+  }
+
+
+
+  namespace
+  {
     RegularisedFriction
     make_friction(const ContactParameters &parameters)
     {
@@ -347,17 +354,6 @@ namespace Ricochet
     {
       return names_of_treatments(
         [&](const Treatment &treatment) { return good(treatment.traits); });
-    }
-
-    /// The names of all schemes that are good.
-    std::string
-    names_of_schemes(const std::function<bool(const SchemeTraits &)> &good)
-    {
-      std::vector<std::string> names;
-      for (const SchemeTraits &scheme : all_scheme_traits())
-        if (good(scheme))
-          names.push_back(scheme.name);
-      return join(names);
     }
 
     /// The laws that give a differential equation with a potential, with the choices
