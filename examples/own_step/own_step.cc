@@ -44,18 +44,20 @@ main(int argc, char **argv)
   // Parameters of the file, with this program's defaults.
   ImpactParameters   impact;
   MaterialParameters material;
-  double             height             = .1;
-  impact.time.final_time                = .5;
-  impact.time.time_step                 = 5e-3;
-  impact.scheme.name                    = "midpoint";
-  impact.contact.treatment              = "persistent contact";
-  impact.contact.values["Augmentation"] = 1e6;
-  material.law                          = "neo-Hookean";
-  material.plane_state                  = "plane strain";
-  material.density                      = 1000.;
-  material.values["Young modulus"]      = 1e6;
-  material.values["Poisson ratio"]      = .3;
-  const auto add_parameters             = [&](ParameterHandler &parameters) {
+  double             height        = .1;
+  impact.time.final_time           = .5;
+  impact.time.time_step            = 5e-3;
+  impact.scheme.name               = "midpoint";
+  impact.contact.treatment         = "persistent contact";
+  material.law                     = "neo-Hookean";
+  material.plane_state             = "plane strain";
+  material.density                 = 1000.;
+  material.values["Young modulus"] = 1e6;
+  material.values["Poisson ratio"] = .3;
+  // Stiffnesses of contact that the user does not set are 0 here, and follow from the
+  // material and the mesh below.
+  impact.contact.leave_open();
+  const auto add_parameters = [&](ParameterHandler &parameters) {
     impact.add_parameters(parameters);
     material.add_parameters(parameters);
     parameters.enter_subsection("Start");
@@ -69,6 +71,8 @@ main(int argc, char **argv)
   // Checks before any time is spent.
   const auto validate = [&]() {
     material.validate(2, impact.scheme.name);
+    constexpr double cell_diameter = .177;
+    impact.contact.set_missing(material.scales(cell_diameter, /* degree */ 1));
     impact.validate(material.is_linear(), material.viscosity_eta > 0.);
   };
 

@@ -37,9 +37,11 @@ namespace Ricochet
         else
           AssertThrow(same->documentation() == parameter.documentation() &&
                         same->default_value == parameter.default_value,
-                      ExcMessage("Two laws declare the parameter '" +
-                                 parameter.name +
-                                 "' and say different things of it."));
+                      ExcMessage("The parameter '" + parameter.name +
+                                 "' is declared twice, with different texts or "
+                                 "defaults: for " +
+                                 same->owner + " and for " + parameter.owner +
+                                 "."));
       }
   }
 

@@ -18,9 +18,6 @@ namespace Ricochet
   /// Distributed sparse matrix on the same unknowns.
   using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-  /// Some unknowns, of any ranks.
-  using UnknownList = std::vector<dealii::types::global_dof_index>;
-
   class BodyMatrix;
 
   /// A matrix, and its factor in a sum.

@@ -103,12 +103,11 @@ namespace Ricochet
 
   template <int dim>
   void
-  BulkOnSprings<dim>::add_tangent(const double       factor,
-                                  const Vector      &solution,
-                                  Matrix            &tangent,
-                                  const UnknownList *near) const
+  BulkOnSprings<dim>::add_tangent(const double  factor,
+                                  const Vector &solution,
+                                  Matrix       &tangent) const
   {
-    bulk->add_tangent(factor, solution, tangent, near);
+    bulk->add_tangent(factor, solution, tangent);
     stiffness.add_to(factor, tangent);
   }
 
@@ -136,7 +135,8 @@ namespace Ricochet
 
   template <int dim>
   void
-  BulkOnSprings<dim>::apply_damping(const Vector &begin, const Vector &end) const
+  BulkOnSprings<dim>::apply_damping(const Vector &begin,
+                                    const Vector &end) const
   {
     work = end;
     work -= begin;
@@ -147,17 +147,12 @@ namespace Ricochet
 
   template <int dim>
   void
-  BulkOnSprings<dim>::add_step_tangent(const Vector      &old_solution,
-                                       const Vector      &new_solution,
-                                       const double       time_step,
-                                       Matrix            &tangent,
-                                       const UnknownList *near) const
+  BulkOnSprings<dim>::add_step_tangent(const Vector &old_solution,
+                                       const Vector &new_solution,
+                                       const double  time_step,
+                                       Matrix       &tangent) const
   {
-    bulk->add_step_tangent(old_solution,
-                           new_solution,
-                           time_step,
-                           tangent,
-                           near);
+    bulk->add_step_tangent(old_solution, new_solution, time_step, tangent);
     stiffness.add_to(.5, tangent);
     if (has_damping)
       damping.add_to(1. / time_step, tangent);

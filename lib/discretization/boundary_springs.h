@@ -46,10 +46,9 @@ namespace Ricochet
     force(const Vector &solution, Vector &force) const override;
 
     void
-    add_tangent(const double       factor,
-                const Vector      &solution,
-                Matrix            &tangent,
-                const UnknownList *near = nullptr) const override;
+    add_tangent(const double  factor,
+                const Vector &solution,
+                Matrix       &tangent) const override;
 
     void
     step_force(const Vector &old_solution,
@@ -58,11 +57,10 @@ namespace Ricochet
                Vector       &force) const override;
 
     void
-    add_step_tangent(const Vector      &old_solution,
-                     const Vector      &new_solution,
-                     const double       time_step,
-                     Matrix            &tangent,
-                     const UnknownList *near = nullptr) const override;
+    add_step_tangent(const Vector &old_solution,
+                     const Vector &new_solution,
+                     const double  time_step,
+                     Matrix       &tangent) const override;
 
     MatrixSum
     tangent_terms(const double factor) const override;

@@ -33,13 +33,10 @@ namespace Ricochet
     force(const Vector &solution, Vector &force) const = 0;
 
     /// @p tangent += @p factor times the derivative of force().
-    /// @param near if there are any, cells that have none of these unknowns may be left
-    /// out: their rows and columns are whole nevertheless.
     virtual void
-    add_tangent(const double       factor,
-                const Vector      &solution,
-                Matrix            &tangent,
-                const UnknownList *near = nullptr) const = 0;
+    add_tangent(const double  factor,
+                const Vector &solution,
+                Matrix       &tangent) const = 0;
 
     /// Whether there are viscous forces.
     virtual bool
@@ -64,17 +61,11 @@ namespace Ricochet
     /// the solution, by which the velocity changes, too.
     /// @pre is_viscous()
     virtual void
-    add_viscous_tangent(const double factor,
-                        const Vector & /*rate_origin*/,
-                        const Vector & /*solution*/,
-                        const double rate_time,
-                        Matrix      &tangent) const
-    {
-      AssertThrow(is_linear() && is_viscous(),
-                  dealii::ExcMessage("This body has no viscous tangent."));
-      for (const MatrixTerm &term : viscous_tangent_terms(factor, rate_time))
-        term.matrix->add_to(term.weight, tangent);
-    }
+    add_viscous_tangent(const double  factor,
+                        const Vector &rate_origin,
+                        const Vector &solution,
+                        const double  rate_time,
+                        Matrix       &tangent) const;
 
     /// The terms of add_viscous_tangent() for a linear body.
     virtual MatrixSum
@@ -93,13 +84,12 @@ namespace Ricochet
                Vector       &force) const = 0;
 
     /// @p tangent += the derivative of step_force() with respect to the new
-    /// solution. @param near as for add_tangent().
+    /// solution.
     virtual void
-    add_step_tangent(const Vector      &old_solution,
-                     const Vector      &new_solution,
-                     const double       time_step,
-                     Matrix            &tangent,
-                     const UnknownList *near = nullptr) const = 0;
+    add_step_tangent(const Vector &old_solution,
+                     const Vector &new_solution,
+                     const double  time_step,
+                     Matrix       &tangent) const = 0;
 
     /// The terms of add_tangent() for a linear body; the matrices live as long
     /// as this object. Empty if the body is not linear.

@@ -250,8 +250,6 @@ namespace Ricochet
     const MatrixEntries    entries(matrix);
     constexpr unsigned int n_lanes = Lanes::size();
     const unsigned int     n       = dim * n_nodes;
-    all_batches.resize(n_batches);
-    std::iota(all_batches.begin(), all_batches.end(), 0);
     matrix_entry.reserve(n_batches * n * n * n_lanes);
     std::vector<int> column(n * n_lanes);
     for (unsigned int batch = 0; batch < n_batches; ++batch)
@@ -506,11 +504,10 @@ namespace Ricochet
   void
   HyperelasticBulk<dim>::add_matrices(
     const CellSize<n_points_of_cell, n_nodes_of_cell> /*size*/,
-    const double                     factor,
-    const Increment                 &increment,
-    const StressFunction            &stress_function,
-    double                          *values,
-    const std::vector<unsigned int> &batches) const
+    const double          factor,
+    const Increment      &increment,
+    const StressFunction &stress_function,
+    double               *values) const
   {
     const unsigned int n_points =
       n_points_of_cell > 0 ? n_points_of_cell : this->n_points;
@@ -524,7 +521,7 @@ namespace Ricochet
     Symmetric2             old_c, change, stress;
     Symmetric4             stress_derivative;
     Lanes                  moduli[n_c][n_c];
-    for (const unsigned int batch : batches)
+    for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
         const Material<dim> &material = materials[batch_part[batch]];
         gather(batch, n_nodes);
@@ -610,44 +607,14 @@ namespace Ricochet
                                     const StressFunction &stress_function,
                                     const Vector         &old_solution,
                                     const Vector         &new_solution,
-                                    Matrix               &tangent,
-                                    const UnknownList    *near) const
+                                    Matrix               &tangent) const
   {
     import_ghosts(old_solution, new_solution);
     double *const values = entry_values(tangent);
 
-    std::vector<unsigned int> some_batches;
-    if (near)
-      some_batches = batches_near(*near);
     with_cell_size([&](const auto size) {
-      add_matrices(size,
-                   factor,
-                   increment,
-                   stress_function,
-                   values,
-                   near ? some_batches : all_batches);
+      add_matrices(size, factor, increment, stress_function, values);
     });
-  }
-
-
-
-  template <int dim>
-  std::vector<unsigned int>
-  HyperelasticBulk<dim>::batches_near(const UnknownList &unknowns) const
-  {
-    std::vector<bool> is_near(ghosted_new.size(), false);
-    for (const types::global_dof_index unknown : unknowns)
-      if (const int index = ghosted_new.local_index(unknown); index >= 0)
-        is_near[index] = true;
-    const std::size_t         size = n_nodes * dim * Lanes::size();
-    std::vector<unsigned int> batches;
-    for (const unsigned int batch : all_batches)
-      if (const auto index = ghosted_index.begin() + batch * size;
-          std::any_of(index, index + size, [&](const int i) {
-            return is_near[i];
-          }))
-        batches.push_back(batch);
-    return batches;
   }
 
 
@@ -791,18 +758,16 @@ namespace Ricochet
 
   template <int dim>
   void
-  HyperelasticBulk<dim>::add_tangent(const double       factor,
-                                     const Vector      &solution,
-                                     Matrix            &tangent,
-                                     const UnknownList *near) const
+  HyperelasticBulk<dim>::add_tangent(const double  factor,
+                                     const Vector &solution,
+                                     Matrix       &tangent) const
   {
     add_matrix(factor,
                Increment::none(),
                collocation_stress(),
                solution,
                solution,
-               tangent,
-               near);
+               tangent);
   }
 
 
@@ -825,19 +790,17 @@ namespace Ricochet
 
   template <int dim>
   void
-  HyperelasticBulk<dim>::add_step_tangent(const Vector      &old_solution,
-                                          const Vector      &new_solution,
-                                          const double       time_step,
-                                          Matrix            &tangent,
-                                          const UnknownList *near) const
+  HyperelasticBulk<dim>::add_step_tangent(const Vector &old_solution,
+                                          const Vector &new_solution,
+                                          const double  time_step,
+                                          Matrix       &tangent) const
   {
     add_matrix(1.,
                Increment::of_step(),
                step_stress(time_step),
                old_solution,
                new_solution,
-               tangent,
-               near);
+               tangent);
   }
 
 
@@ -887,8 +850,7 @@ namespace Ricochet
                  rate_stress(rate_time, with_c),
                  rate_origin,
                  solution,
-                 tangent,
-                 nullptr);
+                 tangent);
     };
     add(Increment::of_rate(), false);
     if (std::any_of(materials.begin(),

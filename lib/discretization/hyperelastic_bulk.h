@@ -42,10 +42,9 @@ namespace Ricochet
     force(const Vector &solution, Vector &force) const override;
 
     void
-    add_tangent(const double       factor,
-                const Vector      &solution,
-                Matrix            &tangent,
-                const UnknownList *near = nullptr) const override;
+    add_tangent(const double  factor,
+                const Vector &solution,
+                Matrix       &tangent) const override;
 
     void
     step_force(const Vector &old_solution,
@@ -54,11 +53,10 @@ namespace Ricochet
                Vector       &force) const override;
 
     void
-    add_step_tangent(const Vector      &old_solution,
-                     const Vector      &new_solution,
-                     const double       time_step,
-                     Matrix            &tangent,
-                     const UnknownList *near = nullptr) const override;
+    add_step_tangent(const Vector &old_solution,
+                     const Vector &new_solution,
+                     const double  time_step,
+                     Matrix       &tangent) const override;
 
     double
     energy(const Vector &solution) const override;
@@ -216,8 +214,7 @@ namespace Ricochet
                const StressFunction &stress,
                const Vector         &old_solution,
                const Vector         &new_solution,
-               Matrix               &tangent,
-               const UnknownList    *near) const;
+               Matrix               &tangent) const;
 
     /// The loop of add_matrix().
     template <unsigned int n_points_of_cell,
@@ -228,12 +225,7 @@ namespace Ricochet
                  const double                                      factor,
                  const Increment                                  &increment,
                  const StressFunction                             &stress,
-                 double                                           *values,
-                 const std::vector<unsigned int> &batches) const;
-
-    /// The batches with a cell that has one of these unknowns.
-    std::vector<unsigned int>
-    batches_near(const UnknownList &unknowns) const;
+                 double *values) const;
 
     /// Sum over the owned cells of @p density, a function of the material, C_old
     /// and the difference of C, on all ranks and for each part.
@@ -302,8 +294,7 @@ namespace Ricochet
     std::vector<int> ghosted_index, owned_index;
     // Where the entry of two displacements of a cell lies in the values of the
     // matrix; -1 in rows of other ranks.
-    std::vector<int>          matrix_entry;
-    std::vector<unsigned int> all_batches;
+    std::vector<int> matrix_entry;
 
     // Work space, so that nothing is allocated in a time step: displacements of a batch
     // relative to the first node, and their changes.

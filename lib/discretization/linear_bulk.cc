@@ -208,8 +208,7 @@ namespace Ricochet
   void
   LinearBulk<dim>::add_tangent(const double factor,
                                const Vector & /*solution*/,
-                               Matrix &tangent,
-                               const UnknownList * /*near*/) const
+                               Matrix &tangent) const
   {
     for (const MatrixTerm &term : tangent_terms(factor))
       term.matrix->add_to(term.weight, tangent);
@@ -284,8 +283,7 @@ namespace Ricochet
   LinearBulk<dim>::add_step_tangent(const Vector & /*old_solution*/,
                                     const Vector & /*new_solution*/,
                                     const double time_step,
-                                    Matrix      &tangent,
-                                    const UnknownList * /*near*/) const
+                                    Matrix      &tangent) const
   {
     for (const MatrixTerm &term : step_tangent_terms(time_step))
       term.matrix->add_to(term.weight, tangent);

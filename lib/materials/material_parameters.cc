@@ -148,13 +148,12 @@ namespace Ricochet
                        : "none, Curnier, Pioletti (the linear one is not "
                          "invariant under rotations)."));
     if (!scheme_traits(scheme).has_rates())
-      throw InputError("Viscosity cannot be combined with the time scheme '" +
-                       scheme +
-                       "', whose forces are functions of the "
-                       "displacement.\nAllowed with it: " +
-                       names_of_schemes(
-                         [](const SchemeTraits &s) { return s.has_rates(); }) +
-                       ".");
+      throw InputError(
+        "Viscosity cannot be combined with the time scheme '" + scheme +
+        "', whose forces are functions of the "
+        "displacement.\nAllowed with it: " +
+        names_of_schemes([](const SchemeTraits &s) { return s.has_rates(); }) +
+        ".");
   }
 
 
@@ -163,6 +162,22 @@ namespace Ricochet
   MaterialParameters::at_small_strains() const
   {
     return material_table()[law].at_small_strains(values);
+  }
+
+
+
+  Scales
+  MaterialParameters::scales(const double       cell_diameter,
+                             const unsigned int degree) const
+  {
+    const LinearElastic elastic      = at_small_strains();
+    const double        wave_modulus = elastic.lambda + 2. * elastic.mu;
+    return {elastic.mu * (3. * elastic.lambda + 2. * elastic.mu) /
+              (elastic.lambda + elastic.mu),
+            wave_modulus,
+            density,
+            cell_diameter,
+            degree};
   }
 
 

@@ -60,6 +60,11 @@ namespace Ricochet
     LinearElastic
     at_small_strains() const;
 
+    /// What the values of contact are measured by that the user has not set.
+    /// @param cell_diameter mean diameter of the cells at the surface (m).
+    Scales
+    scales(const double cell_diameter, const unsigned int degree) const;
+
   private:
     /// Parameters of all laws.
     static OwnParameters

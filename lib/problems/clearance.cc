@@ -65,13 +65,13 @@ namespace Ricochet
         }))
       return;
     if (scheme.needs_potential)
-      throw InputError(
-        "The time scheme " + scheme.name +
-        " cannot be combined with an obstacle that moves: it "
-        "reads the work of contact off a potential.\nAllowed: " +
-        names_of_schemes(
-          [](const SchemeTraits &s) { return !s.needs_potential; }) +
-        ".");
+      throw InputError("The time scheme " + scheme.name +
+                       " cannot be combined with an obstacle that moves: it "
+                       "reads the work of contact off a potential.\nAllowed: " +
+                       names_of_schemes([](const SchemeTraits &s) {
+                         return !s.needs_potential;
+                       }) +
+                       ".");
     if (with_friction && !scheme.contact_over_step)
       throw InputError(
         "Friction on an obstacle that moves cannot be combined with the time "

@@ -526,16 +526,9 @@ namespace Ricochet
         Scales           scales{largest, largest, 0., sum / n, degree};
         for (const unsigned int p : partners)
           {
-            const LinearElastic elastic = parts[p].material.at_small_strains();
-            const double        young   = elastic.mu *
-              (3. * elastic.lambda + 2. * elastic.mu) /
-              (elastic.lambda + elastic.mu);
-            if (young < scales.young_modulus)
-              {
-                scales.young_modulus = young;
-                scales.wave_modulus  = elastic.lambda + 2. * elastic.mu;
-                scales.density       = parts[p].material.density;
-              }
+            const Scales own = parts[p].material.scales(sum / n, degree);
+            if (own.young_modulus < scales.young_modulus)
+              scales = own;
           }
         contact.parameters.set_missing(scales);
         for (const auto &[name, value] : contact.parameters.used_values())

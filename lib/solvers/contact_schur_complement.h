@@ -48,20 +48,6 @@ namespace Ricochet
     void
     factorise(const Tangent &tangent);
 
-    /// The matrix K.
-    const Matrix &
-    body_matrix() const
-    {
-      return matrix;
-    }
-
-    /// The contact Jacobian H.
-    const Functionals &
-    rows() const
-    {
-      return jacobian;
-    }
-
     unsigned int
     n_rows() const
     {

@@ -163,9 +163,7 @@ namespace Ricochet
 
 
   void
-  ForceMixing::next(const Vector                                     &residual,
-                    Vector                                           &step,
-                    const std::function<void(std::vector<double> &)> &complete)
+  ForceMixing::next(const Vector &residual, Vector &step)
   {
     const double     *r = local_values(residual);
     const std::size_t n = residual.locally_owned_size();
@@ -173,7 +171,6 @@ namespace Ricochet
     // A plain step for the part of the residual outside of the changes, and
     // former steps for the part in their span.
     step_now.resize(n);
-    known_step.assign(n, 0.);
     for (std::size_t i = 0; i < n; ++i)
       step_now[i] = -r[i];
     std::vector<double> parts = products(residual_now, 0);
@@ -190,7 +187,7 @@ namespace Ricochet
         for (std::size_t i = 0; i < n; ++i)
           last_residual[i] = r[i] - last_residual[i];
         add(changes, minus_earlier, last_residual, parts, step_now);
-        add(steps, minus_earlier, last_step, minus_parts, known_step);
+        add(steps, minus_earlier, last_step, minus_parts, step_now);
         const double square = std::inner_product(last_residual.begin(),
                                                  last_residual.end(),
                                                  last_residual.begin(),
@@ -227,17 +224,10 @@ namespace Ricochet
             ++n_changes;
             const double part = products(residual_now, n_changes - 1)[0];
             for (std::size_t i = 0; i < n; ++i)
-              {
-                step_now[i] += part * change[i];
-                known_step[i] -= part * its_step[i];
-              }
+              step_now[i] += part * (change[i] - its_step[i]);
             parts.push_back(part);
           }
       }
-    if (complete)
-      complete(step_now);
-    for (std::size_t i = 0; i < n; ++i)
-      step_now[i] += known_step[i];
     last_residual.swap(residual_now);
     last_products.swap(parts);
     std::copy(step_now.begin(), step_now.end(), local_values(step));

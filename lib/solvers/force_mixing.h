@@ -4,7 +4,6 @@
 
 #include <base/types.h>
 
-#include <functional>
 #include <vector>
 
 namespace Ricochet
@@ -35,12 +34,8 @@ namespace Ricochet
 
     /// The step of the force from the iterate with this @p residual, written to
     /// @p step.
-    /// @param complete a linear function that improves a plain step in place;
-    /// null for none.
     void
-    next(const Vector                                     &residual,
-         Vector                                           &step,
-         const std::function<void(std::vector<double> &)> &complete = nullptr);
+    next(const Vector &residual, Vector &step);
 
   private:
     using Column = std::vector<float>;
@@ -68,7 +63,7 @@ namespace Ricochet
     bool                has_last = false;
     std::vector<double> last_residual, last_step, last_products;
     // Work space.
-    std::vector<double> residual_now, step_now, known_step;
+    std::vector<double> residual_now, step_now;
   };
 } // namespace Ricochet
 

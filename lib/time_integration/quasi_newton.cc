@@ -19,35 +19,15 @@ namespace Ricochet
     /// zero, round-off that stiff laws amplify may exceed the tolerance while the
     /// residual is large.
     constexpr double rest_of_contact = 1e-3;
-
-    /// Numbers of residuals at which a region with a changed tangent is chosen, and
-    /// chosen again; the first iterates are too far from the solution. The region costs
-    /// about three iterations, so that it is left out if only few are expected.
-    constexpr unsigned int first_look = 4, look_again = 12;
-    constexpr double       few_iterations = 6.;
   } // namespace
 
 
 
   bool
-  QuasiNewton::region_is_worth_while() const
-  {
-    const unsigned int n = history.size();
-    if (n < first_look || (n - first_look) % look_again != 0)
-      return false;
-    const double norm = history[n - 1].relative_residual,
-                 rate = std::sqrt(norm / history[n - 3].relative_residual);
-    return std::pow(rate, few_iterations) * norm > parameters.tolerance;
-  }
-
-
-
-  bool
-  QuasiNewton::solve(StageProblem                     &problem,
-                     const NewtonSolver::Problem      &newton_problem,
-                     NewtonSolver                     &condensed_newton,
-                     const StageProblem::TangentPoint &kept,
-                     Vector                           &solution)
+  QuasiNewton::solve(StageProblem                &problem,
+                     const NewtonSolver::Problem &newton_problem,
+                     NewtonSolver                &condensed_newton,
+                     Vector                      &solution)
   {
     if (residual.size() != solution.size())
       {
@@ -56,7 +36,6 @@ namespace Ricochet
       }
     history.clear();
     mixing.restart();
-    region.forget();
     while (true)
       {
         newton_problem.residual(solution, residual);
@@ -79,12 +58,7 @@ namespace Ricochet
         // Residuals are compared as forces, whatever the units of the multipliers'
         // equations.
         problem.rows_to_forces(residual);
-        if (region_is_worth_while())
-          problem.find_region(residual, kept, region);
-        mixing.next(residual, step, [this](std::vector<double> &force) {
-          if (region.exists())
-            region.complete(force);
-        });
+        mixing.next(residual, step);
         entries(step) *= -1.;
         problem.forces_to_rows(step);
         ++problem.report.newton_iterations;

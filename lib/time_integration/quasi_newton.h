@@ -4,7 +4,6 @@
 
 #include <solvers/force_mixing.h>
 #include <solvers/newton.h>
-#include <solvers/tangent_region.h>
 #include <time_integration/stage_problem.h>
 
 #include <vector>
@@ -20,8 +19,7 @@ namespace Ricochet
    *
    * for a step s of the force, which is a CondensedStage: Newton's method for the
    * coefficients of contact alone. Plain steps are s = R; ForceMixing (Anderson
-   * acceleration) makes better ones, and so does a TangentRegion, where the body's
-   * tangent is far from T. Whatever the contact forces, the iterate depends on the
+   * acceleration) makes better ones. Whatever the contact forces, the iterate depends on the
    * force with the norm of T^{-1} at most (C is monotone except for friction), so that
    * only the body's tangents have to be near T. There is one solution with T an
    * iteration.
@@ -46,17 +44,15 @@ namespace Ricochet
      * method; the first iterate should be the state for which T was assembled.
      *
      * @param condensed_newton for the condensed stages.
-     * @param kept state for which T was assembled.
      * @return whether it has converged; it stops if it converges slowly or not at all,
      * and @p solution is then not finite, or nearer to the solution than the guess.
      * @throws NewtonFailure when a condensed stage cannot be solved.
      */
     bool
-    solve(StageProblem                     &problem,
-          const NewtonSolver::Problem      &newton_problem,
-          NewtonSolver                     &condensed_newton,
-          const StageProblem::TangentPoint &kept,
-          Vector                           &solution);
+    solve(StageProblem                &problem,
+          const NewtonSolver::Problem &newton_problem,
+          NewtonSolver                &condensed_newton,
+          Vector                      &solution);
 
     /// One entry per residual of the last solve(), as in NewtonSolver.
     const std::vector<NewtonSolver::Iteration> &
@@ -66,17 +62,12 @@ namespace Ricochet
     }
 
   private:
-    /// Whether the region with a changed tangent is to be chosen anew.
-    bool
-    region_is_worth_while() const;
-
     const NewtonSolver::Parameters       parameters;
     std::vector<NewtonSolver::Iteration> history;
     // History of all iterates of a stage, except for very slow ones: their steps
     // become some thousand times shorter, and the first ones remain relevant.
-    ForceMixing   mixing{40};
-    TangentRegion region;
-    Vector        residual, step;
+    ForceMixing mixing{40};
+    Vector      residual, step;
   };
 } // namespace Ricochet
 

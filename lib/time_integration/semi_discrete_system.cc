@@ -271,18 +271,12 @@ namespace Ricochet
     if (factored_tangent.is_same(frozen_tangent))
       return;
     factored_tangent.forget();
-    problem.condense_at(frozen_point());
-    factored_tangent = frozen_tangent;
-  }
-
-  StageProblem::TangentPoint
-  SemiDiscreteSystem::frozen_point() const
-  {
     const FrozenTangent::Record &record = frozen_tangent.record;
-    return {frozen_tangent.solution,
-            frozen_guess,
-            record.end_time,
-            record.end_time + record.time_step};
+    problem.condense_at({frozen_tangent.solution,
+                         frozen_guess,
+                         record.end_time,
+                         record.end_time + record.time_step});
+    factored_tangent = frozen_tangent;
   }
 
   bool
@@ -310,7 +304,6 @@ namespace Ricochet
             is_solved           = quasi_newton.solve(problem,
                                            newton_problem,
                                            condensed_newton,
-                                           frozen_point(),
                                            solution);
             const auto &history = quasi_newton.iterations();
             n_iterations_with_tangent += history.size() - 1;

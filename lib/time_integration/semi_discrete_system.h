@@ -281,10 +281,6 @@ namespace Ricochet
                   const Stage  &stage,
                   const Vector &old_solution);
 
-    /// The state of that tangent. @pre condense_body()
-    StageProblem::TangentPoint
-    frozen_point() const;
-
     /// Take the contact forces from the operator's last evaluation.
     void
     take_shares(State &state) const;

@@ -103,44 +103,17 @@ namespace Ricochet
   }
 
   void
-  StageProblem::find_region(const Vector       &residual,
-                            const TangentPoint &kept,
-                            TangentRegion      &region)
-  {
-    // The mass terms of both tangents are equal, and those of follower loads
-    // are nearly so.
-    const auto add_difference = [&](const UnknownList &unknowns,
-                                    Matrix            &matrix) {
-      const Stopwatch stopwatch(parts.tangent_seconds);
-      add_bulk_tangent(kept, matrix, &unknowns);
-      matrix *= -1.;
-      add_bulk_tangent(here(), matrix, &unknowns);
-      eliminate(parts.constraints, matrix, 0.);
-    };
-    const Tangent current = tangent(here(), true);
-    region.find(residual,
-                current,
-                parts.linear_solver.condensed(current),
-                add_difference);
-  }
-
-  void
   StageProblem::add_bulk_tangent(const TangentPoint &point,
-                                 Matrix             &matrix,
-                                 const UnknownList  *near) const
+                                 Matrix             &matrix) const
   {
     if (stage.bulk_step_force)
       parts.bulk.add_step_tangent(point.old_solution,
                                   point.solution,
                                   stage.time_step,
-                                  matrix,
-                                  near);
+                                  matrix);
     else
       {
-        parts.bulk.add_tangent(stage.bulk_weight_new,
-                               point.solution,
-                               matrix,
-                               near);
+        parts.bulk.add_tangent(stage.bulk_weight_new, point.solution, matrix);
         if (parts.bulk.is_viscous())
           parts.bulk.add_viscous_tangent(stage.bulk_weight_new,
                                          stage.rate_origin,

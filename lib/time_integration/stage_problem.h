@@ -9,7 +9,6 @@
 #include <solvers/linear_solver.h>
 #include <solvers/newton.h>
 #include <solvers/solver_report.h>
-#include <solvers/tangent_region.h>
 #include <time_integration/condensed_stage.h>
 #include <time_integration/stage.h>
 #include <time_integration/state.h>
@@ -94,14 +93,6 @@ namespace Ricochet
     void
     condense_at(const TangentPoint &point);
 
-    /// Find the region where the tangent at the iterate, which has the @p residual (N),
-    /// differs from that at the @p kept point.
-    /// @pre condense_at() with that point.
-    void
-    find_region(const Vector       &residual,
-                const TangentPoint &kept,
-                TangentRegion      &region);
-
     /// Reset the clamped unknowns of an iterate to their prescribed values, from which
     /// solvers may deviate by their tolerance, which no residual shows.
     void
@@ -140,9 +131,7 @@ namespace Ricochet
 
     /// Add the derivative of the body's forces at a point, see BulkOperator::add_tangent().
     void
-    add_bulk_tangent(const TangentPoint &point,
-                     Matrix             &matrix,
-                     const UnknownList  *near = nullptr) const;
+    add_bulk_tangent(const TangentPoint &point, Matrix &matrix) const;
 
     /// @param condenses contact is evaluated by the rows of its Jacobian alone.
     Tangent

@@ -6,6 +6,7 @@
 #include <contact/laws/coulomb_friction.h>
 #include <contact/laws/regularised_friction.h>
 #include <contact/laws/augmented_lagrangian.h>
+#include <contact/laws/closing.h>
 #include <contact/laws/frictional_constraint.h>
 #include <contact/laws/nitsche.h>
 #include <contact/laws/nitsche_two_point.h>
@@ -444,6 +445,60 @@ BOOST_AUTO_TEST_CASE(two_point_laws_dissipate)
           }
       BOOST_CHECK(dissipates_somewhere);
     }
+}
+
+namespace
+{
+  /// The pressure exp(penetration/length) - 1.
+  struct ExponentialLaw
+  {
+    double length;
+
+    static constexpr ContactLawTraits
+    traits()
+    {
+      return {};
+    }
+
+    template <typename Number>
+    ContactPointForce<Number>
+    force(const ContactPointState<Number> &state,
+          const ContactPointState<double> & /*old_state*/,
+          const double /*cell_diameter*/) const
+    {
+      if (!(state.gap < 0.))
+        return {};
+      return {Number(1. - exp(-state.gap / length)), Number(0.), Number(0.)};
+    }
+
+    double
+    potential(const ContactPointState<> &state,
+              const double /*cell_diameter*/) const
+    {
+      return state.gap < 0.
+        ? length * std::expm1(-state.gap / length) + state.gap
+        : 0.;
+    }
+  };
+} // namespace
+
+// At a penetration of h_T the slope of a law over a thousandth of h_T is not a number of
+// double precision; the direction that it presses along is that of the gap all the same.
+BOOST_AUTO_TEST_CASE(steep_laws_close_along_the_gap)
+{
+  for (const double length : {.1, 1e-3, 1e-9})
+    {
+      const ContactLawImplementation<ExponentialLaw> law({length});
+      const auto closing = closing_directions(law, 1.);
+      BOOST_REQUIRE(closing.has_value());
+      BOOST_CHECK_EQUAL(closing->row, 0);
+      BOOST_CHECK_EQUAL(closing->column, 0);
+      BOOST_CHECK_EQUAL(closing->test, (dealii::Tensor<1, 3>({1., 0., 0.})));
+      BOOST_CHECK_EQUAL(closing->trial, (dealii::Tensor<1, 3>({1., 0., 0.})));
+    }
+  // One whose slope is never finite has none.
+  BOOST_CHECK(
+    !closing_directions(ContactLawImplementation<ExponentialLaw>({1e-18}), 1.));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

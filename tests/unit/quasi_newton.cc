@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Nonlinear bodies with a frozen tangent: steps of the force that are mixed, tangents that serve several steps, and
-// regions with the tangent of today.
+// Nonlinear bodies with a frozen tangent: steps of the force that are mixed, and tangents that serve several steps.
 
 #include <base/vector_operations.h>
 #include <solvers/force_mixing.h>
 #include <solvers/contact_schur_complement.h>
-#include <solvers/tangent_region.h>
 #include <time_integration/frozen_tangent.h>
 
 #include <boost/test/unit_test.hpp>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/full_matrix.h>
 
 #include <cmath>
 
@@ -184,164 +181,6 @@ BOOST_AUTO_TEST_CASE(mixing_solves_what_plain_steps_do_not)
   BOOST_CHECK_LT(mixed, 25);
   BOOST_CHECK_LT(mixed, .6 * plain);
   BOOST_CHECK_LE(mixed, with_few);
-}
-
-namespace
-{
-  /// A body with the tangent T of grid_matrix(0), and K that is another one near the
-  /// unknown 60. Contact acts along the unknowns 60 and 150: what the first one does sees
-  /// both, and takes a part of its own row.
-  struct BodyWithRegion
-  {
-    BodyWithRegion()
-      : frozen_tangent(grid_matrix(0.))
-      , tangent(grid_matrix(0.))
-      , scaling(some_vector(0))
-    {
-      scaling = 1.;
-      for (const unsigned int i : {60, 61, 74, 75})
-        for (const unsigned int j : {60, 61, 74, 75})
-          if (tangent.el(i, j) != 0.)
-            tangent.add(i, j, i == j ? 3. : i < j ? -1.4 : 1.9);
-      tangent.compress(VectorOperation::add);
-      for (const unsigned int i : {60, 150})
-        {
-          contact.functionals.add(i, 1.);
-          contact.functionals.end_functional();
-          contact.order.push_back(i);
-        }
-      kept = std::make_unique<ContactSchurComplement>(
-        contact,
-        SparseCholesky::Kind::frozen_tangent,
-        spent);
-      current.assemble_body = [this](Matrix &matrix) {
-        matrix.copy_from(frozen_tangent);
-      };
-      current.add_open_contact = [](Matrix &) {};
-      current.row_scaling      = &scaling;
-      current.differentiate_contact =
-        [](std::vector<FunctionalRow> &with_values,
-           std::vector<FunctionalRow> &with_residual) {
-          with_values[0]   = {{0, 2.}, {1, -.7}};
-          with_residual[0] = {{0, -.4}};
-        };
-      kept->factorise(current);
-    }
-
-    void
-    find(const Vector &residual, TangentRegion &region)
-    {
-      region.find(residual,
-                  current,
-                  *kept,
-                  [&](const UnknownList &unknowns, Matrix &matrix) {
-                    found = unknowns;
-                    matrix.add(1., tangent);
-                    matrix.add(-1., frozen_tangent);
-                  });
-    }
-
-    Matrix                                  frozen_tangent, tangent;
-    Vector                                  scaling;
-    ContactStructure::ActsThrough           contact;
-    TangentSolver::Costs                    spent;
-    std::unique_ptr<ContactSchurComplement> kept;
-    Tangent                                 current;
-    UnknownList                             found;
-  };
-} // namespace
-
-
-
-BOOST_AUTO_TEST_CASE(region_with_the_tangent_of_today)
-{
-  BodyWithRegion body;
-  // Nine unknowns have the largest twentieth of this; contact adds one.
-  Vector residual(some_vector(5));
-  residual *= .01;
-  for (const unsigned int i : {46, 47, 59, 60, 61, 62, 74, 75, 88})
-    residual(i) = 1. + .1 * (i % 7);
-  residual.compress(VectorOperation::insert);
-  TangentRegion region;
-  BOOST_CHECK(!region.exists());
-  body.find(residual, region);
-  BOOST_REQUIRE(region.exists());
-  const UnknownList expected = {46, 47, 59, 60, 61, 62, 74, 75, 88, 150};
-  BOOST_CHECK(body.found == expected);
-
-  // r + (K - T) d, with d of (K + E K + C)_RR d = -r_R, by a dense matrix.
-  const unsigned int         m = expected.size();
-  dealii::FullMatrix<double> matrix(m, m);
-  dealii::Vector<double>     minus_r(m), d(m);
-  for (unsigned int i = 0; i < m; ++i)
-    {
-      minus_r(i) = -residual(expected[i]);
-      for (unsigned int j = 0; j < m; ++j)
-        matrix(i, j) = body.tangent.el(expected[i], expected[j]) *
-            (expected[i] == 60 ? 1. - .4 : 1.) +
-          (expected[i] == 60 ? expected[j] == 60 ? 2.
-               : expected[j] == 150              ? -.7
-                                                 : 0.
-                             : 0.);
-    }
-  matrix.gauss_jordan();
-  matrix.vmult(d, minus_r);
-  Vector displacement(residual), force(residual), change(residual);
-  displacement = 0.;
-  for (unsigned int i = 0; i < m; ++i)
-    displacement(expected[i]) = d(i);
-  displacement.compress(VectorOperation::insert);
-  body.tangent.vmult(force, displacement);
-  body.frozen_tangent.vmult(change, displacement);
-  force -= change;
-  force += residual;
-  std::vector<double> completed(residual.begin(), residual.end());
-  region.complete(completed);
-  for (unsigned int i = 0; i < n; ++i)
-    BOOST_CHECK_SMALL(completed[i] - force(i), 1e-12);
-  region.forget();
-  BOOST_CHECK(!region.exists());
-}
-
-
-
-BOOST_AUTO_TEST_CASE(regions_save_iterations)
-{
-  // Without contact: K x = b by steps with T.
-  BodyWithRegion body;
-  body.current.differentiate_contact = [](std::vector<FunctionalRow> &,
-                                          std::vector<FunctionalRow> &) {};
-  Symmetric    symmetric(body.frozen_tangent);
-  const Vector right_hand_side = some_vector(2);
-  const auto   iterations      = [&](const bool with_region) {
-    ForceMixing   mixing(40);
-    TangentRegion region;
-    Vector        x(right_hand_side), residual(x), step(x), update(x);
-    x              = 0.;
-    unsigned int k = 0;
-    for (; k < 50; ++k)
-      {
-        body.tangent.vmult(residual, x);
-        residual -= right_hand_side;
-        if (residual.l2_norm() < 1e-11 * right_hand_side.l2_norm())
-          break;
-        if (with_region && k == 1)
-          body.find(residual, region);
-        if (region.exists())
-          mixing.next(residual, step, [&](std::vector<double> &force) {
-            region.complete(force);
-          });
-        else
-          mixing.next(residual, step);
-        symmetric.solve(step, update);
-        x += update;
-      }
-    return k;
-  };
-  const unsigned int without = iterations(false), with = iterations(true);
-  BOOST_TEST_MESSAGE(without << " without, " << with << " with a region");
-  BOOST_CHECK_LE(with, 8);
-  BOOST_CHECK_LT(with, without);
 }
 
 

@@ -19,11 +19,19 @@ namespace Ricochet
   closing_directions(const ContactLaw &law, const double cell_diameter)
   {
     ContactPointState<> open, closed;
-    open.gap   = cell_diameter;
-    closed.gap = -cell_diameter;
-    const ContactPointTangent change =
-      law.tangent(closed, open, cell_diameter) -
-      open_tangent(law, cell_diameter);
+    open.gap = cell_diameter;
+    // A steep law may overflow where it has penetrated by h_T: less is enough.
+    ContactPointTangent change;
+    double              depth = cell_diameter;
+    do
+      {
+        closed.gap = -depth;
+        change     = law.tangent(closed, open, cell_diameter) -
+          open_tangent(law, cell_diameter);
+        depth /= 16.;
+    } while (!std::isfinite(change.norm()) && depth > 1e-12 * cell_diameter);
+    if (!std::isfinite(change.norm()))
+      return {};
     Closing closing;
     while (closing.row < 2 && change[closing.row].norm() == 0.)
       ++closing.row;

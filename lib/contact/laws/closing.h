@@ -24,7 +24,8 @@ namespace Ricochet
     dealii::Tensor<1, 3> test, trial;
   };
 
-  /// None if the law's tangent changes by more than one direction.
+  /// None if the law's tangent changes by more than one direction, or is not finite in
+  /// closed points.
   std::optional<Closing>
   closing_directions(const ContactLaw &law, const double cell_diameter);
 } // namespace Ricochet

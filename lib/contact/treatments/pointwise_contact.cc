@@ -259,7 +259,7 @@ namespace Ricochet
     rows_have_directions =
       kinematics->has_constant_rows() && !prefers_observables;
     for (const ContactPoint &point : evaluator.contact_points())
-      closings.push_back(*closing_directions(*law, point.cell_diameter));
+      closings.push_back(closing_directions(*law, point.cell_diameter).value());
 
     if (rows_have_directions)
       {
