@@ -60,7 +60,7 @@ namespace Ricochet
     LinearElastic
     at_small_strains() const;
 
-    /// What the values of contact are measured by that the user has not set.
+    /// The magnitudes by which the values of contact are set that the user has not given.
     /// @param cell_diameter mean diameter of the cells at the surface (m).
     Scales
     scales(const double cell_diameter, const unsigned int degree) const;

@@ -24,7 +24,7 @@ namespace Ricochet
     /// viscosity depend (Stage::rate_origin); needless where contact acts over a step.
     bool gives_rates = false;
 
-    /// Those of a scheme whose contact acts at instants and which knows the velocity there.
+    /// A scheme whose contact acts at instants and which knows the velocity there.
     static SchemeTraits
     at_instants_with_rates(const std::string &name)
     {

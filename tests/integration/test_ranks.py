@@ -18,6 +18,7 @@ class Ranks(ProgramTest):
             # scheme that conserves, the penetration of Signorini's condition.
             # They are relative to the quantity that they are part of.
             whole = {"numerical_dissipation": "energy",
+                     "penetration_foundation": "mean_gap_foundation",
                      "penetration_left": "mean_gap_left",
                      "penetration_right": "mean_gap_right"}.get(name, name)
             if is_part_of_energy(name):
