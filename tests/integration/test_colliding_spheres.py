@@ -43,10 +43,7 @@ class CollidingSpheres(ProgramTest):
         if treatment in KEEP_MODIFIED_ENERGY:
             kept = [e + w for e, w in
                     zip(ledger["modified_energy"], ledger["friction_work"])]
-            # Except for the node at the rim.
-            self.assertLess(largest([e - scale for e in kept]), 1e-4 * scale)
-            self.assertLess(sorted(abs(b - a) for a, b in zip(kept, kept[1:]))[-2],
-                            1e-9 * scale)
+            self.assertLess(largest([e - scale for e in kept]), 1e-9 * scale)
         # No facet is found through a body or round a corner of it.
         self.assertLess(max(ledger["penetration_spheres"]), .1)
         if treatment == "Signorini active set":
@@ -59,10 +56,7 @@ class CollidingSpheres(ProgramTest):
                   COARSE + OBLIQUE + NO_FIELDS + friction +
                   [f"Contact/Treatment={treatment}"] +
                   (["Contact/Compliance coefficient=1e7"]
-                   if treatment in COMPLIANT else []),
-                  # A node at the rim turns until it faces its facet no longer, and its stored
-                  # energy is lost.
-                  2.7e-5 if treatment == "Hauret-Le Tallec" and not friction else None)
+                   if treatment in COMPLIANT else []))
                  for treatment in KEPT + PENALTIES
                  for friction in ([], FRICTION)
                  if not (treatment == "penalty" and friction)]

@@ -311,7 +311,8 @@ class Condensed(ProgramTest):
         scene.write_text(NODES_BEFORE_NODES)
         ledger = self.run_program("ricochet", CONDENSED, self.folder / "out", prm=scene)
         self.assertLess(largest(ledger["balance_residual"]), 1e-12)
-        self.assertGreater(max(ledger["newton_iterations"]), 30)
+        # With sharp vertices there are steps with more than 30.
+        self.assertLess(max(ledger["newton_iterations"]), 15)
         self.assertLessEqual(self.substitutions(self.folder / "out"),
                              len(ledger["time"]) - 1 + 2)
 

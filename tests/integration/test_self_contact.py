@@ -40,12 +40,8 @@ CIRCLES = ("outer_circle", "inner_circle")
 PICTURES = ["Output/Fields every=3", "Output/Log every=0"]
 SHARED = {name: ring() + [SELF, f"Contact/Treatment={name}"] + special
           for name, special in TREATMENTS.items()}
-# With 64 nodes two of them meet on the axis of symmetry, each in the valley that the other's
-# facets make. A law has no solution there but at the vertex itself, where its
-# force is between those of both facets: round-off decides, in half of the runs with
-# perturbations of 1e-12, whether Newton's method leaves it. With 66 none fails of
-# 8 runs, with AVX2 and without.
-SHARED["improved normal compliance"][0] = "Mesh/Nodes around=66"
+# Two of the nodes meet on the axis of symmetry, each in the valley that the other's facets
+# make: a law holds them by its rounded vertices.
 SHARED["without"] = ring(end=1.7) + ["Contact/Treatment=persistent contact"]
 for shape in ((48, 3), (96, 5)):
     SHARED[shape] = ring(*shape, end=1.65) + [
@@ -259,7 +255,7 @@ class Nodes(SelfContactTest):
         ledger = self.shared_run("improved normal compliance")
         depths = self.depths(ledger)
         self.assertGreater(max(depths), 1e-3)
-        length = 2. * INNER_RADIUS * math.sin(math.pi / 66)
+        length = 2. * INNER_RADIUS * math.sin(math.pi / 64)
         for modified, energy, inside, below in zip(
                 ledger["modified_energy"], ledger["energy"], depths,
                 ledger["penetration_foundation"]):
@@ -338,9 +334,12 @@ class Outline(SelfContactTest):
                 depths, n_overlaps = self.depths(self.shared_run(name)), 0
                 for step, file in self.pictures(name):
                     found = overlap.overlap_in(file)
+                    # Laws round vertices: by up to 0.085 of the width times the angle, which
+                    # is 8e-4 m here; measured 4e-4.
+                    rounding = 0. if name in LOSE_ENERGY + KEEP_ENERGY else 8e-4
                     self.assertAlmostEqual(
                         found.depth, depths[step],
-                        delta=self.ROUND_OFF + .01 * depths[step])
+                        delta=self.ROUND_OFF + rounding + .01 * depths[step])
                     self.assertLess(found.area, .5)
                     n_overlaps += found.depth > self.ROUND_OFF
                 self.assertEqual(n_overlaps > 1, name not in LOSE_ENERGY)

@@ -782,7 +782,8 @@ BOOST_AUTO_TEST_CASE(only_what_comes_near_is_known)
       // The block hovers above the near end of the bar.
       PointsBeforeTriangles pair(body,
                                  {"block", {1}, {0}},
-                                 PointsBeforeTriangles::PointsIn::nodes);
+                                 PointsBeforeTriangles::PointsIn::nodes,
+                                 /* rounds_edges */ false);
       const Vector          zero = body.make_vector();
       pair.begin_step({zero, zero, zero, 1e-3});
       unsigned int n_known = 0, n_before = 0;
@@ -1319,9 +1320,13 @@ BOOST_AUTO_TEST_CASE(displacements_of_degree_two)
         const auto       angular =
           momenta.angular(balls.state.solution, balls.state.velocity);
         double old = first, friction_work = 0.;
-        for (unsigned int n = 0; n < n_steps; ++n)
+        // A node of this mesh, whose facets meet at up to 30 degrees, comes onto a rounded
+        // edge in a step.
+        const unsigned int n_parts =
+          treatment == "improved normal compliance" ? 2 : 1;
+        for (unsigned int n = 0; n < n_parts * n_steps; ++n)
           {
-            const StepReport report = balls.step(time_step);
+            const StepReport report = balls.step(time_step / n_parts);
             const double     now    = balls.mechanical_energy();
             BOOST_CHECK_SMALL(
               (now - old + report.contact_work + report.friction_work) / first,

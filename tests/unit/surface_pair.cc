@@ -28,6 +28,7 @@ namespace
   using Pair = SurfacePair<2>;
 
   const std::vector<std::string> couplings = {"nodes",
+                                              "nodes, rounded",
                                               "quadrature points",
                                               "mortar",
                                               "dual mortar"};
@@ -65,14 +66,16 @@ namespace
                                     {rectangle_side(1, Rectangle::lower)},
                                     {rectangle_side(0, Rectangle::upper)}};
       using Points               = PointsBeforeFacets<2>;
-      if (coupling == "nodes")
+      if (coupling == "nodes" || coupling == "nodes, rounded")
         return std::make_unique<Points>(*body,
                                         surfaces,
-                                        Points::PointsIn::nodes);
+                                        Points::PointsIn::nodes,
+                                        coupling == "nodes, rounded");
       if (coupling == "quadrature points")
         return std::make_unique<Points>(*body,
                                         surfaces,
-                                        Points::PointsIn::quadrature_points);
+                                        Points::PointsIn::quadrature_points,
+                                        /* rounds_vertices */ true);
       return std::make_unique<MortarPair>(*body,
                                           surfaces,
                                           coupling == "mortar"

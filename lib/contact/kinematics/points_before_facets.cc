@@ -15,8 +15,10 @@ namespace Ricochet
   template <int dim>
   PointsBeforeFacets<dim>::PointsBeforeFacets(const Body<dim>   &body,
                                               const ContactPair &pair,
-                                              const PointsIn     points_in)
+                                              const PointsIn     points_in,
+                                              const bool rounds_vertices)
     : PairBeforeChains<dim>(body, pair)
+    , rounds_vertices(rounds_vertices)
   {
     if (points_in == PointsIn::quadrature_points)
       make_quadrature_points(body);
@@ -148,14 +150,16 @@ namespace Ricochet
           gap.is_before_facet = false;
         if (!gap.is_before_facet)
           continue;
-        step.new_facet    = step.old_facet;
+        step.new_facet = step.first = step.last = step.old_facet;
+        if (is_rounded(step))
+          find_nodes_of_rows(gather_all(p, step.chain, old_positions), step);
         gap.new_gap       = gap.old_gap;
         gap.predicted_gap = gap.old_gap;
         if (has_length)
           {
             const auto &x = gather_all(p, step.chain, course.middle);
             gap.predicted_gap =
-              this->gap_before(x, step.chain, last_facet(x, step));
+              gap_at(x, step.chain, last_facet(x, step), step.may_pass);
           }
       }
     // Nodes that were pressed from both sides are likely to be so again.
@@ -214,7 +218,7 @@ namespace Ricochet
         beyond.may_pass         = false;
         beyond.is_beyond_valley = true;
         beyond.old_facet        = goes_forward ? *valley + 1 : *valley;
-        beyond.new_facet        = beyond.old_facet;
+        beyond.new_facet = beyond.first = beyond.last = beyond.old_facet;
         (goes_forward ? step.last_allowed : beyond.last_allowed) = *valley;
         (goes_forward ? beyond.first_allowed : step.first_allowed) =
           *valley + 1;
@@ -330,12 +334,12 @@ namespace Ricochet
     if (!facing)
       return {};
     Place place;
-    place.gap = this->gap_before(work, facing->chain, facing->facet);
+    place.may_pass = may_pass(work, facing->facet);
+    place.gap      = gap_at(work, facing->chain, facing->facet, place.may_pass);
     if (!(place.gap > -this->largest_depth(*facing)))
       return {};
-    place.may_pass = may_pass(work, facing->facet);
-    place.facet    = facing->facet;
-    place.chain    = std::move(facing->chain);
+    place.facet = facing->facet;
+    place.chain = std::move(facing->chain);
     return place;
   }
 
@@ -363,7 +367,7 @@ namespace Ricochet
     const bool         passes =
       may_pass(x, first) && this->gap_before(x, facing->chain, first) > 0.;
     const unsigned int old_facet = passes ? first : facing->facet;
-    const double       old_gap = this->gap_before(x, facing->chain, old_facet);
+    const double       old_gap   = gap_at(x, facing->chain, old_facet, passes);
     if (!(old_gap > 0.))
       return;
     begin_before(p, {std::move(facing->chain), old_facet, passes, old_gap});
@@ -431,8 +435,76 @@ namespace Ricochet
         step.new_facet   = last_facet(x, step);
         if (is_other_side(p))
           step.old_facet = step.new_facet;
-        gaps[p].new_gap = this->gap_before(x, step.chain, step.new_facet);
+        gaps[p].new_gap = gap_at(x, step.chain, step.new_facet, step.may_pass);
+        step.first      = std::min(step.old_facet, step.new_facet);
+        step.last       = std::max(step.old_facet, step.new_facet);
         step.up_to_date = false;
+        if (is_rounded(step))
+          {
+            find_nodes_of_rows(x, step);
+            find_nodes_of_rows(gather_all(p, step.chain, old_positions), step);
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  PointsBeforeFacets<dim>::find_roundings(const Chain &chain) const
+  {
+    roundings.clear();
+    // Wide enough for the slope of a pressure between two facets to be
+    // moderate against the stiffness of a body, and so narrow that the two roundings of
+    // a facet are apart.
+    constexpr double part_of_facet = .1;
+    for (unsigned int f = 0; f + 1 < chain.facets.size(); ++f)
+      roundings.push_back(part_of_facet *
+                          std::min(master.facets[chain.facets[f]].measure,
+                                   master.facets[chain.facets[f + 1]].measure));
+  }
+
+
+
+  template <int dim>
+  double
+  PointsBeforeFacets<dim>::gap_at(const std::vector<Position> &x,
+                                  const Chain                 &chain,
+                                  const unsigned int           facet,
+                                  const bool                   may_pass) const
+  {
+    if constexpr (dim > 1)
+      if (rounds_vertices && may_pass)
+        {
+          find_roundings(chain);
+          return FacetChain<double>::gap(x, facet, roundings);
+        }
+    return this->gap_before(x, chain, facet);
+  }
+
+
+
+  template <int dim>
+  void
+  PointsBeforeFacets<dim>::find_nodes_of_rows(const std::vector<Position> &x,
+                                              Step &step) const
+  {
+    if constexpr (dim > 1)
+      {
+        find_roundings(step.chain);
+        const unsigned int low  = std::min(step.old_facet, step.new_facet);
+        const unsigned int high = std::max(step.old_facet, step.new_facet);
+        if (low > 0 &&
+            FacetChain<double>::past_vertex(x, low - 1) < roundings[low - 1])
+          step.first = low - 1;
+        if (high + 1 < step.chain.facets.size() &&
+            FacetChain<double>::past_vertex(x, high) > -roundings[high])
+          step.last = high + 1;
+      }
+    else
+      {
+        (void)x;
+        (void)step;
       }
   }
 
@@ -445,7 +517,7 @@ namespace Ricochet
   {
     if constexpr (dim > 1)
       {
-        if (is_other_side(p))
+        if (is_other_side(p) || rounds_vertices)
           return;
         if (has_other_sides())
           {
@@ -483,9 +555,8 @@ namespace Ricochet
                                         const Caution      caution) const
   {
     const Step        &step  = steps[p];
-    const unsigned int first = std::min(step.old_facet, step.new_facet);
-    const unsigned int last  = std::max(step.old_facet, step.new_facet);
-    const unsigned int n     = last - first + dim + 1;
+    const unsigned int first = step.first;
+    const unsigned int n     = step.last - first + dim + 1;
 
     gather_all(p, step.chain, old_positions);
     old_work.assign(1, work[0]);
@@ -524,8 +595,17 @@ namespace Ricochet
         rows.slip = Number(0.);
       }
     else
-      FacetChain<Number>(old_work, *new_x, caution)
-        .evaluate(step.old_facet - first, step.new_facet - first, rows);
+      {
+        find_roundings(step.chain);
+        roundings.erase(roundings.begin(),
+                        roundings.begin() +
+                          std::min<std::size_t>(first, roundings.size()));
+        FacetChain<Number>(old_work,
+                           *new_x,
+                           caution,
+                           is_rounded(step) ? &roundings : nullptr)
+          .evaluate(step.old_facet - first, step.new_facet - first, rows);
+      }
   }
 
 
@@ -562,7 +642,7 @@ namespace Ricochet
       };
     for (const auto &[node, weight] : own_points[p].nodes)
       add(slave.nodes[node], 0, weight);
-    const unsigned int first = std::min(step.old_facet, step.new_facet);
+    const unsigned int first = step.first;
     for (unsigned int i = 1; i * dim < chain_rows.normal.size(); ++i)
       add(master.nodes[step.chain.nodes[first + i - 1]], i, 1.);
     double square = 0.;
@@ -622,6 +702,8 @@ namespace Ricochet
   PointsBeforeFacets<dim>::passage(const unsigned int p) const
   {
     const Step &step = steps[p];
+    if (is_rounded(step))
+      return 1 + step.chain.facets[step.old_facet];
     return step.new_facet == step.old_facet
       ? 0
       : 1 + step.chain.facets[step.new_facet];

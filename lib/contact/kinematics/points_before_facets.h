@@ -44,9 +44,13 @@ namespace Ricochet
     };
 
     /// @throws InputError see SurfacePair.
+    ///
+    /// @param rounds_vertices see FacetChain: for laws, whose energy is a function of the
+    /// gap.
     PointsBeforeFacets(const Body<dim>   &body,
                        const ContactPair &pair,
-                       const PointsIn     points_in);
+                       const PointsIn     points_in,
+                       const bool         rounds_vertices);
 
     void
     begin_step(const ContactStart &start) override;
@@ -136,6 +140,8 @@ namespace Ricochet
       /// The point is the other side of a node, with the row of the facet where it
       /// ends.
       bool is_beyond_valley = false;
+      /// The first and the last facet of the chain whose nodes are in the rows.
+      unsigned int first = 0, last = 0;
       /// The facets of the chain to which the point may pass.
       unsigned int first_allowed = 0,
                    last_allowed  = std::numeric_limits<unsigned int>::max();
@@ -223,7 +229,33 @@ namespace Ricochet
     void
     update(const unsigned int p) const;
 
-    Positions old_positions, new_positions;
+    /// Half widths of the vertices of a chain, see FacetChain, in #roundings.
+    void
+    find_roundings(const Chain &chain) const;
+
+    /// The gap at positions from gather_all() to the surface, whose vertices
+    /// are rounded if the point may pass them.
+    double
+    gap_at(const std::vector<Position> &x,
+           const Chain                 &chain,
+           const unsigned int           facet,
+           const bool                   may_pass) const;
+
+    /// Extend the facets whose nodes are in the rows of a @p step to those behind rounded
+    /// vertices nearby.
+    void
+    find_nodes_of_rows(const std::vector<Position> &x, Step &step) const;
+
+    /// Whether the point of @p step may pass vertices, which are rounded.
+    bool
+    is_rounded(const Step &step) const
+    {
+      return rounds_vertices && step.may_pass;
+    }
+
+    const bool                  rounds_vertices;
+    mutable std::vector<double> roundings;
+    Positions                   old_positions, new_positions;
     /// The facet of each point, and the positions for which they were found.
     std::vector<std::optional<Place>>                    places_now;
     Positions                                            found_at;

@@ -20,6 +20,9 @@ namespace Ricochet
 
   namespace
   {
+    /// Largest number of facets and edges of a patch with rounded edges.
+    constexpr unsigned int most_scalars = 96;
+
     /// Distance of the first of @p x from the triangle between the others.
     double
     distance(const std::array<std::array<double, 3>, 4> &x)
@@ -35,8 +38,10 @@ namespace Ricochet
 
   PointsBeforeTriangles::PointsBeforeTriangles(const Body<3>     &body,
                                                const ContactPair &pair,
-                                               const PointsIn     points_in)
+                                               const PointsIn     points_in,
+                                               const bool         rounds_edges)
     : SurfacePair<3>(body, pair)
+    , rounds_edges(rounds_edges && !is_self)
   {
     if (points_in == PointsIn::quadrature_points)
       make_quadrature_points(body);
@@ -54,10 +59,19 @@ namespace Ricochet
       smallest_reach =
         std::max(smallest_reach, 2. * std::sqrt(2. * facet.measure));
 
-    std::vector<std::vector<unsigned int>> at_node(master.nodes.size());
+    at_node.resize(master.nodes.size());
     for (unsigned int f = 0; f < master.facets.size(); ++f)
       for (const unsigned int node : master.facets[f].nodes)
         at_node[node].push_back(f);
+    // Beyond a node the lines of a triangle's edges at an angle of more than 30 degrees
+    // are farther off than their roundings.
+    for (const auto &facets : at_node)
+      {
+        double largest = 0.;
+        for (const unsigned int f : facets)
+          largest = std::max(largest, rounding(f));
+        radius_of_node.push_back(4. * largest);
+      }
     around.resize(master.facets.size());
     for (unsigned int f = 0; f < master.facets.size(); ++f)
       {
@@ -396,6 +410,304 @@ namespace Ricochet
 
 
 
+  bool
+  PointsBeforeTriangles::find_patch(const unsigned int p,
+                                    const unsigned int f,
+                                    const Positions   &begin,
+                                    const Positions   &end,
+                                    Patch             &patch) const
+  {
+    // Points that face more are far off, or pass many facets in a step.
+    constexpr std::size_t most = 64;
+
+    // Distances from the edges, and from the plane and the nodes, at both instants.
+    struct Distances
+    {
+      std::array<double, 3> from_edges, from_nodes;
+      double                from_plane;
+    };
+    static thread_local std::vector<std::array<Distances, 2>> distances;
+    distances.clear();
+    patch.facets.clear();
+    patch.edges.clear();
+    const auto add_facet = [&](const unsigned int facet) {
+      if (std::find(patch.facets.begin(), patch.facets.end(), facet) !=
+          patch.facets.end())
+        return;
+      patch.facets.push_back(facet);
+      distances.emplace_back();
+      for (unsigned int k = 0; k < 2; ++k)
+        {
+          using Triangle   = PointBeforeTriangle<double>;
+          const auto x     = corners(p, facet, k == 0 ? begin : end);
+          Distances &own   = distances.back()[k];
+          own.from_edges   = Triangle::distances_from_edges(x);
+          const double gap = Triangle::gap(x);
+          own.from_plane   = std::abs(gap);
+          for (unsigned int v = 0; v < 3; ++v)
+            own.from_nodes[v] = std::sqrt(
+              std::max(0.,
+                       (to_tensor(x[0]) - to_tensor(x[1 + v])).norm_square() -
+                         gap * gap));
+        }
+    };
+    const auto number_in = [&](const unsigned int facet,
+                               const unsigned int neighbour) {
+      const auto &neighbours = master.facets[facet].neighbours;
+      return static_cast<unsigned int>(
+        std::find(neighbours.begin(), neighbours.end(), neighbour) -
+        neighbours.begin());
+    };
+    // Coordinate of the point from the bisector of edge e of facet i, positive beyond it.
+    const auto coordinate = [&](const unsigned int i,
+                                const unsigned int e,
+                                const unsigned int j,
+                                const unsigned int k) {
+      const unsigned int number = number_in(patch.facets[j], patch.facets[i]);
+      return .5 *
+        (distances[j][k].from_edges[number] - distances[i][k].from_edges[e]);
+    };
+    add_facet(f);
+    for (unsigned int i = 0; i < patch.facets.size(); ++i)
+      {
+        const auto &facet = master.facets[patch.facets[i]];
+        for (unsigned int v = 0; v < 3; ++v)
+          if (std::min(distances[i][0].from_nodes[v],
+                       distances[i][1].from_nodes[v]) <
+              radius_of_node[facet.nodes[v]])
+            for (const unsigned int other : at_node[facet.nodes[v]])
+              add_facet(other);
+        // At an edge at which the surface turns by less than a right angle, a point is no
+        // farther inside of the neighbour than its distance from the plane.
+        const auto is_far_inside = [&](const unsigned int e,
+                                       const unsigned int k) {
+          return distances[i][k].from_edges[e] >
+            2. * rounding(patch.facets[i]) + distances[i][k].from_plane;
+        };
+        for (unsigned int e = 0; e < 3; ++e)
+          if (facet.neighbours[e] &&
+              !(is_far_inside(e, 0) && is_far_inside(e, 1)))
+            {
+              const unsigned int n = patch.facets.size();
+              add_facet(*facet.neighbours[e]);
+              if (patch.facets.size() == n)
+                continue;
+              const double width = std::min(rounding(patch.facets[i]),
+                                            rounding(*facet.neighbours[e]));
+              if (std::max(coordinate(i, e, n, 0), coordinate(i, e, n, 1)) <=
+                  -width)
+                {
+                  patch.facets.pop_back();
+                  distances.pop_back();
+                }
+            }
+        if (patch.facets.size() > most)
+          return false;
+      }
+
+    // Weights of facets, from their edges in the patch; without those that are zero at both
+    // instants, except where a rounding begins.
+    static thread_local std::vector<std::array<double, 2>> weights;
+    weights.assign(patch.facets.size(), {{1., 1.}});
+    static thread_local std::vector<Patch::Edge> all_edges;
+    static thread_local std::vector<bool>        is_needed;
+    all_edges.clear();
+    is_needed.assign(patch.facets.size(), false);
+    for (unsigned int i = 0; i < patch.facets.size(); ++i)
+      for (unsigned int e = 0; e < 3; ++e)
+        if (const auto neighbour = master.facets[patch.facets[i]].neighbours[e])
+          {
+            const unsigned int j =
+              std::find(patch.facets.begin(), patch.facets.end(), *neighbour) -
+              patch.facets.begin();
+            if (j == patch.facets.size() || j < i)
+              continue;
+            const double width =
+              std::min(rounding(patch.facets[i]), rounding(*neighbour));
+            all_edges.push_back(
+              {i, j, e, number_in(*neighbour, patch.facets[i]), width});
+            for (unsigned int k = 0; k < 2; ++k)
+              {
+                const double beyond =
+                  RoundedGap<double>::rise(coordinate(i, e, j, k) / width);
+                weights[i][k] *= 1. - beyond;
+                weights[j][k] *= beyond;
+              }
+          }
+    const auto counts = [&](const unsigned int i) {
+      return weights[i][0] > 0. || weights[i][1] > 0.;
+    };
+    const auto is_constant = [&](const Patch::Edge &edge) {
+      const double begin_t =
+        coordinate(edge.first, edge.number_in_first, edge.second, 0);
+      const double end_t =
+        coordinate(edge.first, edge.number_in_first, edge.second, 1);
+      return std::max(begin_t, end_t) <= -edge.width ||
+        std::min(begin_t, end_t) >= edge.width;
+    };
+    for (unsigned int i = 0; i < patch.facets.size(); ++i)
+      is_needed[i] = i == 0 || counts(i);
+    for (const Patch::Edge &edge : all_edges)
+      if (!is_constant(edge) && (counts(edge.first) || counts(edge.second)))
+        is_needed[edge.first] = is_needed[edge.second] = true;
+    patch.counts.clear();
+    static thread_local std::vector<unsigned int> number;
+    number.assign(patch.facets.size(), 0);
+    unsigned int n = 0;
+    for (unsigned int i = 0; i < patch.facets.size(); ++i)
+      if (is_needed[i])
+        {
+          number[i]       = n;
+          patch.facets[n] = patch.facets[i];
+          patch.counts.push_back(counts(i));
+          ++n;
+        }
+    patch.facets.resize(n);
+    for (const Patch::Edge &edge : all_edges)
+      if (is_needed[edge.first] && is_needed[edge.second])
+        patch.edges.push_back({number[edge.first],
+                               number[edge.second],
+                               edge.number_in_first,
+                               edge.number_in_second,
+                               edge.width});
+    if (n + patch.edges.size() > most_scalars)
+      return false;
+
+    patch.nodes.clear();
+    patch.corners.clear();
+    for (const unsigned int facet : patch.facets)
+      {
+        patch.corners.emplace_back();
+        for (unsigned int v = 0; v < 3; ++v)
+          {
+            const unsigned int node = master.facets[facet].nodes[v];
+            const auto         known =
+              std::find(patch.nodes.begin(), patch.nodes.end(), node);
+            patch.corners.back()[v] = known - patch.nodes.begin();
+            if (known == patch.nodes.end())
+              patch.nodes.push_back(node);
+          }
+      }
+    return true;
+  }
+
+
+
+  namespace
+  {
+    /// The coordinate of an edge from the distances of the point from it in both
+    /// facets.
+    template <typename Edge, typename Distances>
+    auto
+    coordinate(const Edge &edge, const std::vector<Distances> &distances)
+    {
+      return .5 *
+        (distances[edge.second][edge.number_in_second] -
+         distances[edge.first][edge.number_in_first]);
+    }
+  } // namespace
+
+
+
+  void
+  PointsBeforeTriangles::set_distances(const unsigned int  p,
+                                       const Patch        &patch,
+                                       RoundedGap<double> &gap) const
+  {
+    static thread_local std::vector<std::array<double, 3>> old_distances,
+      new_distances;
+    old_distances.clear();
+    new_distances.clear();
+    gap.counts = patch.counts;
+    gap.old_gaps.clear();
+    gap.new_gaps.clear();
+    gap.edges.clear();
+    using Triangle = PointBeforeTriangle<double>;
+    for (const unsigned int facet : patch.facets)
+      {
+        const auto old_x = corners(p, facet, old_positions),
+                   new_x = corners(p, facet, new_positions);
+        gap.old_gaps.push_back(Triangle::gap(old_x));
+        gap.new_gaps.push_back(Triangle::gap(new_x));
+        old_distances.push_back(Triangle::distances_from_edges(old_x));
+        new_distances.push_back(Triangle::distances_from_edges(new_x));
+      }
+    for (const Patch::Edge &edge : patch.edges)
+      gap.edges.push_back({edge.first,
+                           edge.second,
+                           edge.width,
+                           coordinate(edge, old_distances),
+                           coordinate(edge, new_distances)});
+  }
+
+
+
+  std::optional<double>
+  PointsBeforeTriangles::rounded_gap(const unsigned int p,
+                                     const unsigned int f,
+                                     const Positions   &positions) const
+  {
+    static thread_local Patch patch;
+    if (!find_patch(p, f, positions, positions, patch))
+      return {};
+    using Triangle = PointBeforeTriangle<double>;
+    static thread_local RoundedGap<double>                 gap;
+    static thread_local std::vector<std::array<double, 3>> distances;
+    distances.clear();
+    gap.counts = patch.counts;
+    gap.old_gaps.clear();
+    gap.edges.clear();
+    for (const unsigned int facet : patch.facets)
+      {
+        const auto x = corners(p, facet, positions);
+        gap.old_gaps.push_back(Triangle::gap(x));
+        distances.push_back(Triangle::distances_from_edges(x));
+      }
+    gap.new_gaps = gap.old_gaps;
+    for (const Patch::Edge &edge : patch.edges)
+      {
+        const double t = coordinate(edge, distances);
+        gap.edges.push_back({edge.first, edge.second, edge.width, t, t});
+      }
+    if (!gap.evaluate())
+      return {};
+    return gap.old_gap;
+  }
+
+
+
+  bool
+  PointsBeforeTriangles::find_rounded_gap(const unsigned int p)
+  {
+    Step &step = steps[p];
+    // A point that is far off has no force, whatever its gap is.
+    const double plain_gap = PointBeforeTriangle<double>::gap(
+      corners(p, step.old_facet, new_positions));
+    if (std::min(plain_gap, gaps[p].old_gap) >
+        std::sqrt(master.facets[step.old_facet].measure))
+      {
+        step.new_facet  = step.old_facet;
+        gaps[p].new_gap = plain_gap;
+        step.patch.facets.assign(1, step.old_facet);
+        return true;
+      }
+    static thread_local RoundedGap<double> gap;
+    if (!find_patch(p,
+                    step.old_facet,
+                    old_positions,
+                    new_positions,
+                    step.patch))
+      return false;
+    set_distances(p, step.patch, gap);
+    if (!gap.evaluate())
+      return false;
+    step.new_facet  = step.old_facet;
+    gaps[p].new_gap = gap.new_gap;
+    return true;
+  }
+
+
+
   void
   PointsBeforeTriangles::begin_before(const unsigned int p,
                                       const unsigned int f,
@@ -406,6 +718,13 @@ namespace Ricochet
     gaps[p].old_gap         = gap;
     steps[p].old_facet      = f;
     steps[p].may_pass       = may_pass;
+    steps[p].is_rounded     = false;
+    if (rounds_edges && may_pass)
+      if (const auto rounded = rounded_gap(p, f, old_positions))
+        {
+          gaps[p].old_gap     = *rounded;
+          steps[p].is_rounded = true;
+        }
   }
 
 
@@ -519,6 +838,12 @@ namespace Ricochet
           step.new_facet    = step.old_facet;
           gap.new_gap       = gap.old_gap;
           gap.predicted_gap = gap.old_gap;
+          if (step.is_rounded)
+            find_patch(p,
+                       step.old_facet,
+                       old_positions,
+                       old_positions,
+                       step.patch);
           if (has_length)
             gap.predicted_gap = PointBeforeTriangle<double>::gap(
               corners(p,
@@ -539,7 +864,13 @@ namespace Ricochet
       for (unsigned int p = begin; p < end; ++p)
         if (gaps[p].is_before_facet)
           {
-            Step &step      = steps[p];
+            Step &step = steps[p];
+            if (step.is_rounded && find_rounded_gap(p))
+              {
+                step.up_to_date = false;
+                continue;
+              }
+            step.is_rounded = false;
             step.new_facet  = last_facet(p, new_positions, facets);
             gaps[p].new_gap = PointBeforeTriangle<double>::gap(
               corners(p, step.new_facet, new_positions));
@@ -554,9 +885,11 @@ namespace Ricochet
   PointsBeforeTriangles::stay_at_vertex(const unsigned int p,
                                         const double       tolerance)
   {
-    Step        &step = steps[p];
-    const auto  &old  = master.facets[step.old_facet];
-    const double gap  = PointBeforeTriangle<double>::gap(
+    Step &step = steps[p];
+    if (step.is_rounded)
+      return;
+    const auto  &old = master.facets[step.old_facet];
+    const double gap = PointBeforeTriangle<double>::gap(
       corners(p, step.old_facet, new_positions));
     for (const unsigned int f : allowed_around(p, step.old_facet))
       if (f != step.old_facet &&
@@ -572,7 +905,58 @@ namespace Ricochet
   PointsBeforeTriangles::passage(const unsigned int p) const
   {
     const Step &step = steps[p];
+    if (step.is_rounded)
+      return 1 + step.old_facet;
     return step.new_facet == step.old_facet ? 0 : 1 + step.new_facet;
+  }
+
+
+
+  void
+  PointsBeforeTriangles::rounded_rows(const unsigned int   p,
+                                      std::vector<double> &normal) const
+  {
+    using Triangle = PointBeforeTriangle<double>;
+    static thread_local RoundedGap<double>                        gap;
+    static thread_local std::vector<std::array<Triangle::Row, 3>> rows;
+    const Patch &patch = steps[p].patch;
+    set_distances(p, patch, gap);
+    gap.evaluate();
+    normal.assign(3 * (1 + patch.nodes.size()), 0.);
+    const auto add = [&](const unsigned int   facet,
+                         const double         factor,
+                         const Triangle::Row &row) {
+      for (unsigned int v = 0; v < 4; ++v)
+        {
+          const unsigned int to =
+            v == 0 ? 0 : 3 * (1 + patch.corners[facet][v - 1]);
+          for (unsigned int c = 0; c < 3; ++c)
+            normal[to + c] += factor * row[3 * v + c];
+        }
+    };
+    rows.resize(patch.facets.size());
+    for (unsigned int i = 0; i < patch.facets.size(); ++i)
+      {
+        Triangle::Scalar                of_plane;
+        std::array<Triangle::Scalar, 3> from_edges;
+        Triangle::distances(corners(p, patch.facets[i], old_positions),
+                            corners(p, patch.facets[i], new_positions),
+                            of_plane,
+                            from_edges);
+        add(i, gap.of_gaps[i], of_plane.row);
+        for (unsigned int e = 0; e < 3; ++e)
+          rows[i][e] = from_edges[e].row;
+      }
+    for (unsigned int e = 0; e < patch.edges.size(); ++e)
+      {
+        const Patch::Edge &edge = patch.edges[e];
+        add(edge.second,
+            .5 * gap.of_edges[e],
+            rows[edge.second][edge.number_in_second]);
+        add(edge.first,
+            -.5 * gap.of_edges[e],
+            rows[edge.first][edge.number_in_first]);
+      }
   }
 
 
@@ -584,36 +968,62 @@ namespace Ricochet
     if (step.up_to_date)
       return;
     step.up_to_date = true;
-    Passing::Rows all;
+
+    // Rows on the coordinates of the point and of these nodes, and the increments.
+    static thread_local std::vector<unsigned int>                   nodes;
+    static thread_local std::vector<double>                         normal;
+    static thread_local std::array<std::vector<double>, n_tangents> tangential;
+    Rows &rows = step.rows;
+    nodes.clear();
+    const auto copy = [&](const auto &from) {
+      normal.assign(from.normal.begin(), from.normal.end());
+      for (unsigned int d = 0; d < n_tangents; ++d)
+        {
+          tangential[d].assign(from.tangential[d].begin(),
+                               from.tangential[d].end());
+          rows.slip[d] = from.slip[d];
+        }
+      rows.gap_increment = from.gap_increment;
+    };
+    const auto add_corners = [&](const unsigned int facet) {
+      const auto &its_nodes = master.facets[facet].nodes;
+      nodes.insert(nodes.end(), its_nodes.begin(), its_nodes.end());
+    };
+    add_corners(step.old_facet);
     if (step.new_facet == step.old_facet)
       {
+        // Slip is along the facet where the step began.
         PointBeforeTriangle<double>::Rows one;
         PointBeforeTriangle<double>::evaluate(
           corners(p, step.old_facet, old_positions),
           corners(p, step.old_facet, new_positions),
           one,
           needs_slip);
-        all.gap_increment = one.gap_increment;
-        all.slip          = one.slip;
-        std::copy(one.normal.begin(), one.normal.end(), all.normal.begin());
-        for (unsigned int d = 0; d < n_tangents; ++d)
-          std::copy(one.tangential[d].begin(),
-                    one.tangential[d].end(),
-                    all.tangential[d].begin());
+        copy(one);
+        if (step.is_rounded && step.patch.facets.size() > 1)
+          {
+            // The first nodes of a patch are those of that facet.
+            nodes = step.patch.nodes;
+            rounded_rows(p, normal);
+            for (unsigned int d = 0; d < n_tangents; ++d)
+              tangential[d].resize(normal.size(), 0.);
+            rows.gap_increment = gaps[p].new_gap - gaps[p].old_gap;
+          }
       }
     else
-      Passing::evaluate(
-        corners(p, step.old_facet, step.new_facet, old_positions),
-        corners(p, step.old_facet, step.new_facet, new_positions),
-        shared_edge(step.old_facet, step.new_facet),
-        Caution::none,
-        all);
-    Rows &rows         = step.rows;
-    rows.gap_increment = all.gap_increment;
-    for (unsigned int d = 0; d < n_tangents; ++d)
-      rows.slip[d] = all.slip[d];
+      {
+        Passing::Rows both;
+        Passing::evaluate(
+          corners(p, step.old_facet, step.new_facet, old_positions),
+          corners(p, step.old_facet, step.new_facet, new_positions),
+          shared_edge(step.old_facet, step.new_facet),
+          Caution::none,
+          both);
+        copy(both);
+        add_corners(step.new_facet);
+      }
 
-    // The nodes that the point and the corners move with.
+    // The unknowns that the point and the nodes move with.
     rows.unknowns.clear();
     step.shares.clear();
     const auto add = [&](const auto        &node,
@@ -627,38 +1037,29 @@ namespace Ricochet
       for (unsigned int c = 0; c < 3; ++c)
         step.shares.push_back({place + c, 3 * corner + c, factor});
     };
-    const auto add_corners = [&](const unsigned int facet,
-                                 const unsigned int first) {
-      for (unsigned int v = 0; v < 3; ++v)
-        {
-          master.for_each_node_of(master.facets[facet].nodes[v],
-                                  [&](const unsigned int n,
-                                      const double       share) {
-                                    add(master.nodes[n], first + v, share);
-                                  });
-        }
-    };
     for (const auto &[node, weight] : own_points[p].nodes)
       add(slave.nodes[node], 0, weight);
-    add_corners(step.old_facet, 1);
-    if (step.new_facet != step.old_facet)
-      add_corners(step.new_facet, 4);
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      master.for_each_node_of(nodes[k],
+                              [&](const unsigned int n, const double share) {
+                                add(master.nodes[n], 1 + k, share);
+                              });
 
     rows.normal.assign(rows.unknowns.size(), 0.);
     for (auto &row : rows.tangential)
       row.assign(rows.unknowns.size(), 0.);
     for (const Share &share : step.shares)
       {
-        rows.normal[share.place] += share.factor * all.normal[share.coordinate];
+        rows.normal[share.place] += share.factor * normal[share.coordinate];
         for (unsigned int d = 0; d < n_tangents; ++d)
           rows.tangential[d][share.place] +=
-            share.factor * all.tangential[d][share.coordinate];
+            share.factor * tangential[d][share.coordinate];
       }
     double square = 0.;
     for (unsigned int c = 0; c < 3; ++c)
-      square += all.normal[c] * all.normal[c];
+      square += normal[c] * normal[c];
     for (unsigned int c = 0; c < 3; ++c)
-      rows.direction[c] = all.normal[c] / std::sqrt(square);
+      rows.direction[c] = normal[c] / std::sqrt(square);
   }
 
 
@@ -718,6 +1119,168 @@ namespace Ricochet
 
 
 
+  void
+  PointsBeforeTriangles::differentiate_rounded(const unsigned int p,
+                                               const double       pressure,
+                                               const Tangential  &traction,
+                                               const Caution      caution,
+                                               Derivatives       &result) const
+  {
+    // The row of the gap is a sum of rows of the scalars s (distances from planes, coordinates of
+    // edges) with factors P(s). Both are differentiated by themselves.
+    using OfTriangle             = Sacado::Fad::SLFad<double, 12>;
+    using OfScalars              = Sacado::Fad::SLFad<double, 96>;
+    using Triangle               = PointBeforeTriangle<OfTriangle>;
+    const Step        &step      = steps[p];
+    const Patch       &patch     = step.patch;
+    const unsigned int n_facets  = patch.facets.size(),
+                       n_scalars = n_facets + patch.edges.size(),
+                       n         = 3 * (1 + patch.nodes.size());
+    struct OfFacet
+    {
+      Triangle::Scalar                gap;
+      std::array<Triangle::Scalar, 3> from_edges;
+      Triangle::Rows                  slip;
+    };
+    static thread_local std::vector<OfFacet> facets;
+    facets.resize(n_facets);
+    for (unsigned int i = 0; i < n_facets; ++i)
+      {
+        const auto now = corners(p, patch.facets[i], new_positions);
+        std::array<std::array<OfTriangle, 3>, 4> x;
+        for (unsigned int v = 0; v < 4; ++v)
+          for (unsigned int c = 0; c < 3; ++c)
+            x[v][c] = OfTriangle(12, 3 * v + c, now[v][c]);
+        const auto old_x = corners(p, patch.facets[i], old_positions);
+        Triangle::distances(old_x, x, facets[i].gap, facets[i].from_edges);
+        if (i == 0 && needs_slip)
+          Triangle::evaluate(old_x, x, facets[i].slip);
+      }
+
+    static thread_local RoundedGap<OfScalars> rounded;
+    const auto variable = [&](const unsigned int k, const OfTriangle &value) {
+      return OfScalars(static_cast<int>(n_scalars),
+                       static_cast<int>(k),
+                       value.val());
+    };
+    rounded.counts = patch.counts;
+    rounded.old_gaps.clear();
+    rounded.new_gaps.clear();
+    rounded.edges.clear();
+    for (unsigned int i = 0; i < n_facets; ++i)
+      {
+        rounded.old_gaps.push_back(facets[i].gap.old_value);
+        rounded.new_gaps.push_back(variable(i, facets[i].gap.new_value));
+      }
+    for (unsigned int e = 0; e < patch.edges.size(); ++e)
+      {
+        const Patch::Edge &edge = patch.edges[e];
+        const auto &a = facets[edge.first].from_edges[edge.number_in_first];
+        const auto &b = facets[edge.second].from_edges[edge.number_in_second];
+        rounded.edges.push_back(
+          {edge.first,
+           edge.second,
+           edge.width,
+           .5 * (b.old_value - a.old_value),
+           variable(n_facets + e, .5 * (b.new_value - a.new_value))});
+      }
+    rounded.evaluate();
+
+    // The rows of the scalars and their gradients, and the derivatives of rows along the
+    // way.
+    static thread_local std::vector<double> row, gradient, of_rows;
+    row.assign(n_scalars * n, 0.);
+    gradient.assign(n_scalars * n, 0.);
+    of_rows.assign(n * n, 0.);
+    const auto place = [&](const unsigned int facet, const unsigned int i) {
+      return i < 3 ? i : 3 * (1 + patch.corners[facet][i / 3 - 1]) + i % 3;
+    };
+    const auto add_rows = [&](const unsigned int                facet,
+                              const std::array<OfTriangle, 12> &its_row,
+                              const double                      factor) {
+      for (unsigned int i = 0; i < 12; ++i)
+        for (unsigned int j = 0; j < 12; ++j)
+          of_rows[place(facet, i) * n + place(facet, j)] +=
+            factor * its_row[i].dx(j);
+    };
+    const auto add = [&](const unsigned int      facet,
+                         const unsigned int      scalar,
+                         const Triangle::Scalar &value,
+                         const double            factor,
+                         const double            of_scalar) {
+      for (unsigned int i = 0; i < 12; ++i)
+        {
+          const unsigned int to = scalar * n + place(facet, i);
+          row[to] += factor * value.row[i].val();
+          gradient[to] += factor * value.new_value.dx(i);
+        }
+      add_rows(facet, value.row, -pressure * factor * of_scalar);
+    };
+    for (unsigned int i = 0; i < n_facets; ++i)
+      add(i, i, facets[i].gap, 1., rounded.of_gaps[i].val());
+    for (unsigned int e = 0; e < patch.edges.size(); ++e)
+      {
+        const Patch::Edge &edge      = patch.edges[e];
+        const double       of_scalar = rounded.of_edges[e].val();
+        add(edge.second,
+            n_facets + e,
+            facets[edge.second].from_edges[edge.number_in_second],
+            .5,
+            of_scalar);
+        add(edge.first,
+            n_facets + e,
+            facets[edge.first].from_edges[edge.number_in_first],
+            -.5,
+            of_scalar);
+      }
+    static thread_local std::vector<double> of_gap, of_factor;
+    // The slope of the weights may let Newton's method oscillate, see Caution.
+    const bool has_slopes = caution == Caution::none;
+    of_gap.assign(n, 0.);
+    for (unsigned int k = 0; k < n_scalars; ++k)
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          of_gap[i] += rounded.new_gap.dx(k) * gradient[k * n + i];
+        const OfScalars &factor =
+          k < n_facets ? rounded.of_gaps[k] : rounded.of_edges[k - n_facets];
+        of_factor.assign(n, 0.);
+        for (unsigned int l = 0; l < n_scalars; ++l)
+          if (const double derivative = factor.dx(l);
+              derivative != 0. && (l < n_facets || has_slopes))
+            for (unsigned int i = 0; i < n; ++i)
+              of_factor[i] += derivative * gradient[l * n + i];
+        for (unsigned int i = 0; i < n; ++i)
+          if (const double entry = -pressure * row[k * n + i]; entry != 0.)
+            for (unsigned int j = 0; j < n; ++j)
+              of_rows[i * n + j] += entry * of_factor[j];
+      }
+
+    const unsigned int m = step.rows.unknowns.size();
+    result.gap.assign(m, 0.);
+    for (auto &one : result.slip)
+      one.assign(m, 0.);
+    result.forces.assign(m * m, 0.);
+    if (needs_slip)
+      for (unsigned int d = 0; d < n_tangents; ++d)
+        {
+          add_rows(0, facets[0].slip.tangential[d], traction[d]);
+          for (const Share &share : step.shares)
+            for (unsigned int i = 0; i < 12; ++i)
+              if (place(0, i) == share.coordinate)
+                result.slip[d][share.place] +=
+                  share.factor * facets[0].slip.slip[d].dx(i);
+        }
+    for (const Share &a : step.shares)
+      {
+        result.gap[a.place] += a.factor * of_gap[a.coordinate];
+        for (const Share &b : step.shares)
+          result.forces[a.place * m + b.place] +=
+            a.factor * b.factor * of_rows[a.coordinate * n + b.coordinate];
+      }
+  }
+
+
+
   const SurfacePair<3>::Derivatives &
   PointsBeforeTriangles::derivatives(const unsigned int p,
                                      const double       pressure,
@@ -728,7 +1291,9 @@ namespace Ricochet
     static thread_local Derivatives result;
     const Step                     &step = steps[p];
     const unsigned int              old = step.old_facet, now = step.new_facet;
-    if (now == old)
+    if (step.is_rounded && step.patch.facets.size() > 1)
+      differentiate_rounded(p, pressure, traction, caution, result);
+    else if (now == old)
       differentiate<4>(
         p,
         pressure,

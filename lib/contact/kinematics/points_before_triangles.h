@@ -6,8 +6,10 @@
 #include <contact/kinematics/surface_pair.h>
 #include <contact/surfaces/own_facets.h>
 #include <contact/surfaces/point_passing_triangles.h>
+#include <contact/surfaces/rounded_gap.h>
 
 #include <memory>
+#include <vector>
 
 namespace Ricochet
 {
@@ -26,6 +28,9 @@ namespace Ricochet
    * nevertheless, at vertices of some kinds, the point keeps the triangle where it
    * began until the end of the step.
    *
+   * For laws, whose energy is a function of the gap, edges between triangles are rounded
+   * instead, see RoundedGap: a point near edges is in contact with a patch of triangles.
+   *
    * For a surface against itself, each point can touch other triangles of that
    * surface, see OwnFacets. A point never passes to one of those around it.
    */
@@ -39,9 +44,11 @@ namespace Ricochet
     };
 
     /// @throws InputError see SurfacePair.
+    /// @param rounds_edges see above; not for a surface against itself.
     PointsBeforeTriangles(const Body<3>     &body,
                           const ContactPair &pair,
-                          const PointsIn     points_in);
+                          const PointsIn     points_in,
+                          const bool         rounds_edges);
 
     void
     begin_step(const ContactStart &start) override;
@@ -95,8 +102,32 @@ namespace Ricochet
       double       factor;
     };
 
+    /// The facets that a point near edges is in contact with.
+    struct Patch
+    {
+      /// An edge between two facets of the patch, and its number in each of them.
+      struct Edge
+      {
+        unsigned int first, second, number_in_first, number_in_second;
+        /// Half width of its rounding (m).
+        double width;
+      };
+
+      std::vector<unsigned int> facets;
+      /// See RoundedGap::counts.
+      std::vector<bool> counts;
+      std::vector<Edge> edges;
+      /// Nodes of the facets, and their numbers among these.
+      std::vector<unsigned int>                nodes;
+      std::vector<std::array<unsigned int, 3>> corners;
+    };
+
     struct Step
     {
+      /// Edges are rounded; then #new_facet is #old_facet, and #patch is the
+      /// one for both ends of the step.
+      bool  is_rounded = false;
+      Patch patch;
       /// Facets that the point faces at the beginning and the end of the step.
       unsigned int old_facet = 0, new_facet = 0;
       bool         may_pass = false;
@@ -112,6 +143,55 @@ namespace Ricochet
 
     double
     reach_of_step(const Course &course) const override;
+
+    /// Half width of the rounding of the edges of facet @p f (m).
+    double
+    rounding(const unsigned int f) const
+    {
+      // Wide enough for the slope of a pressure between two triangles to be moderate
+      // against the stiffness of a body, and narrow against the triangles.
+      return .1 * std::sqrt(master.facets[f].measure);
+    }
+
+    /// Find the patch for a point that faces facet @p f, for its positions at
+    /// two instants. @return whether it is small enough.
+    bool
+    find_patch(const unsigned int p,
+               const unsigned int f,
+               const Positions   &begin,
+               const Positions   &end,
+               Patch             &patch) const;
+
+    /// Set up @p gap for the @p patch of point @p p, in double precision.
+    void
+    set_distances(const unsigned int  p,
+                  const Patch        &patch,
+                  RoundedGap<double> &gap) const;
+
+    /// The gap at one instant of a point that faces facet @p f, with rounded edges, if
+    /// the point has one.
+    std::optional<double>
+    rounded_gap(const unsigned int p,
+                const unsigned int f,
+                const Positions   &positions) const;
+
+    /// Whether edges are rounded for the point in this step, and its patch and its gap at
+    /// the end then.
+    bool
+    find_rounded_gap(const unsigned int p);
+
+    /// Rows on the coordinates of the point and of the nodes of its patch, one point after
+    /// the other.
+    void
+    rounded_rows(const unsigned int p, std::vector<double> &normal) const;
+
+    /// The derivatives of a point with rounded edges.
+    void
+    differentiate_rounded(const unsigned int p,
+                          const double       pressure,
+                          const Tangential  &traction,
+                          const Caution      caution,
+                          Derivatives       &result) const;
 
     void
     make_quadrature_points(const Body<3> &body);
@@ -232,12 +312,17 @@ namespace Ricochet
     void
     update(const unsigned int p) const;
 
+    const bool rounds_edges;
     /// Search distances of facets: a tenth of the surface, but no less than two
     /// facets and the approach in a step; on the point's own surface only the latter
     /// (m).
     double reach = 0., smallest_reach = 0.;
     /// The facets around each one: those that share a node with it, and itself.
     std::vector<std::vector<unsigned int>> around;
+    /// The facets at each node, and within which distance of the node a point is in
+    /// contact with all of them, if edges are rounded (m).
+    std::vector<std::vector<unsigned int>> at_node;
+    std::vector<double>                    radius_of_node;
     /// For self-contact: the facets that points can touch, and the facets around
     /// each one, which its points cannot touch.
     std::unique_ptr<OwnFacets>             own_facets;

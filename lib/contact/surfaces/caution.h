@@ -9,7 +9,7 @@ namespace Ricochet
   enum class Caution
   {
     none,
-    /// None behind a convex vertex, which gives a pressed point a negative stiffness.
+    /// None at rounded vertices and edges, where the slope of the weights counts; and none behind a convex vertex, which gives a pressed point a negative stiffness.
     at_convex_vertices,
     /// Secant behind a concave vertex, in which a point may come to rest,
     /// instead of the tangent, which decays soon behind the vertex.

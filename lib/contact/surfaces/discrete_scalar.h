@@ -48,6 +48,19 @@ namespace Ricochet
     return result;
   }
 
+  template <typename Number, unsigned int n>
+  DiscreteScalar<Number, n>
+  operator+(const DiscreteScalar<Number, n> &a,
+            const DiscreteScalar<Number, n> &b)
+  {
+    DiscreteScalar<Number, n> result;
+    result.old_value = a.old_value + b.old_value;
+    result.new_value = a.new_value + b.new_value;
+    for (unsigned int i = 0; i < n; ++i)
+      result.row[i] = a.row[i] + b.row[i];
+    return result;
+  }
+
   /// The row is mean(a) b' + mean(b) a'.
   template <typename Number, unsigned int n>
   DiscreteScalar<Number, n>

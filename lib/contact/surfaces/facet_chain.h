@@ -3,6 +3,7 @@
 #define ricochet_contact_surfaces_facet_chain_h
 
 #include <contact/surfaces/caution.h>
+#include <contact/surfaces/rounded_gap.h>
 
 #include <array>
 #include <cmath>
@@ -39,6 +40,17 @@ namespace Ricochet
    * displacement on each, and a small couple for the change of the angle, so
    * that D . change is still exactly g_1 - g_0.
    *
+   * These weights jump where a step begins exactly on a bisector, as it does for nodes
+   * that meet nodes: Newton's method then has nothing to converge to. So a vertex may be
+   * rounded: within w of the bisector the gap is the mean of both distances, g = g_1 +
+   * sigma (g_2 - g_1), with the weight sigma(t/w) of RoundedGap, which rises from 0 to 1. It is
+   * a differentiable function of the positions alone. With psi = t sigma, tau for the
+   * change of psi over that of t, and the discrete gradient D_sine of e_1 x e_2,
+   *
+   *     D = D_1 + tau (D_2 - D_1) + (tau mean(t) - mean(psi)) D_sine,
+   *
+   * which is the formula above where w = 0, tau the part behind the vertex.
+   *
    * @tparam Number type of the new values: double, or one for automatic
    * differentiation.
    */
@@ -63,16 +75,22 @@ namespace Ricochet
       std::vector<Number> normal, tangential;
     };
 
+    /// Half widths of the rounded vertices between facets of the chain (m); null for sharp
+    /// ones.
+    using Roundings = const std::vector<double>;
+
     /**
      * Positions at the beginning of a step and at its end: first that of the
      * point, then those of the nodes of the chain (m). References are stored.
      */
     FacetChain(const std::vector<Vector2<double>> &old_positions,
                const std::vector<Vector2<Number>> &new_positions,
-               const Caution                       caution = Caution::none)
+               const Caution                       caution   = Caution::none,
+               Roundings                          *roundings = nullptr)
       : old_x(old_positions)
       , new_x(new_positions)
       , caution(caution)
+      , roundings(roundings)
     {}
 
     /**
@@ -88,6 +106,18 @@ namespace Ricochet
       rows.tangential.assign(2 * new_x.size(), Number(0.));
       add_normal_row(old_facet, Number(1.), rows.normal);
       add_tangential_row(old_facet, rows.tangential);
+      if (roundings)
+        {
+          for (unsigned int facet = old_facet; facet + 3 < new_x.size();
+               ++facet)
+            add_rounded(facet, 1., rows.normal);
+          for (unsigned int facet = old_facet; facet > 0; --facet)
+            add_rounded(facet - 1, -1., rows.normal);
+          rows.new_gap       = gap(new_x, new_facet, *roundings);
+          rows.gap_increment = times_change(rows.normal);
+          rows.slip          = times_change(rows.tangential);
+          return;
+        }
       const bool         forward = new_facet > old_facet;
       const unsigned int first   = forward ? old_facet : new_facet;
       const unsigned int last    = forward ? new_facet : old_facet;
@@ -109,6 +139,32 @@ namespace Ricochet
       return cross(e, minus(x[0], x[facet + 1])) / sqrt(dot(e, e));
     }
 
+    /// The distance from the surface with rounded vertices, in front of which the point
+    /// is at @p facet (m).
+    template <typename T>
+    static T
+    gap(const std::vector<Vector2<T>> &x,
+        const unsigned int             facet,
+        Roundings                     &roundings)
+    {
+      T distance = gap(x, facet);
+      if (facet + 3 < x.size())
+        distance -= turn(x, facet) *
+          past_rounded(past_vertex(x, facet), roundings[facet]);
+      if (facet > 0)
+        distance -= turn(x, facet - 1) *
+          past_rounded(T(-past_vertex(x, facet - 1)), roundings[facet - 1]);
+      return distance;
+    }
+
+    /// psi(t) with the half width @p w.
+    template <typename T>
+    static T
+    past_rounded(const T &t, const double w)
+    {
+      return t * RoundedGap<T>::rise(T(t / w));
+    }
+
     /// The coordinate (m) from the bisector between @p facet and the next one,
     /// negative on the side of @p facet.
     template <typename T>
@@ -125,11 +181,13 @@ namespace Ricochet
 
     /// The sine of the angle between @p facet and the next one: positive for a
     /// concave vertex.
-    static double
-    turn(const std::vector<Vector2<double>> &x, const unsigned int facet)
+    template <typename T>
+    static T
+    turn(const std::vector<Vector2<T>> &x, const unsigned int facet)
     {
+      using std::sqrt;
       const auto e1 = edge(x, facet), e2 = edge(x, facet + 1);
-      return cross(e1, e2) / std::sqrt(dot(e1, e1) * dot(e2, e2));
+      return cross(e1, e2) / sqrt(dot(e1, e1) * dot(e2, e2));
     }
 
     /// Whether the point is between the bisectors at both ends of @p facet.
@@ -307,6 +365,46 @@ namespace Ricochet
       add_turning_row(facet, Number(direction * old_t * part), row);
     }
 
+    /// Add the terms of the rounded vertex between @p facet and the next one for a point
+    /// in front of @p facet, @p direction being 1, or in front of the next one, -1.
+    void
+    add_rounded(const unsigned int   facet,
+                const double         direction,
+                std::vector<Number> &row) const
+    {
+      const double w     = (*roundings)[facet];
+      const double old_t = direction * past_vertex(old_x, facet);
+      const Number new_t = direction * past_vertex(new_x, facet);
+      if (old_t <= -w && new_t <= -w)
+        return;
+      const double old_psi = past_rounded(old_t, w);
+      const Number new_psi = past_rounded(new_t, w);
+      Number       tau;
+      if (old_t >= w && new_t >= w)
+        tau = 1.;
+      else if (std::abs(old_t) <= w && new_t >= -w && new_t <= w)
+        {
+          // The quotient of differences of t/2 + 3/4 t^2/w - t^4/(4 w^3).
+          const double a = old_t / w;
+          const Number b = new_t / w;
+          tau            = .5 + .75 * (a + b) - .25 * (a + b) * (a * a + b * b);
+        }
+      else
+        tau = (new_psi - old_psi) / (new_t - old_t);
+      Number of_turn = .5 * (tau * (old_t + new_t) - (old_psi + new_psi));
+      if constexpr (!std::is_same<Number, double>::value)
+        if (caution != Caution::none)
+          {
+            tau     = Number(tau.val());
+            of_turn = Number(of_turn.val());
+          }
+      const unsigned int near = direction > 0. ? facet : facet + 1,
+                         far  = direction > 0. ? facet + 1 : facet;
+      add_normal_row(far, tau, row);
+      add_normal_row(near, Number(-tau), row);
+      add_turning_row(facet, of_turn, row);
+    }
+
     /// Add @p factor times the quotient of differences of e_1 x e_2, the sine of the
     /// angle between @p facet and the next one.
     void
@@ -348,6 +446,7 @@ namespace Ricochet
     const std::vector<Vector2<double>> &old_x;
     const std::vector<Vector2<Number>> &new_x;
     const Caution                       caution;
+    Roundings *const                    roundings;
   };
 } // namespace Ricochet
 

@@ -74,8 +74,7 @@ namespace Ricochet
              Rows                 &rows,
              const bool            needs_slip = true)
     {
-      const Step step(old_x, new_x);
-      using Scalar     = DiscreteScalar<Number, n_coordinates>;
+      const Step   step(old_x, new_x);
       const Scalar q11 = step.product(0, 0), q12 = step.product(0, 1),
                    q22 = step.product(1, 1), q13 = step.product(0, 2),
                    q23 = step.product(1, 2), q33 = step.product(2, 2);
@@ -102,6 +101,53 @@ namespace Ricochet
         rows.slip[d] = step.times_change(rows.tangential[d]);
     }
 
+    using Scalar = DiscreteScalar<Number, n_coordinates>;
+
+    /// The distance from the plane, and those of the projection on it from the lines of the
+    /// edges ab, bc and ca, positive inside of the triangle (m).
+    static void
+    distances(const Points<double>  &old_x,
+              const Points<Number>  &new_x,
+              Scalar                &gap,
+              std::array<Scalar, 3> &from_edges)
+    {
+      const Step   step(old_x, new_x);
+      const Scalar q11 = step.product(0, 0), q12 = step.product(0, 1),
+                   q22 = step.product(1, 1), q13 = step.product(0, 2),
+                   q23 = step.product(1, 2), q33 = step.product(2, 2);
+      const Scalar square_of_area = q11 * q22 - q12 * q12;
+      const Scalar area           = sqrt(square_of_area);
+      gap = step.volume({{&q11, &q12, &q22, &q13, &q23, &q33}}, area) / area;
+      // Products of area and twice the area between an edge and the projection.
+      const Scalar at_ca = q22 * q13 - q12 * q23, at_ab = q11 * q23 - q12 * q13;
+      from_edges[0] = at_ab / (area * sqrt(q11));
+      from_edges[1] =
+        (square_of_area - at_ab - at_ca) / (area * sqrt(q11 + q22 - q12 - q12));
+      from_edges[2] = at_ca / (area * sqrt(q22));
+    }
+
+    /// The last results of distances() at one state.
+    static std::array<double, 3>
+    distances_from_edges(const Points<double> &x)
+    {
+      const auto            w      = edges(x);
+      const auto            normal = cross(w[0], w[1]);
+      const double          area   = std::sqrt(dot(normal, normal));
+      std::array<double, 3> result;
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          Vector3<double> edge, r;
+          for (unsigned int c = 0; c < 3; ++c)
+            {
+              edge[c] = x[1 + (k + 1) % 3][c] - x[1 + k][c];
+              r[c]    = x[0][c] - x[1 + k][c];
+            }
+          result[k] =
+            dot(normal, cross(edge, r)) / (area * std::sqrt(dot(edge, edge)));
+        }
+      return result;
+    }
+
     /// The distance from the plane (m).
     template <typename T>
     static T
@@ -118,8 +164,7 @@ namespace Ricochet
     static DiscreteScalar<Number, n_coordinates>
     sine(const Points<double> &old_x, const Points<Number> &new_x)
     {
-      const Step step(old_x, new_x);
-      using Scalar     = DiscreteScalar<Number, n_coordinates>;
+      const Step   step(old_x, new_x);
       const Scalar q11 = step.product(0, 0), q12 = step.product(0, 1),
                    q22 = step.product(1, 1), q13 = step.product(0, 2),
                    q23 = step.product(1, 2), q33 = step.product(2, 2);

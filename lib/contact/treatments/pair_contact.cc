@@ -48,7 +48,8 @@ namespace Ricochet
             : !method.law && method.condition == ClosingCondition::signorini &&
               !method.friction.exists()
             ? Points::PointsIn::nodes_and_valleys
-            : Points::PointsIn::nodes);
+            : Points::PointsIn::nodes,
+          /* rounds_vertices */ method.law != nullptr);
       AssertThrow(nodal, ExcMessage("Mortar couples nodes."));
       if constexpr (dim == 2)
         return std::make_unique<MortarPair>(body, pair, mortar_shape(method));
@@ -79,7 +80,8 @@ namespace Ricochet
             body,
             pair,
             nodal ? Points::PointsIn::nodes
-                  : Points::PointsIn::quadrature_points);
+                  : Points::PointsIn::quadrature_points,
+            /* rounds_edges */ method.law != nullptr);
         }
       else
         return make_pair_before_chains(body, pair, method, nodal);
@@ -285,7 +287,9 @@ namespace Ricochet
           : std::min(has_friction || dim == 3 ? 1e-2 : 1e-9,
                      1e-10 * std::pow(10., n_returns));
         ++n_returns;
-        n_frozen = 4 * std::max(1u, n_returns - 1);
+        // Rounded vertices and edges of laws only need a few iterates with weights
+        // that stay.
+        n_frozen = method.law ? 4 : 4 * std::max(1u, n_returns - 1);
         if (n_returns > 1)
           for (PointState &state : states)
             if (state.candidate &&
