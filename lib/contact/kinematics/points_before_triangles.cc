@@ -20,9 +20,6 @@ namespace Ricochet
 
   namespace
   {
-    /// Largest number of facets and edges of a patch with rounded edges.
-    constexpr unsigned int most_scalars = 96;
-
     /// Distance of the first of @p x from the triangle between the others.
     double
     distance(const std::array<std::array<double, 3>, 4> &x)
@@ -42,6 +39,7 @@ namespace Ricochet
                                                const bool         rounds_edges)
     : SurfacePair<3>(body, pair)
     , rounds_edges(rounds_edges && !is_self)
+    , rounded_patches(master)
   {
     if (points_in == PointsIn::quadrature_points)
       make_quadrature_points(body);
@@ -59,19 +57,10 @@ namespace Ricochet
       smallest_reach =
         std::max(smallest_reach, 2. * std::sqrt(2. * facet.measure));
 
-    at_node.resize(master.nodes.size());
+    std::vector<std::vector<unsigned int>> at_node(master.nodes.size());
     for (unsigned int f = 0; f < master.facets.size(); ++f)
       for (const unsigned int node : master.facets[f].nodes)
         at_node[node].push_back(f);
-    // Beyond a node the lines of a triangle's edges at an angle of more than 30 degrees
-    // are farther off than their roundings.
-    for (const auto &facets : at_node)
-      {
-        double largest = 0.;
-        for (const unsigned int f : facets)
-          largest = std::max(largest, rounding(f));
-        radius_of_node.push_back(4. * largest);
-      }
     around.resize(master.facets.size());
     for (unsigned int f = 0; f < master.facets.size(); ++f)
       {
@@ -410,265 +399,17 @@ namespace Ricochet
 
 
 
-  bool
-  PointsBeforeTriangles::find_patch(const unsigned int p,
-                                    const unsigned int f,
-                                    const Positions   &begin,
-                                    const Positions   &end,
-                                    Patch             &patch) const
-  {
-    // Points that face more are far off, or pass many facets in a step.
-    constexpr std::size_t most = 64;
-
-    // Distances from the edges, and from the plane and the nodes, at both instants.
-    struct Distances
-    {
-      std::array<double, 3> from_edges, from_nodes;
-      double                from_plane;
-    };
-    static thread_local std::vector<std::array<Distances, 2>> distances;
-    distances.clear();
-    patch.facets.clear();
-    patch.edges.clear();
-    const auto add_facet = [&](const unsigned int facet) {
-      if (std::find(patch.facets.begin(), patch.facets.end(), facet) !=
-          patch.facets.end())
-        return;
-      patch.facets.push_back(facet);
-      distances.emplace_back();
-      for (unsigned int k = 0; k < 2; ++k)
-        {
-          using Triangle   = PointBeforeTriangle<double>;
-          const auto x     = corners(p, facet, k == 0 ? begin : end);
-          Distances &own   = distances.back()[k];
-          own.from_edges   = Triangle::distances_from_edges(x);
-          const double gap = Triangle::gap(x);
-          own.from_plane   = std::abs(gap);
-          for (unsigned int v = 0; v < 3; ++v)
-            own.from_nodes[v] = std::sqrt(
-              std::max(0.,
-                       (to_tensor(x[0]) - to_tensor(x[1 + v])).norm_square() -
-                         gap * gap));
-        }
-    };
-    const auto number_in = [&](const unsigned int facet,
-                               const unsigned int neighbour) {
-      const auto &neighbours = master.facets[facet].neighbours;
-      return static_cast<unsigned int>(
-        std::find(neighbours.begin(), neighbours.end(), neighbour) -
-        neighbours.begin());
-    };
-    // Coordinate of the point from the bisector of edge e of facet i, positive beyond it.
-    const auto coordinate = [&](const unsigned int i,
-                                const unsigned int e,
-                                const unsigned int j,
-                                const unsigned int k) {
-      const unsigned int number = number_in(patch.facets[j], patch.facets[i]);
-      return .5 *
-        (distances[j][k].from_edges[number] - distances[i][k].from_edges[e]);
-    };
-    add_facet(f);
-    for (unsigned int i = 0; i < patch.facets.size(); ++i)
-      {
-        const auto &facet = master.facets[patch.facets[i]];
-        for (unsigned int v = 0; v < 3; ++v)
-          if (std::min(distances[i][0].from_nodes[v],
-                       distances[i][1].from_nodes[v]) <
-              radius_of_node[facet.nodes[v]])
-            for (const unsigned int other : at_node[facet.nodes[v]])
-              add_facet(other);
-        // At an edge at which the surface turns by less than a right angle, a point is no
-        // farther inside of the neighbour than its distance from the plane.
-        const auto is_far_inside = [&](const unsigned int e,
-                                       const unsigned int k) {
-          return distances[i][k].from_edges[e] >
-            2. * rounding(patch.facets[i]) + distances[i][k].from_plane;
-        };
-        for (unsigned int e = 0; e < 3; ++e)
-          if (facet.neighbours[e] &&
-              !(is_far_inside(e, 0) && is_far_inside(e, 1)))
-            {
-              const unsigned int n = patch.facets.size();
-              add_facet(*facet.neighbours[e]);
-              if (patch.facets.size() == n)
-                continue;
-              const double width = std::min(rounding(patch.facets[i]),
-                                            rounding(*facet.neighbours[e]));
-              if (std::max(coordinate(i, e, n, 0), coordinate(i, e, n, 1)) <=
-                  -width)
-                {
-                  patch.facets.pop_back();
-                  distances.pop_back();
-                }
-            }
-        if (patch.facets.size() > most)
-          return false;
-      }
-
-    // Weights of facets, from their edges in the patch; without those that are zero at both
-    // instants, except where a rounding begins.
-    static thread_local std::vector<std::array<double, 2>> weights;
-    weights.assign(patch.facets.size(), {{1., 1.}});
-    static thread_local std::vector<Patch::Edge> all_edges;
-    static thread_local std::vector<bool>        is_needed;
-    all_edges.clear();
-    is_needed.assign(patch.facets.size(), false);
-    for (unsigned int i = 0; i < patch.facets.size(); ++i)
-      for (unsigned int e = 0; e < 3; ++e)
-        if (const auto neighbour = master.facets[patch.facets[i]].neighbours[e])
-          {
-            const unsigned int j =
-              std::find(patch.facets.begin(), patch.facets.end(), *neighbour) -
-              patch.facets.begin();
-            if (j == patch.facets.size() || j < i)
-              continue;
-            const double width =
-              std::min(rounding(patch.facets[i]), rounding(*neighbour));
-            all_edges.push_back(
-              {i, j, e, number_in(*neighbour, patch.facets[i]), width});
-            for (unsigned int k = 0; k < 2; ++k)
-              {
-                const double beyond =
-                  RoundedGap<double>::rise(coordinate(i, e, j, k) / width);
-                weights[i][k] *= 1. - beyond;
-                weights[j][k] *= beyond;
-              }
-          }
-    const auto counts = [&](const unsigned int i) {
-      return weights[i][0] > 0. || weights[i][1] > 0.;
-    };
-    const auto is_constant = [&](const Patch::Edge &edge) {
-      const double begin_t =
-        coordinate(edge.first, edge.number_in_first, edge.second, 0);
-      const double end_t =
-        coordinate(edge.first, edge.number_in_first, edge.second, 1);
-      return std::max(begin_t, end_t) <= -edge.width ||
-        std::min(begin_t, end_t) >= edge.width;
-    };
-    for (unsigned int i = 0; i < patch.facets.size(); ++i)
-      is_needed[i] = i == 0 || counts(i);
-    for (const Patch::Edge &edge : all_edges)
-      if (!is_constant(edge) && (counts(edge.first) || counts(edge.second)))
-        is_needed[edge.first] = is_needed[edge.second] = true;
-    patch.counts.clear();
-    static thread_local std::vector<unsigned int> number;
-    number.assign(patch.facets.size(), 0);
-    unsigned int n = 0;
-    for (unsigned int i = 0; i < patch.facets.size(); ++i)
-      if (is_needed[i])
-        {
-          number[i]       = n;
-          patch.facets[n] = patch.facets[i];
-          patch.counts.push_back(counts(i));
-          ++n;
-        }
-    patch.facets.resize(n);
-    for (const Patch::Edge &edge : all_edges)
-      if (is_needed[edge.first] && is_needed[edge.second])
-        patch.edges.push_back({number[edge.first],
-                               number[edge.second],
-                               edge.number_in_first,
-                               edge.number_in_second,
-                               edge.width});
-    if (n + patch.edges.size() > most_scalars)
-      return false;
-
-    patch.nodes.clear();
-    patch.corners.clear();
-    for (const unsigned int facet : patch.facets)
-      {
-        patch.corners.emplace_back();
-        for (unsigned int v = 0; v < 3; ++v)
-          {
-            const unsigned int node = master.facets[facet].nodes[v];
-            const auto         known =
-              std::find(patch.nodes.begin(), patch.nodes.end(), node);
-            patch.corners.back()[v] = known - patch.nodes.begin();
-            if (known == patch.nodes.end())
-              patch.nodes.push_back(node);
-          }
-      }
-    return true;
-  }
-
-
-
-  namespace
-  {
-    /// The coordinate of an edge from the distances of the point from it in both
-    /// facets.
-    template <typename Edge, typename Distances>
-    auto
-    coordinate(const Edge &edge, const std::vector<Distances> &distances)
-    {
-      return .5 *
-        (distances[edge.second][edge.number_in_second] -
-         distances[edge.first][edge.number_in_first]);
-    }
-  } // namespace
-
-
-
-  void
-  PointsBeforeTriangles::set_distances(const unsigned int  p,
-                                       const Patch        &patch,
-                                       RoundedGap<double> &gap) const
-  {
-    static thread_local std::vector<std::array<double, 3>> old_distances,
-      new_distances;
-    old_distances.clear();
-    new_distances.clear();
-    gap.counts = patch.counts;
-    gap.old_gaps.clear();
-    gap.new_gaps.clear();
-    gap.edges.clear();
-    using Triangle = PointBeforeTriangle<double>;
-    for (const unsigned int facet : patch.facets)
-      {
-        const auto old_x = corners(p, facet, old_positions),
-                   new_x = corners(p, facet, new_positions);
-        gap.old_gaps.push_back(Triangle::gap(old_x));
-        gap.new_gaps.push_back(Triangle::gap(new_x));
-        old_distances.push_back(Triangle::distances_from_edges(old_x));
-        new_distances.push_back(Triangle::distances_from_edges(new_x));
-      }
-    for (const Patch::Edge &edge : patch.edges)
-      gap.edges.push_back({edge.first,
-                           edge.second,
-                           edge.width,
-                           coordinate(edge, old_distances),
-                           coordinate(edge, new_distances)});
-  }
-
-
-
   std::optional<double>
   PointsBeforeTriangles::rounded_gap(const unsigned int p,
                                      const unsigned int f,
                                      const Positions   &positions) const
   {
-    static thread_local Patch patch;
-    if (!find_patch(p, f, positions, positions, patch))
+    static thread_local RoundedPatch       patch;
+    static thread_local RoundedGap<double> gap;
+    const auto                             now = instant(p, positions);
+    if (!rounded_patches.find(f, now, now, patch))
       return {};
-    using Triangle = PointBeforeTriangle<double>;
-    static thread_local RoundedGap<double>                 gap;
-    static thread_local std::vector<std::array<double, 3>> distances;
-    distances.clear();
-    gap.counts = patch.counts;
-    gap.old_gaps.clear();
-    gap.edges.clear();
-    for (const unsigned int facet : patch.facets)
-      {
-        const auto x = corners(p, facet, positions);
-        gap.old_gaps.push_back(Triangle::gap(x));
-        distances.push_back(Triangle::distances_from_edges(x));
-      }
-    gap.new_gaps = gap.old_gaps;
-    for (const Patch::Edge &edge : patch.edges)
-      {
-        const double t = coordinate(edge, distances);
-        gap.edges.push_back({edge.first, edge.second, edge.width, t, t});
-      }
+    rounded_patches.set_distances(patch, now, now, gap);
     if (!gap.evaluate())
       return {};
     return gap.old_gap;
@@ -692,13 +433,11 @@ namespace Ricochet
         return true;
       }
     static thread_local RoundedGap<double> gap;
-    if (!find_patch(p,
-                    step.old_facet,
-                    old_positions,
-                    new_positions,
-                    step.patch))
+    const auto                             begin = instant(p, old_positions),
+               end                               = instant(p, new_positions);
+    if (!rounded_patches.find(step.old_facet, begin, end, step.patch))
       return false;
-    set_distances(p, step.patch, gap);
+    rounded_patches.set_distances(step.patch, begin, end, gap);
     if (!gap.evaluate())
       return false;
     step.new_facet  = step.old_facet;
@@ -839,11 +578,10 @@ namespace Ricochet
           gap.new_gap       = gap.old_gap;
           gap.predicted_gap = gap.old_gap;
           if (step.is_rounded)
-            find_patch(p,
-                       step.old_facet,
-                       old_positions,
-                       old_positions,
-                       step.patch);
+            rounded_patches.find(step.old_facet,
+                                 instant(p, old_positions),
+                                 instant(p, old_positions),
+                                 step.patch);
           if (has_length)
             gap.predicted_gap = PointBeforeTriangle<double>::gap(
               corners(p,
@@ -919,8 +657,11 @@ namespace Ricochet
     using Triangle = PointBeforeTriangle<double>;
     static thread_local RoundedGap<double>                        gap;
     static thread_local std::vector<std::array<Triangle::Row, 3>> rows;
-    const Patch &patch = steps[p].patch;
-    set_distances(p, patch, gap);
+    const RoundedPatch &patch = steps[p].patch;
+    rounded_patches.set_distances(patch,
+                                  instant(p, old_positions),
+                                  instant(p, new_positions),
+                                  gap);
     gap.evaluate();
     normal.assign(3 * (1 + patch.nodes.size()), 0.);
     const auto add = [&](const unsigned int   facet,
@@ -949,7 +690,7 @@ namespace Ricochet
       }
     for (unsigned int e = 0; e < patch.edges.size(); ++e)
       {
-        const Patch::Edge &edge = patch.edges[e];
+        const RoundedPatch::Edge &edge = patch.edges[e];
         add(edge.second,
             .5 * gap.of_edges[e],
             rows[edge.second][edge.number_in_second]);
@@ -1131,9 +872,9 @@ namespace Ricochet
     using OfTriangle             = Sacado::Fad::SLFad<double, 12>;
     using OfScalars              = Sacado::Fad::SLFad<double, 96>;
     using Triangle               = PointBeforeTriangle<OfTriangle>;
-    const Step        &step      = steps[p];
-    const Patch       &patch     = step.patch;
-    const unsigned int n_facets  = patch.facets.size(),
+    const Step         &step     = steps[p];
+    const RoundedPatch &patch    = step.patch;
+    const unsigned int  n_facets = patch.facets.size(),
                        n_scalars = n_facets + patch.edges.size(),
                        n         = 3 * (1 + patch.nodes.size());
     struct OfFacet
@@ -1174,7 +915,7 @@ namespace Ricochet
       }
     for (unsigned int e = 0; e < patch.edges.size(); ++e)
       {
-        const Patch::Edge &edge = patch.edges[e];
+        const RoundedPatch::Edge &edge = patch.edges[e];
         const auto &a = facets[edge.first].from_edges[edge.number_in_first];
         const auto &b = facets[edge.second].from_edges[edge.number_in_second];
         rounded.edges.push_back(
@@ -1220,8 +961,8 @@ namespace Ricochet
       add(i, i, facets[i].gap, 1., rounded.of_gaps[i].val());
     for (unsigned int e = 0; e < patch.edges.size(); ++e)
       {
-        const Patch::Edge &edge      = patch.edges[e];
-        const double       of_scalar = rounded.of_edges[e].val();
+        const RoundedPatch::Edge &edge      = patch.edges[e];
+        const double              of_scalar = rounded.of_edges[e].val();
         add(edge.second,
             n_facets + e,
             facets[edge.second].from_edges[edge.number_in_second],

@@ -6,7 +6,7 @@
 #include <contact/kinematics/surface_pair.h>
 #include <contact/surfaces/own_facets.h>
 #include <contact/surfaces/point_passing_triangles.h>
-#include <contact/surfaces/rounded_gap.h>
+#include <contact/surfaces/rounded_patch.h>
 
 #include <memory>
 #include <vector>
@@ -102,32 +102,12 @@ namespace Ricochet
       double       factor;
     };
 
-    /// The facets that a point near edges is in contact with.
-    struct Patch
-    {
-      /// An edge between two facets of the patch, and its number in each of them.
-      struct Edge
-      {
-        unsigned int first, second, number_in_first, number_in_second;
-        /// Half width of its rounding (m).
-        double width;
-      };
-
-      std::vector<unsigned int> facets;
-      /// See RoundedGap::counts.
-      std::vector<bool> counts;
-      std::vector<Edge> edges;
-      /// Nodes of the facets, and their numbers among these.
-      std::vector<unsigned int>                nodes;
-      std::vector<std::array<unsigned int, 3>> corners;
-    };
-
     struct Step
     {
       /// Edges are rounded; then #new_facet is #old_facet, and #patch is the
       /// one for both ends of the step.
-      bool  is_rounded = false;
-      Patch patch;
+      bool         is_rounded = false;
+      RoundedPatch patch;
       /// Facets that the point faces at the beginning and the end of the step.
       unsigned int old_facet = 0, new_facet = 0;
       bool         may_pass = false;
@@ -144,29 +124,12 @@ namespace Ricochet
     double
     reach_of_step(const Course &course) const override;
 
-    /// Half width of the rounding of the edges of facet @p f (m).
-    double
-    rounding(const unsigned int f) const
+    /// The point @p p and the nodes of the master.
+    RoundedPatches::Instant
+    instant(const unsigned int p, const Positions &positions) const
     {
-      // Wide enough for the slope of a pressure between two triangles to be moderate
-      // against the stiffness of a body, and narrow against the triangles.
-      return .1 * std::sqrt(master.facets[f].measure);
+      return {position_of(own_points[p], positions.slave), positions.master};
     }
-
-    /// Find the patch for a point that faces facet @p f, for its positions at
-    /// two instants. @return whether it is small enough.
-    bool
-    find_patch(const unsigned int p,
-               const unsigned int f,
-               const Positions   &begin,
-               const Positions   &end,
-               Patch             &patch) const;
-
-    /// Set up @p gap for the @p patch of point @p p, in double precision.
-    void
-    set_distances(const unsigned int  p,
-                  const Patch        &patch,
-                  RoundedGap<double> &gap) const;
 
     /// The gap at one instant of a point that faces facet @p f, with rounded edges, if
     /// the point has one.
@@ -312,17 +275,14 @@ namespace Ricochet
     void
     update(const unsigned int p) const;
 
-    const bool rounds_edges;
+    const bool           rounds_edges;
+    const RoundedPatches rounded_patches;
     /// Search distances of facets: a tenth of the surface, but no less than two
     /// facets and the approach in a step; on the point's own surface only the latter
     /// (m).
     double reach = 0., smallest_reach = 0.;
     /// The facets around each one: those that share a node with it, and itself.
     std::vector<std::vector<unsigned int>> around;
-    /// The facets at each node, and within which distance of the node a point is in
-    /// contact with all of them, if edges are rounded (m).
-    std::vector<std::vector<unsigned int>> at_node;
-    std::vector<double>                    radius_of_node;
     /// For self-contact: the facets that points can touch, and the facets around
     /// each one, which its points cannot touch.
     std::unique_ptr<OwnFacets>             own_facets;
