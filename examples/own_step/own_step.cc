@@ -71,6 +71,7 @@ main(int argc, char **argv)
   // Checks before any time is spent.
   const auto validate = [&]() {
     material.validate(2, impact.scheme.name);
+    // The diagonal of a cell of the mesh below.
     constexpr double cell_diameter = .177;
     impact.contact.set_missing(material.scales(cell_diameter, /* degree */ 1));
     impact.validate(material.is_linear(), material.viscosity_eta > 0.);

@@ -596,10 +596,11 @@ namespace Ricochet
       }
     else
       {
-        find_roundings(step.chain);
-        roundings.erase(roundings.begin(),
-                        roundings.begin() +
-                          std::min<std::size_t>(first, roundings.size()));
+        if (is_rounded(step))
+          {
+            find_roundings(step.chain);
+            roundings.erase(roundings.begin(), roundings.begin() + first);
+          }
         FacetChain<Number>(old_work,
                            *new_x,
                            caution,

@@ -399,49 +399,41 @@ namespace Ricochet
 
 
 
-  std::optional<double>
-  PointsBeforeTriangles::rounded_gap(const unsigned int p,
-                                     const unsigned int f,
-                                     const Positions   &positions) const
+  bool
+  PointsBeforeTriangles::find_rounded_gap(const unsigned int p,
+                                          const unsigned int f,
+                                          const Positions   &begin,
+                                          const Positions   &end)
   {
-    static thread_local RoundedPatch       patch;
-    static thread_local RoundedGap<double> gap;
-    const auto                             now = instant(p, positions);
-    if (!rounded_patches.find(f, now, now, patch))
-      return {};
-    rounded_patches.set_distances(patch, now, now, gap);
-    if (!gap.evaluate())
-      return {};
-    return gap.old_gap;
+    Step &step = steps[p];
+    return rounded_patches.find(f,
+                                instant(p, begin),
+                                instant(p, end),
+                                step.patch,
+                                step.rounded_gap) &&
+      step.rounded_gap.evaluate();
   }
 
 
 
   bool
-  PointsBeforeTriangles::find_rounded_gap(const unsigned int p)
+  PointsBeforeTriangles::evaluate_rounded(const unsigned int p)
   {
-    Step &step = steps[p];
+    Step &step     = steps[p];
+    step.new_facet = step.old_facet;
     // A point that is far off has no force, whatever its gap is.
     const double plain_gap = PointBeforeTriangle<double>::gap(
       corners(p, step.old_facet, new_positions));
     if (std::min(plain_gap, gaps[p].old_gap) >
         std::sqrt(master.facets[step.old_facet].measure))
       {
-        step.new_facet  = step.old_facet;
         gaps[p].new_gap = plain_gap;
         step.patch.facets.assign(1, step.old_facet);
         return true;
       }
-    static thread_local RoundedGap<double> gap;
-    const auto                             begin = instant(p, old_positions),
-               end                               = instant(p, new_positions);
-    if (!rounded_patches.find(step.old_facet, begin, end, step.patch))
+    if (!find_rounded_gap(p, step.old_facet, old_positions, new_positions))
       return false;
-    rounded_patches.set_distances(step.patch, begin, end, gap);
-    if (!gap.evaluate())
-      return false;
-    step.new_facet  = step.old_facet;
-    gaps[p].new_gap = gap.new_gap;
+    gaps[p].new_gap = step.rounded_gap.new_gap;
     return true;
   }
 
@@ -457,13 +449,10 @@ namespace Ricochet
     gaps[p].old_gap         = gap;
     steps[p].old_facet      = f;
     steps[p].may_pass       = may_pass;
-    steps[p].is_rounded     = false;
-    if (rounds_edges && may_pass)
-      if (const auto rounded = rounded_gap(p, f, old_positions))
-        {
-          gaps[p].old_gap     = *rounded;
-          steps[p].is_rounded = true;
-        }
+    steps[p].is_rounded     = rounds_edges && may_pass &&
+      find_rounded_gap(p, f, old_positions, old_positions);
+    if (steps[p].is_rounded)
+      gaps[p].old_gap = steps[p].rounded_gap.old_gap;
   }
 
 
@@ -577,11 +566,6 @@ namespace Ricochet
           step.new_facet    = step.old_facet;
           gap.new_gap       = gap.old_gap;
           gap.predicted_gap = gap.old_gap;
-          if (step.is_rounded)
-            rounded_patches.find(step.old_facet,
-                                 instant(p, old_positions),
-                                 instant(p, old_positions),
-                                 step.patch);
           if (has_length)
             gap.predicted_gap = PointBeforeTriangle<double>::gap(
               corners(p,
@@ -603,7 +587,7 @@ namespace Ricochet
         if (gaps[p].is_before_facet)
           {
             Step &step = steps[p];
-            if (step.is_rounded && find_rounded_gap(p))
+            if (step.is_rounded && evaluate_rounded(p))
               {
                 step.up_to_date = false;
                 continue;
@@ -655,14 +639,9 @@ namespace Ricochet
                                       std::vector<double> &normal) const
   {
     using Triangle = PointBeforeTriangle<double>;
-    static thread_local RoundedGap<double>                        gap;
     static thread_local std::vector<std::array<Triangle::Row, 3>> rows;
-    const RoundedPatch &patch = steps[p].patch;
-    rounded_patches.set_distances(patch,
-                                  instant(p, old_positions),
-                                  instant(p, new_positions),
-                                  gap);
-    gap.evaluate();
+    const RoundedPatch       &patch = steps[p].patch;
+    const RoundedGap<double> &gap   = steps[p].rounded_gap;
     normal.assign(3 * (1 + patch.nodes.size()), 0.);
     const auto add = [&](const unsigned int   facet,
                          const double         factor,
@@ -741,7 +720,7 @@ namespace Ricochet
           one,
           needs_slip);
         copy(one);
-        if (step.is_rounded && step.patch.facets.size() > 1)
+        if (is_at_edge(step))
           {
             // The first nodes of a patch are those of that facet.
             nodes = step.patch.nodes;
@@ -869,9 +848,9 @@ namespace Ricochet
   {
     // The row of the gap is a sum of rows of the scalars s (distances from planes, coordinates of
     // edges) with factors P(s). Both are differentiated by themselves.
-    using OfTriangle             = Sacado::Fad::SLFad<double, 12>;
-    using OfScalars              = Sacado::Fad::SLFad<double, 96>;
-    using Triangle               = PointBeforeTriangle<OfTriangle>;
+    using OfTriangle = Sacado::Fad::SLFad<double, 12>;
+    using OfScalars  = Sacado::Fad::SLFad<double, RoundedPatches::most_scalars>;
+    using Triangle   = PointBeforeTriangle<OfTriangle>;
     const Step         &step     = steps[p];
     const RoundedPatch &patch    = step.patch;
     const unsigned int  n_facets = patch.facets.size(),
@@ -1032,7 +1011,7 @@ namespace Ricochet
     static thread_local Derivatives result;
     const Step                     &step = steps[p];
     const unsigned int              old = step.old_facet, now = step.new_facet;
-    if (step.is_rounded && step.patch.facets.size() > 1)
+    if (is_at_edge(step))
       differentiate_rounded(p, pressure, traction, caution, result);
     else if (now == old)
       differentiate<4>(

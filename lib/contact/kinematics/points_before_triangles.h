@@ -104,10 +104,11 @@ namespace Ricochet
 
     struct Step
     {
-      /// Edges are rounded; then #new_facet is #old_facet, and #patch is the
-      /// one for both ends of the step.
-      bool         is_rounded = false;
-      RoundedPatch patch;
+      /// Edges are rounded; then #new_facet is #old_facet, and #patch and #rounded_gap are those for
+      /// both ends of the step.
+      bool               is_rounded = false;
+      RoundedPatch       patch;
+      RoundedGap<double> rounded_gap;
       /// Facets that the point faces at the beginning and the end of the step.
       unsigned int old_facet = 0, new_facet = 0;
       bool         may_pass = false;
@@ -131,17 +132,24 @@ namespace Ricochet
       return {position_of(own_points[p], positions.slave), positions.master};
     }
 
-    /// The gap at one instant of a point that faces facet @p f, with rounded edges, if
-    /// the point has one.
-    std::optional<double>
-    rounded_gap(const unsigned int p,
-                const unsigned int f,
-                const Positions   &positions) const;
-
-    /// Whether edges are rounded for the point in this step, and its patch and its gap at
-    /// the end then.
+    /// Find Step::patch and Step::rounded_gap between two instants for a point that faces facet @p f.
+    /// @return whether it has them.
     bool
-    find_rounded_gap(const unsigned int p);
+    find_rounded_gap(const unsigned int p,
+                     const unsigned int f,
+                     const Positions   &begin,
+                     const Positions   &end);
+
+    /// Whether the point is in contact with more than one facet.
+    static bool
+    is_at_edge(const Step &step)
+    {
+      return step.is_rounded && step.patch.facets.size() > 1;
+    }
+
+    /// The gap at the end of the step, if edges are still rounded for the point.
+    bool
+    evaluate_rounded(const unsigned int p);
 
     /// Rows on the coordinates of the point and of the nodes of its patch, one point after
     /// the other.

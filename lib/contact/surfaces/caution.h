@@ -9,7 +9,8 @@ namespace Ricochet
   enum class Caution
   {
     none,
-    /// None at rounded vertices and edges, where the slope of the weights counts; and none behind a convex vertex, which gives a pressed point a negative stiffness.
+    /// None behind a convex vertex, which gives a pressed point a negative stiffness, nor of the
+    /// weights at rounded vertices and edges.
     at_convex_vertices,
     /// Secant behind a concave vertex, in which a point may come to rest,
     /// instead of the tangent, which decays soon behind the vertex.

@@ -77,7 +77,7 @@ namespace Ricochet
 
     /// Half widths of the rounded vertices between facets of the chain (m); null for sharp
     /// ones.
-    using Roundings = const std::vector<double>;
+    using Roundings = std::vector<double>;
 
     /**
      * Positions at the beginning of a step and at its end: first that of the
@@ -86,7 +86,7 @@ namespace Ricochet
     FacetChain(const std::vector<Vector2<double>> &old_positions,
                const std::vector<Vector2<Number>> &new_positions,
                const Caution                       caution   = Caution::none,
-               Roundings                          *roundings = nullptr)
+               const Roundings                    *roundings = nullptr)
       : old_x(old_positions)
       , new_x(new_positions)
       , caution(caution)
@@ -145,7 +145,7 @@ namespace Ricochet
     static T
     gap(const std::vector<Vector2<T>> &x,
         const unsigned int             facet,
-        Roundings                     &roundings)
+        const Roundings               &roundings)
     {
       T distance = gap(x, facet);
       if (facet + 3 < x.size())
@@ -446,7 +446,7 @@ namespace Ricochet
     const std::vector<Vector2<double>> &old_x;
     const std::vector<Vector2<Number>> &new_x;
     const Caution                       caution;
-    Roundings *const                    roundings;
+    const Roundings *const              roundings;
   };
 } // namespace Ricochet
 

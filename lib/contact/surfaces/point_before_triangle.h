@@ -126,7 +126,7 @@ namespace Ricochet
       from_edges[2] = at_ca / (area * sqrt(q22));
     }
 
-    /// The last results of distances() at one state.
+    /// The distances from the edges, as of distances(), at one state (m).
     static std::array<double, 3>
     distances_from_edges(const Points<double> &x)
     {

@@ -65,7 +65,6 @@ namespace Ricochet
     bool
     evaluate()
     {
-      using std::abs;
       const unsigned int n = old_gaps.size();
       parts.resize(edges.size());
       for (unsigned int e = 0; e < edges.size(); ++e)

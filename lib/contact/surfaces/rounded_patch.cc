@@ -81,11 +81,10 @@ namespace Ricochet
   {
     Distances result;
     result.from_edges = Triangle::distances_from_edges(x);
-    const double gap  = Triangle::gap(x);
-    result.from_plane = std::abs(gap);
+    result.from_plane = Triangle::gap(x);
     for (unsigned int v = 0; v < 3; ++v)
       {
-        double square = -gap * gap;
+        double square = -result.from_plane * result.from_plane;
         for (unsigned int c = 0; c < 3; ++c)
           square += (x[0][c] - x[1 + v][c]) * (x[0][c] - x[1 + v][c]);
         result.from_nodes[v] = std::sqrt(std::max(0., square));
@@ -117,9 +116,8 @@ namespace Ricochet
                              const unsigned int k) const
   {
     const auto &all = candidates.distances;
-    return .5 *
-      (all[edge.second][k].from_edges[edge.number_in_second] -
-       all[edge.first][k].from_edges[edge.number_in_first]);
+    return edge.coordinate(all[edge.first][k].from_edges,
+                           all[edge.second][k].from_edges);
   }
 
 
@@ -149,7 +147,8 @@ namespace Ricochet
         // farther inside of the neighbour than its distance from the plane.
         const auto is_far_inside = [&](const unsigned int e) {
           return std::all_of(its.begin(), its.end(), [&](const auto &at) {
-            return at.from_edges[e] > 2. * largest_width(own) + at.from_plane;
+            return at.from_edges[e] >
+              2. * largest_width(own) + std::abs(at.from_plane);
           });
         };
         for (unsigned int e = 0; e < 3; ++e)
@@ -201,10 +200,11 @@ namespace Ricochet
 
 
   bool
-  RoundedPatches::find(const unsigned int f,
-                       const Instant     &begin,
-                       const Instant     &end,
-                       RoundedPatch      &patch) const
+  RoundedPatches::find(const unsigned int  f,
+                       const Instant      &begin,
+                       const Instant      &end,
+                       RoundedPatch       &patch,
+                       RoundedGap<double> &gap) const
   {
     static thread_local Candidates        candidates;
     static thread_local std::vector<Edge> edges;
@@ -250,20 +250,31 @@ namespace Ricochet
         number[edges[e].first] = number[edges[e].second] = 0;
     patch.facets.clear();
     patch.counts.clear();
+    gap.old_gaps.clear();
+    gap.new_gaps.clear();
     for (unsigned int i = 0; i < n_candidates; ++i)
       if (number[i] != left_out)
         {
           number[i] = patch.facets.size();
           patch.facets.push_back(candidates.facets[i]);
           patch.counts.push_back(counts(i));
+          gap.old_gaps.push_back(candidates.distances[i][0].from_plane);
+          gap.new_gaps.push_back(candidates.distances[i][1].from_plane);
         }
+    gap.counts = patch.counts;
     patch.edges.clear();
+    gap.edges.clear();
     for (const Edge &edge : edges)
       if (number[edge.first] != left_out && number[edge.second] != left_out)
         {
           patch.edges.push_back(edge);
           patch.edges.back().first  = number[edge.first];
           patch.edges.back().second = number[edge.second];
+          gap.edges.push_back({number[edge.first],
+                               number[edge.second],
+                               edge.width,
+                               coordinate(candidates, edge, 0),
+                               coordinate(candidates, edge, 1)});
         }
     if (patch.facets.size() + patch.edges.size() > most_scalars)
       return false;
@@ -286,35 +297,4 @@ namespace Ricochet
     return true;
   }
 
-
-
-  void
-  RoundedPatches::set_distances(const RoundedPatch &patch,
-                                const Instant      &begin,
-                                const Instant      &end,
-                                RoundedGap<double> &gap) const
-  {
-    static thread_local std::vector<std::array<double, 3>> old_distances,
-      new_distances;
-    old_distances.clear();
-    new_distances.clear();
-    gap.counts = patch.counts;
-    gap.old_gaps.clear();
-    gap.new_gaps.clear();
-    gap.edges.clear();
-    for (const unsigned int facet : patch.facets)
-      {
-        const auto old_x = corners(facet, begin), new_x = corners(facet, end);
-        gap.old_gaps.push_back(Triangle::gap(old_x));
-        gap.new_gaps.push_back(Triangle::gap(new_x));
-        old_distances.push_back(Triangle::distances_from_edges(old_x));
-        new_distances.push_back(Triangle::distances_from_edges(new_x));
-      }
-    for (const Edge &edge : patch.edges)
-      gap.edges.push_back({edge.first,
-                           edge.second,
-                           edge.width,
-                           edge.coordinate(old_distances),
-                           edge.coordinate(new_distances)});
-  }
 } // namespace Ricochet

@@ -22,14 +22,12 @@ namespace Ricochet
       double width;
 
       /// Coordinate of the point from the bisector, positive on the side of the second facet,
-      /// from its distances from the edges of each facet (m).
-      template <typename Distances>
-      auto
-      coordinate(const std::vector<Distances> &distances) const
+      /// from its distances from the edges of both (m).
+      double
+      coordinate(const std::array<double, 3> &in_first,
+                 const std::array<double, 3> &in_second) const
       {
-        return .5 *
-          (distances[second][number_in_second] -
-           distances[first][number_in_first]);
+        return .5 * (in_second[number_in_second] - in_first[number_in_first]);
       }
     };
 
@@ -67,26 +65,21 @@ namespace Ricochet
      * facets with a weight at one of the instants, and those whose edges these weights
      * depend on.
      *
+     * @param gap gets the distances of the point from the planes of the facets, and the
+     * coordinates of the edges.
      * @return whether it is small enough; points that face more are far off or pass many
      * facets in a step.
      */
     bool
-    find(const unsigned int f,
-         const Instant     &begin,
-         const Instant     &end,
-         RoundedPatch      &patch) const;
-
-    /// The distances of the point from the planes of a @p patch and the coordinates of its
-    /// edges, in @p gap.
-    void
-    set_distances(const RoundedPatch &patch,
-                  const Instant      &begin,
-                  const Instant      &end,
-                  RoundedGap<double> &gap) const;
+    find(const unsigned int  f,
+         const Instant      &begin,
+         const Instant      &end,
+         RoundedPatch       &patch,
+         RoundedGap<double> &gap) const;
 
   private:
     /// Distances of a point from a facet: along its plane from the edges, positive inside, and from
-    /// the nodes, and from the plane (m).
+    /// the nodes; and from the plane, positive in front (m).
     struct Distances
     {
       std::array<double, 3> from_edges, from_nodes;
