@@ -38,7 +38,7 @@ def block(name, size, cells, place, velocity=None):
     return lines + ["end"]
 
 
-def scene(bodies, contacts, gravity, held, end, step):
+def scene(bodies, contacts, gravity, held, end, step, friction=0):
     """The text of a parameter file; {treatment} stands for the treatment."""
     dim = 3 if "block" in bodies[0][1] else 2
     lines = ["set Program = ricochet", f"set Dimension = {dim}"]
@@ -46,9 +46,10 @@ def scene(bodies, contacts, gravity, held, end, step):
         lines += body
     for number, (first, second) in enumerate(contacts):
         lines += [f"subsection Contact c{number}", f"  set Surface = {first}",
-                  f"  set Against = {second}", "  set Treatment = {treatment}", "end"]
-    if held:
-        lines += ["subsection Condition foot", f"  set Boundary = {held}",
+                  f"  set Against = {second}", "  set Treatment = {treatment}",
+                  f"  set Friction coefficient = {friction}", "end"]
+    for number, boundary in enumerate(held):
+        lines += [f"subsection Condition foot{number}", f"  set Boundary = {boundary}",
                   "  set Kind = fixed", "end"]
     if gravity:
         down = ", ".join(["0"] * (dim - 1) + ["-9.81"])
@@ -70,18 +71,48 @@ def scenes():
 
         yield (f"equal blocks {dim}D", scene(
             [block(f"b{k}", sized(1, 1, 1), sized(2, 2, 2), at(k)) for k in (0, 1)],
-            pairs[:1], True, "b0: lower", 1, 4e-3))
+            pairs[:1], True, ["b0: lower"], 1, 4e-3))
         yield (f"stack of three {dim}D", scene(
             [block(f"b{k}", sized(1, 1, .5), sized(4, 4, 2), at(.5 * k))
-             for k in (0, 1, 2)], pairs, True, "b0: lower", 1, 4e-3))
+             for k in (0, 1, 2)], pairs, True, ["b0: lower"], 1, 4e-3))
         yield (f"dropped flat {dim}D", scene(
             [block("b0", sized(1, 1, 1), sized(4, 4, 4), at(0)),
              block("b1", sized(1, 1, 1), sized(4, 4, 4), at(1.01), at(-1))],
-            pairs[:1], False, "b0: lower", .2, 2e-3))
+            pairs[:1], False, ["b0: lower"], .2, 2e-3))
         yield (f"other mesh {dim}D", scene(
             [block("b0", sized(1, 1, 1), sized(4, 4, 4), at(0)),
              block("b1", sized(1, 1, 1), sized(3, 3, 3), at(1.01), at(-1))],
-            pairs[:1], False, "b0: lower", .2, 2e-3))
+            pairs[:1], False, ["b0: lower"], .2, 2e-3))
+
+        def beside(x, height, dim=dim):
+            return [x] + [.03] * (dim - 2) + [height]
+
+        # Half a cell beside each other, wider, and one over the end of the other.
+        yield (f"shifted by half a cell {dim}D", scene(
+            [block("b0", sized(1, 1, 1), sized(4, 4, 4), at(0)),
+             block("b1", sized(1, 1, 1), sized(4, 4, 4), beside(.125, 1.01), at(-1))],
+            pairs[:1], False, ["b0: lower"], .2, 2e-3))
+        yield (f"wider {dim}D", scene(
+            [block("b0", sized(1, 1, 1), sized(4, 4, 4), at(0)),
+             block("b1", sized(1.4, 1.4, 1), sized(4, 4, 4), beside(-.2, 1.01), at(-1))],
+            pairs[:1], False, ["b0: lower"], .2, 2e-3))
+        # Over the end of a table, and from it onto another one that is a little lower.
+        for friction in (0, .1):
+            how = "with friction " if friction else ""
+            table = [block("b0", sized(1, 1, .25), sized(4, 3, 1), at(0)),
+                     block("b1", sized(1, 1, .25), sized(4, 3, 1), beside(1.2, -.005))]
+            sled = block("b2", sized(.5, .5, .25), sized(3, 2, 1), beside(.4, .251),
+                         [2] + [0] * (dim - 1))
+            yield (f"off a table {how}{dim}D", scene(
+                [table[0], sled], [("b2: lower", "b0: upper")], True, ["b0: lower"],
+                .5, 2e-3, friction))
+            yield (f"onto a table {how}{dim}D", scene(
+                table + [sled],
+                [("b2: lower", "b0: upper; b1: upper")], True,
+                ["b0: lower", "b1: lower"], .6, 2e-3, friction))
+            yield (f"under a sled {how}{dim}D", scene(
+                [table[0], sled], [("b0: upper", "b2: lower")], True, ["b0: lower"],
+                .5, 2e-3, friction))
 
 
 def main():

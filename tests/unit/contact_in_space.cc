@@ -783,7 +783,7 @@ BOOST_AUTO_TEST_CASE(only_what_comes_near_is_known)
       PointsBeforeTriangles pair(body,
                                  {"block", {1}, {0}},
                                  PointsBeforeTriangles::PointsIn::nodes,
-                                 /* rounds_edges */ false);
+                                 /* is_smooth */ false);
       const Vector          zero = body.make_vector();
       pair.begin_step({zero, zero, zero, 1e-3});
       unsigned int n_known = 0, n_before = 0;

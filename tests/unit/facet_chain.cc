@@ -419,4 +419,70 @@ BOOST_AUTO_TEST_CASE(derivatives_are_quotients_of_differences)
     }
 }
 
+// The coverage of a point that goes from beyond one open end to beyond the other one of a
+// single facet: its row, and the derivatives of that. By hand it is 27/32 at a quarter of the
+// largest overhang.
+BOOST_AUTO_TEST_CASE(coverage_at_both_ends)
+{
+  constexpr OpenEnds ends{true, true, .8};
+  unsigned int       n_changes = 0;
+  for (unsigned int k = 0; k < 100; ++k)
+    {
+      Positions old_x = {{{0., 0.}}, {{0., 0.}}, {{1., .1}}};
+      put_point(old_x, 0, -.1 + random_number(.3), random_number(.1));
+      Positions new_x = moved(old_x, .05);
+      put_point(new_x, 0, 1.1 + random_number(.3), random_number(.1));
+      Rows rows;
+      FacetChain<double>(old_x, new_x, Caution::none, nullptr, ends)
+        .evaluate(0, 0, rows);
+      double change = 0., sum[2] = {0., 0.}, moment = 0.;
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          for (unsigned int c = 0; c < 2; ++c)
+            {
+              change += rows.coverage[2 * i + c] * (new_x[i][c] - old_x[i][c]);
+              sum[c] += rows.coverage[2 * i + c];
+            }
+          moment +=
+            .5 * (old_x[i][0] + new_x[i][0]) * rows.coverage[2 * i + 1] -
+            .5 * (old_x[i][1] + new_x[i][1]) * rows.coverage[2 * i];
+        }
+      const double old_coverage = FacetChain<double>::coverage(old_x, ends);
+      n_changes += old_coverage < 1. && rows.new_coverage < 1.;
+      BOOST_CHECK_SMALL(change - (rows.new_coverage - old_coverage), 1e-14);
+      BOOST_CHECK_SMALL(std::hypot(sum[0], sum[1]) + std::abs(moment), 1e-13);
+
+      std::vector<std::array<AD, 2>> variables(3);
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+          variables[i][c] = AD(6, 2 * i + c, new_x[i][c]);
+      FacetChain<AD>::Rows derivatives;
+      FacetChain<AD>(old_x, variables, Caution::none, nullptr, ends)
+        .evaluate(0, 0, derivatives);
+      for (unsigned int j = 0; j < 6; ++j)
+        {
+          constexpr double h  = 1e-6;
+          const auto       at = [&](const double length) {
+            Positions x = new_x;
+            x[j / 2][j % 2] += length;
+            Rows shifted;
+            FacetChain<double>(old_x, x, Caution::none, nullptr, ends)
+              .evaluate(0, 0, shifted);
+            return shifted;
+          };
+          const Rows up = at(h), down = at(-h);
+          BOOST_CHECK_SMALL(derivatives.new_coverage.dx(j) -
+                              (up.new_coverage - down.new_coverage) / (2. * h),
+                            1e-6);
+          for (unsigned int i = 0; i < 6; ++i)
+            BOOST_CHECK_SMALL(derivatives.coverage[i].dx(j) -
+                                (up.coverage[i] - down.coverage[i]) / (2. * h),
+                              1e-5);
+        }
+    }
+  BOOST_CHECK_GT(n_changes, 20);
+  Positions x = {{{1.2, .3}}, {{0., 0.}}, {{1., 0.}}};
+  BOOST_CHECK_CLOSE(FacetChain<double>::coverage(x, ends), 27. / 32., 1e-12);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -399,7 +399,7 @@ BOOST_AUTO_TEST_CASE(derivatives_of_means)
             pair->evaluate(after);
             const auto &rows = pair->rows(p);
             const auto &derivatives =
-              pair->derivatives(p, pressure, traction, Caution::none);
+              pair->derivatives(p, {pressure, traction, 0.}, Caution::none);
             const unsigned int  m = rows.unknowns.size();
             std::vector<double> along(m + 3, 0.);
             for (unsigned int b = 0; b < m; ++b)

@@ -37,15 +37,16 @@ namespace
     return std::uniform_real_distribution<double>(-size, size)(generator);
   }
 
-  /// The eight triangles around a node, in a ring, with the point near the middle: triangle
-  /// k has an edge with the next one.
+  /// Triangles around a node, in a ring, with the point near the middle: triangle
+  /// k has an edge with the next one, and the first and the third one also have open edges.
+  /// The values are the distances from the planes, and the coordinates of edges and of open edges.
   template <typename Number>
   void
   set_ring(RoundedGap<Number>        &gap,
            const std::vector<double> &old_values,
            const std::vector<Number> &new_values)
   {
-    const unsigned int n = old_values.size() / 2;
+    const unsigned int n = (old_values.size() - 3) / 2;
     gap.old_gaps.assign(old_values.begin(), old_values.begin() + n);
     gap.new_gaps.assign(new_values.begin(), new_values.begin() + n);
     gap.counts.assign(n, true);
@@ -53,6 +54,10 @@ namespace
     for (unsigned int k = 0; k < n; ++k)
       gap.edges.push_back(
         {k, (k + 1) % n, .1, old_values[n + k], new_values[n + k]});
+    gap.open_edges.clear();
+    for (unsigned int k = 0; k < 3; ++k)
+      gap.open_edges.push_back(
+        {k == 2 ? 2U : 0U, .12, old_values[2 * n + k], new_values[2 * n + k]});
   }
 } // namespace
 
@@ -65,8 +70,8 @@ BOOST_AUTO_TEST_CASE(increments_are_exact)
   for (const double size : {1e-12, 1e-6, 1e-2, .3})
     for (unsigned int k = 0; k < 200; ++k)
       {
-        std::vector<double> old_values(2 * n), new_values(2 * n);
-        for (unsigned int i = 0; i < 2 * n; ++i)
+        std::vector<double> old_values(2 * n + 3), new_values(2 * n + 3);
+        for (unsigned int i = 0; i < 2 * n + 3; ++i)
           {
             old_values[i] = random_number(.15);
             new_values[i] = old_values[i] + random_number(size);
@@ -76,11 +81,21 @@ BOOST_AUTO_TEST_CASE(increments_are_exact)
         if (!gap.evaluate())
           continue;
         ++n_states;
-        double sum = 0.;
+        double     of_gap = 0., of_coverage = 0.;
+        const auto change = [&](const unsigned int i) {
+          return new_values[i] - old_values[i];
+        };
         for (unsigned int i = 0; i < n; ++i)
-          sum += gap.of_gaps[i] * (new_values[i] - old_values[i]) +
-            gap.of_edges[i] * (new_values[n + i] - old_values[n + i]);
-        BOOST_CHECK_SMALL(sum - (gap.new_gap - gap.old_gap), 1e-13);
+          {
+            of_gap +=
+              gap.of_gaps[i] * change(i) + gap.of_edges[i] * change(n + i);
+            of_coverage += gap.coverage_of_edges[i] * change(n + i);
+          }
+        for (unsigned int i = 0; i < 3; ++i)
+          of_coverage += gap.coverage_of_open[i] * change(2 * n + i);
+        BOOST_CHECK_SMALL(of_gap - (gap.new_gap - gap.old_gap), 1e-13);
+        BOOST_CHECK_SMALL(of_coverage - (gap.new_coverage - gap.old_coverage),
+                          1e-13);
       }
   BOOST_CHECK_GT(n_states, 400);
 }
@@ -90,21 +105,22 @@ BOOST_AUTO_TEST_CASE(increments_are_exact)
 BOOST_AUTO_TEST_CASE(factors_are_quotients_of_differences)
 {
   constexpr unsigned int n = 4;
-  using AD                 = Sacado::Fad::SLFad<double, 2 * n>;
+  constexpr unsigned int m = 2 * n + 3;
+  using AD                 = Sacado::Fad::SLFad<double, m>;
   for (unsigned int k = 0; k < 50; ++k)
     {
-      std::vector<double> old_values(2 * n), new_values(2 * n);
+      std::vector<double> old_values(m), new_values(m);
       std::vector<AD>     variables;
-      for (unsigned int i = 0; i < 2 * n; ++i)
+      for (unsigned int i = 0; i < m; ++i)
         {
           old_values[i] = random_number(.08);
           new_values[i] = random_number(.08);
-          variables.emplace_back(2 * n, i, new_values[i]);
+          variables.emplace_back(m, i, new_values[i]);
         }
       RoundedGap<AD> derivatives;
       set_ring(derivatives, old_values, variables);
       BOOST_REQUIRE(derivatives.evaluate());
-      for (unsigned int j = 0; j < 2 * n; ++j)
+      for (unsigned int j = 0; j < m; ++j)
         {
           constexpr double    h = 1e-6;
           RoundedGap<double>  up, down;
@@ -120,10 +136,18 @@ BOOST_AUTO_TEST_CASE(factors_are_quotients_of_differences)
                                 1e-6 * (1. + std::abs(value.dx(j))));
             };
           check(derivatives.new_gap, up.new_gap, down.new_gap);
+          check(derivatives.new_coverage, up.new_coverage, down.new_coverage);
+          for (unsigned int i = 0; i < 3; ++i)
+            check(derivatives.coverage_of_open[i],
+                  up.coverage_of_open[i],
+                  down.coverage_of_open[i]);
           for (unsigned int i = 0; i < n; ++i)
             {
               check(derivatives.of_gaps[i], up.of_gaps[i], down.of_gaps[i]);
               check(derivatives.of_edges[i], up.of_edges[i], down.of_edges[i]);
+              check(derivatives.coverage_of_edges[i],
+                    up.coverage_of_edges[i],
+                    down.coverage_of_edges[i]);
             }
         }
     }
@@ -147,6 +171,31 @@ BOOST_AUTO_TEST_CASE(two_triangles_by_hand)
   BOOST_CHECK_CLOSE(at(.2), 3., 1e-12);
   BOOST_CHECK_CLOSE(at(-.3), 1., 1e-12);
   BOOST_CHECK_CLOSE(at(.1), 1. + 2. * 27. / 32., 1e-12);
+}
+
+
+
+// By hand: the coverage is 1 at an open edge, 27/32 at a quarter of the largest overhang,
+// 1/2 at half of it and 0 at all of it; at a corner it is the product of both.
+BOOST_AUTO_TEST_CASE(coverage_by_hand)
+{
+  RoundedGap<double> gap;
+  gap.counts   = {true};
+  gap.old_gaps = gap.new_gaps = {1.};
+  constexpr double largest    = .4;
+  const auto       at         = [&](const double first, const double second) {
+    gap.open_edges.clear();
+    for (const double overhang : {first, second})
+      gap.open_edges.push_back(
+        {0, .5 * largest, overhang - .5 * largest, overhang - .5 * largest});
+    BOOST_REQUIRE(gap.evaluate());
+    return gap.new_coverage;
+  };
+  BOOST_CHECK_CLOSE(at(0., -1.), 1., 1e-12);
+  BOOST_CHECK_CLOSE(at(.1, -1.), 27. / 32., 1e-12);
+  BOOST_CHECK_CLOSE(at(-1., .2), .5, 1e-12);
+  BOOST_CHECK_CLOSE(at(.1, .2), 27. / 64., 1e-12);
+  BOOST_CHECK_SMALL(at(.4, -1.), 1e-15);
 }
 
 
@@ -186,7 +235,7 @@ namespace
         *body,
         ContactPair{"blocks", {1}, {0}},
         PointsBeforeTriangles::PointsIn::nodes,
-        /* rounds_edges */ true);
+        /* is_smooth */ true);
       std::map<dealii::types::global_dof_index, Point<3>> positions;
       dealii::DoFTools::map_dofs_to_support_points(body->mapping(),
                                                    body->dof_handler(),
@@ -230,10 +279,10 @@ namespace
 // of differences; steps begin on nodes and diagonals exactly, and pass facets.
 BOOST_AUTO_TEST_CASE(rows_on_surfaces)
 {
-  constexpr double       h = 1e-7, pressure = 2.;
+  constexpr double       h = 1e-7, pressure = 2., energy = .4;
   const Tensor<1, 2>     traction({.7, -.4});
   constexpr unsigned int n_states = 12;
-  unsigned int           n_points = 0, n_near_edges = 0;
+  unsigned int           n_points = 0, n_near_edges = 0, n_over_ends = 0;
   for (const bool matching : {true, false})
     for (unsigned int k = 0; k < n_states; ++k)
       {
@@ -251,20 +300,23 @@ BOOST_AUTO_TEST_CASE(rows_on_surfaces)
         const Vector direction = blocks.displacements(1., Tensor<1, 3>());
         pair.begin_step({begin, zero, zero, 1., 1.});
         pair.evaluate(end);
-        std::map<unsigned int, double> gaps;
+        std::map<unsigned int, std::pair<double, double>> ends;
         for (unsigned int p = 0; p < pair.points().size(); ++p)
           {
             if (!pair.is_before_facet(p))
               continue;
             ++n_points;
-            gaps[p]         = pair.new_gap(p);
+            ends[p]         = {pair.new_gap(p), pair.new_coverage(p)};
             const auto rows = pair.rows(p);
             n_near_edges += rows.unknowns.size() > 3 * 5;
-            double       change = 0.;
-            Tensor<1, 3> sum, moment;
+            const bool is_over_end = !rows.coverage.empty();
+            n_over_ends +=
+              pair.new_coverage(p) > 0. && pair.new_coverage(p) < 1.;
+            double       change = 0., of_coverage = 0.;
+            Tensor<1, 3> sum, moment, sum_of_coverage, moment_of_coverage;
             for (unsigned int i = 0; i < rows.unknowns.size(); i += 3)
               {
-                Tensor<1, 3> x, force;
+                Tensor<1, 3> x, force, along_surface;
                 for (unsigned int c = 0; c < 3; ++c)
                   {
                     const auto unknown = rows.unknowns[i + c];
@@ -272,20 +324,32 @@ BOOST_AUTO_TEST_CASE(rows_on_surfaces)
                       .5 * (begin(unknown) + end(unknown));
                     force[c] = rows.normal[i + c];
                     change += force[c] * (end(unknown) - begin(unknown));
+                    if (is_over_end)
+                      along_surface[c] = rows.coverage[i + c];
+                    of_coverage +=
+                      along_surface[c] * (end(unknown) - begin(unknown));
                   }
                 sum += force;
                 moment += dealii::cross_product_3d(x, force);
+                sum_of_coverage += along_surface;
+                moment_of_coverage +=
+                  dealii::cross_product_3d(x, along_surface);
               }
+            BOOST_CHECK_SMALL(of_coverage -
+                                (pair.new_coverage(p) - pair.old_coverage(p)),
+                              1e-13);
+            BOOST_CHECK_SMALL(sum_of_coverage.norm(), 1e-11);
+            BOOST_CHECK_SMALL(moment_of_coverage.norm(), 1e-11);
             BOOST_CHECK_SMALL(change - (pair.new_gap(p) - pair.old_gap(p)),
                               1e-13);
             BOOST_CHECK_SMALL(sum.norm(), 1e-12);
             BOOST_CHECK_SMALL(moment.norm(), 1e-12);
           }
 
-        for (const auto &[p, gap] : gaps)
+        for (const auto &[p, at_end] : ends)
           {
             const auto derivatives =
-              pair.derivatives(p, pressure, traction, Caution::none);
+              pair.derivatives(p, {pressure, traction, energy}, Caution::none);
             const auto unknowns  = pair.rows(p).unknowns;
             const auto forces_at = [&](const double length) {
               Vector point(end);
@@ -296,8 +360,11 @@ BOOST_AUTO_TEST_CASE(rows_on_surfaces)
               for (unsigned int i = 0; i < rows.unknowns.size(); ++i)
                 forces[rows.unknowns[i]] = -pressure * rows.normal[i] +
                   traction[0] * rows.tangential[0][i] +
-                  traction[1] * rows.tangential[1][i];
-              return std::tuple(pair.new_gap(p), rows.slip, forces);
+                  traction[1] * rows.tangential[1][i] +
+                  (rows.coverage.empty() ? 0. : energy * rows.coverage[i]);
+              return std::tuple(pair.new_gap(p) + pair.new_coverage(p),
+                                rows.slip,
+                                forces);
             };
             auto [up_gap, up_slip, up]       = forces_at(h);
             auto [down_gap, down_slip, down] = forces_at(-h);
@@ -308,6 +375,8 @@ BOOST_AUTO_TEST_CASE(rows_on_surfaces)
             for (unsigned int a = 0; a < m; ++a)
               {
                 along_gap += derivatives.gap[a] * direction(unknowns[a]);
+                if (!derivatives.coverage.empty())
+                  along_gap += derivatives.coverage[a] * direction(unknowns[a]);
                 for (unsigned int d = 0; d < 2; ++d)
                   along_slip[d] +=
                     derivatives.slip[d][a] * direction(unknowns[a]);
@@ -329,24 +398,20 @@ BOOST_AUTO_TEST_CASE(rows_on_surfaces)
           }
 
         pair.begin_step({end, zero, zero, 1., 1.});
-        for (const auto &[p, gap] : gaps)
+        for (const auto &[p, at] : ends)
           if (pair.is_before_facet(p))
             {
-              // Not beyond the open edges of the surface.
-              bool is_in_front = true;
-              for (unsigned int c = 0; c < 2; ++c)
-                {
-                  const auto   unknown = pair.rows(p).unknowns[c];
-                  const double x =
-                    blocks.reference.at(unknown)[c] + end(unknown);
-                  is_in_front = is_in_front && x > .03 && x < .97;
-                }
-              if (is_in_front)
-                BOOST_CHECK_SMALL(pair.old_gap(p) - gap, 1e-13);
+              // A gap without coverage is of no use.
+              BOOST_CHECK_SMALL(pair.old_coverage(p) - at.second, 1e-12);
+              BOOST_CHECK_SMALL(at.second * (pair.old_gap(p) - at.first),
+                                1e-13);
             }
+          else
+            BOOST_CHECK_SMALL(at.second, 1e-13);
       }
   BOOST_CHECK_GT(n_points, 200);
   BOOST_CHECK_GT(n_near_edges, 100);
+  BOOST_CHECK_GT(n_over_ends, 20);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

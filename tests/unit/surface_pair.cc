@@ -36,12 +36,15 @@ namespace
   /// Two strips of which the lower one is wavy above, the upper one below.
   struct Strips
   {
-    explicit Strips(const unsigned int seed, const double gap = .02)
+    /// @param right end of the lower strip; the upper one ends at 1.
+    explicit Strips(const unsigned int seed,
+                    const double       gap   = .02,
+                    const double       right = 1.4)
       : triangulation(MPI_COMM_WORLD)
       , random(seed)
     {
       make_rectangles(
-        {{Point<2>(-.4, -1.), Point<2>(1.4, 0.), {{9, 2}}, 0., {}},
+        {{Point<2>(-.4, -1.), Point<2>(right, 0.), {{9, 2}}, 0., {}},
          {Point<2>(0., gap), Point<2>(1., 1.), {{7, 2}}, 0., {}}},
         CellShape::triangles,
         triangulation);
@@ -75,7 +78,7 @@ namespace
         return std::make_unique<Points>(*body,
                                         surfaces,
                                         Points::PointsIn::quadrature_points,
-                                        /* rounds_vertices */ true);
+                                        /* is_smooth */ true);
       return std::make_unique<MortarPair>(*body,
                                           surfaces,
                                           coupling == "mortar"
@@ -130,6 +133,13 @@ namespace
     mutable std::map<dealii::types::global_dof_index, unsigned int> components;
   };
 
+  /// Some lower strips end under the upper one, which overhangs.
+  double
+  end_of_lower(const unsigned int seed)
+  {
+    return seed % 2 == 0 ? 1.4 : .94;
+  }
+
   ContactStart
   start_at(const Vector &solution, const Vector &zero)
   {
@@ -142,11 +152,12 @@ BOOST_AUTO_TEST_CASE(rows_are_exact)
 {
   for (const std::string &coupling : couplings)
     {
-      unsigned int n_points = 0;
-      double       of_gap = 0., of_slip = 0., of_sums = 0., of_moments = 0.;
+      unsigned int n_points = 0, n_at_ends = 0;
+      double       of_gap = 0., of_slip = 0., of_coverage = 0., of_sums = 0.,
+             of_moments = 0.;
       for (unsigned int seed = 0; seed < 40; ++seed)
         {
-          Strips       strips(seed);
+          Strips       strips(seed, .02, end_of_lower(seed));
           const auto   pair   = strips.pair(coupling);
           const Vector zero   = strips.body->make_vector();
           const double slide  = .02 * (seed % 7) * (seed % 2 == 0 ? 1. : -1.);
@@ -159,9 +170,12 @@ BOOST_AUTO_TEST_CASE(rows_are_exact)
               if (!pair->is_before_facet(p))
                 continue;
               ++n_points;
-              const auto &rows = pair->rows(p);
-              double      gap = 0., slip = 0.;
-              double sum[2][2] = {{0., 0.}, {0., 0.}}, moment[2] = {0., 0.};
+              const auto &rows      = pair->rows(p);
+              const bool  is_at_end = !rows.coverage.empty();
+              double      gap = 0., slip = 0., coverage = 0.;
+              double      sum[3][2] = {{0., 0.}, {0., 0.}, {0., 0.}},
+                     moment[3]      = {0., 0., 0.};
+              n_at_ends += pair->new_coverage(p) < 1.;
               for (unsigned int k = 0; k < rows.unknowns.size(); ++k)
                 {
                   const auto   i      = rows.unknowns[k];
@@ -169,6 +183,11 @@ BOOST_AUTO_TEST_CASE(rows_are_exact)
                   gap += rows.normal[k] * change;
                   slip += rows.tangential[0][k] * change;
                   const unsigned int c = strips.component_of(i);
+                  if (is_at_end)
+                    {
+                      coverage += rows.coverage[k] * change;
+                      sum[2][c] += rows.coverage[k];
+                    }
                   sum[0][c] += rows.normal[k];
                   sum[1][c] += rows.tangential[0][k];
                 }
@@ -183,13 +202,19 @@ BOOST_AUTO_TEST_CASE(rows_are_exact)
                   moment[0] += x * rows.normal[k + 1] - y * rows.normal[k];
                   moment[1] +=
                     x * rows.tangential[0][k + 1] - y * rows.tangential[0][k];
+                  if (is_at_end)
+                    moment[2] +=
+                      x * rows.coverage[k + 1] - y * rows.coverage[k];
                 }
               of_gap =
                 std::max({of_gap,
                           std::abs(gap - rows.gap_increment),
                           std::abs(gap - pair->new_gap(p) + pair->old_gap(p))});
-              of_slip = std::max(of_slip, std::abs(slip - rows.slip[0]));
-              for (const unsigned int r : {0U, 1U})
+              of_slip     = std::max(of_slip, std::abs(slip - rows.slip[0]));
+              of_coverage = std::max(of_coverage,
+                                     std::abs(coverage - pair->new_coverage(p) +
+                                              pair->old_coverage(p)));
+              for (const unsigned int r : {0U, 1U, 2U})
                 {
                   of_moments = std::max(of_moments, std::abs(moment[r]));
                   for (const unsigned int c : {0U, 1U})
@@ -198,16 +223,21 @@ BOOST_AUTO_TEST_CASE(rows_are_exact)
             }
         }
       BOOST_TEST_MESSAGE(coupling << ": " << n_points << " points; gap "
-                                  << of_gap << ", slip " << of_slip << ", sums "
+                                  << of_gap << ", slip " << of_slip
+                                  << ", coverage " << of_coverage << ", sums "
                                   << of_sums << ", moments " << of_moments);
       BOOST_CHECK_GT(n_points, 200);
-      for (const double error : {of_gap, of_slip, of_sums, of_moments})
+      const bool has_coverage =
+        coupling == "nodes, rounded" || coupling == "quadrature points";
+      BOOST_CHECK_EQUAL(n_at_ends > 5, has_coverage);
+      for (const double error :
+           {of_gap, of_slip, of_coverage, of_sums, of_moments})
         BOOST_CHECK_LT(error, 1e-13);
     }
 }
 
-// At the beginning of the next step gaps are those at the end of the last one,
-// where no point leaves the end of the other surface.
+// At the beginning of the next step gaps and coverages are those at the end of the last
+// one, where no point leaves the end of the other surface.
 BOOST_AUTO_TEST_CASE(no_history_enters)
 {
   for (const std::string &coupling : couplings)
@@ -216,7 +246,7 @@ BOOST_AUTO_TEST_CASE(no_history_enters)
       unsigned int n_points = 0;
       for (unsigned int seed = 0; seed < 40; ++seed)
         {
-          Strips       strips(seed);
+          Strips       strips(seed, .02, end_of_lower(seed));
           const auto   pair   = strips.pair(coupling);
           const Vector zero   = strips.body->make_vector();
           const double slide  = .02 * (seed % 7) * (seed % 2 == 0 ? 1. : -1.);
@@ -224,16 +254,18 @@ BOOST_AUTO_TEST_CASE(no_history_enters)
           const Vector after  = strips.displacements(.01, slide, .02);
           pair->begin_step(start_at(before, zero));
           pair->evaluate(after);
-          std::map<unsigned int, double> gaps;
+          std::map<unsigned int, std::pair<double, double>> ends;
           for (unsigned int p = 0; p < pair->points().size(); ++p)
             if (pair->is_before_facet(p))
-              gaps[p] = pair->new_gap(p);
+              ends[p] = {pair->new_gap(p), pair->new_coverage(p)};
           pair->begin_step(start_at(after, zero));
-          for (const auto &[p, gap] : gaps)
+          for (const auto &[p, at] : ends)
             if (pair->is_before_facet(p))
               {
                 ++n_points;
-                worst = std::max(worst, std::abs(pair->old_gap(p) - gap));
+                worst = std::max({worst,
+                                  std::abs(pair->old_gap(p) - at.first),
+                                  std::abs(pair->old_coverage(p) - at.second)});
               }
         }
       BOOST_TEST_MESSAGE(coupling << ": " << n_points
@@ -245,13 +277,13 @@ BOOST_AUTO_TEST_CASE(no_history_enters)
 
 BOOST_AUTO_TEST_CASE(derivatives_are_quotients_of_differences)
 {
-  constexpr double pressure = 2., traction = -.7, h = 1e-7;
+  constexpr double pressure = 2., traction = -.7, energy = .4, h = 1e-7;
   for (const std::string &coupling : couplings)
     {
       double of_gap = 0., of_slip = 0., of_forces = 0.;
       for (unsigned int seed = 0; seed < 6; ++seed)
         {
-          Strips       strips(seed);
+          Strips       strips(seed, .02, end_of_lower(seed));
           const auto   pair      = strips.pair(coupling);
           const Vector zero      = strips.body->make_vector();
           const Vector before    = strips.displacements(.02, 0., .01);
@@ -267,9 +299,10 @@ BOOST_AUTO_TEST_CASE(derivatives_are_quotients_of_differences)
             const auto &rows = pair->rows(p);
             std::map<dealii::types::global_dof_index, double> force;
             for (unsigned int k = 0; k < rows.unknowns.size(); ++k)
-              force[rows.unknowns[k]] +=
-                traction * rows.tangential[0][k] - pressure * rows.normal[k];
-            gap  = pair->new_gap(p);
+              force[rows.unknowns[k]] += traction * rows.tangential[0][k] -
+                pressure * rows.normal[k] +
+                (rows.coverage.empty() ? 0. : energy * rows.coverage[k]);
+            gap  = pair->new_gap(p) + pair->new_coverage(p);
             slip = rows.slip[0];
             return force;
           };
@@ -282,17 +315,19 @@ BOOST_AUTO_TEST_CASE(derivatives_are_quotients_of_differences)
               const auto up   = force_at(h, p, gap[1], slip[1]);
               auto       down = force_at(-h, p, gap[0], slip[0]);
               pair->evaluate(after);
-              const auto &rows = pair->rows(p);
-              const auto &derivatives =
-                pair->derivatives(p,
-                                  pressure,
-                                  dealii::Tensor<1, 1>({traction}),
-                                  Caution::none);
+              const auto &rows        = pair->rows(p);
+              const auto &derivatives = pair->derivatives(
+                p,
+                {pressure, dealii::Tensor<1, 1>({traction}), energy},
+                Caution::none);
               const unsigned int m         = rows.unknowns.size();
               double             along_gap = 0., along_slip = 0.;
               for (unsigned int b = 0; b < m; ++b)
                 {
                   along_gap += derivatives.gap[b] * direction(rows.unknowns[b]);
+                  if (!derivatives.coverage.empty())
+                    along_gap +=
+                      derivatives.coverage[b] * direction(rows.unknowns[b]);
                   along_slip +=
                     derivatives.slip[0][b] * direction(rows.unknowns[b]);
                 }
@@ -321,7 +356,7 @@ BOOST_AUTO_TEST_CASE(derivatives_are_quotients_of_differences)
       BOOST_TEST_MESSAGE(coupling << ": gap " << of_gap << ", slip " << of_slip
                                   << ", forces " << of_forces);
       BOOST_CHECK_LT(of_gap, 1e-6);
-      // Mortar leaves out where the facets are cut, which matters where a point
+      // The gap with the coverage. Mortar leaves out where the facets are cut, which matters where a point
       // passes a vertex in between.
       const bool is_cut = coupling.find("mortar") != std::string::npos;
       BOOST_CHECK_LT(of_slip, is_cut ? .01 : 1e-6);

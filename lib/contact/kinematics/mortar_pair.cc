@@ -162,7 +162,11 @@ namespace Ricochet
           continue;
         const double   middle = .5 * (interval.begin + interval.end);
         const Position y      = position_on(facet, middle, old_positions);
-        auto facing = find_facet(y, normal, search, old_positions.master);
+        auto           facing = find_facet(y,
+                                 normal,
+                                 search,
+                                 old_positions.master,
+                                 this->half_length(facet.number));
         if (facing &&
             !(gap_before(work, facing->chain, facing->facet) >
               -largest_depth(*facing)))
@@ -185,7 +189,8 @@ namespace Ricochet
               find_facet(position_on(facet, middle, *later),
                          facet_normal<2>(slave, later->slave, facet.number),
                          *search_later,
-                         later->master);
+                         later->master,
+                         this->half_length(facet.number));
             if (facing)
               {
                 gather(y, facing->chain, old_positions.master);
@@ -510,14 +515,15 @@ namespace Ricochet
 
 
   const SurfacePair<2>::Derivatives &
-  MortarPair::derivatives(const unsigned int p,
-                          const double       pressure,
-                          const Tangential  &traction,
-                          const Caution      caution) const
+  MortarPair::derivatives(const unsigned int  p,
+                          const Coefficients &coefficients,
+                          const Caution       caution) const
   {
     rows(p);
-    Rows              &own = all_rows[p];
-    const unsigned int m   = own.unknowns.size();
+    const double       pressure = coefficients.pressure;
+    const Tangential  &traction = coefficients.traction;
+    Rows              &own      = all_rows[p];
+    const unsigned int m        = own.unknowns.size();
     result.gap.assign(m, 0.);
     result.slip[0].assign(m, 0.);
     result.forces.assign(m * m, 0.);

@@ -55,10 +55,9 @@ namespace Ricochet
     rows(const unsigned int p) const override;
 
     const Derivatives &
-    derivatives(const unsigned int p,
-                const double       pressure,
-                const Tangential  &traction,
-                const Caution      caution) const override;
+    derivatives(const unsigned int  p,
+                const Coefficients &coefficients,
+                const Caution       caution) const override;
 
     std::vector<Index>
     unknowns_nearby(const unsigned int p) const override;

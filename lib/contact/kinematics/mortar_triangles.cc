@@ -576,14 +576,15 @@ namespace Ricochet
 
 
   const SurfacePair<3>::Derivatives &
-  MortarTriangles::derivatives(const unsigned int p,
-                               const double       pressure,
-                               const Tangential  &traction,
+  MortarTriangles::derivatives(const unsigned int  p,
+                               const Coefficients &coefficients,
                                const Caution /*caution*/) const
   {
     rows(p);
-    Rows              &own = all_rows[p];
-    const unsigned int m   = own.unknowns.size();
+    const double       pressure = coefficients.pressure;
+    const Tangential  &traction = coefficients.traction;
+    Rows              &own      = all_rows[p];
+    const unsigned int m        = own.unknowns.size();
     result.gap.assign(m, 0.);
     for (auto &row : result.slip)
       row.assign(m, 0.);

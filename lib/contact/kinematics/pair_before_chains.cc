@@ -83,7 +83,8 @@ namespace Ricochet
   bool
   PairBeforeChains<dim>::is_off(const std::vector<Position> &x,
                                 const Chain                 &chain,
-                                const unsigned int           facet) const
+                                const unsigned int           facet,
+                                const double largest_overhang) const
   {
     if constexpr (dim == 1)
       return false;
@@ -95,15 +96,9 @@ namespace Ricochet
         const double    along  = ((b[0] - a[0]) * (x[0][0] - a[0]) +
                               (b[1] - a[1]) * (x[0][1] - a[1])) /
           length;
-        // A sharp open end would release the border nodes of equal blocks when they
-        // bulge, and catch them again once they are deeper than they overhang, with the
-        // whole potential of that depth: hence half a facet. The depth is added for
-        // points that are pressed into a facet that turns.
-        const double gap       = gap_before(x, chain, facet);
-        const double tolerance = .5 * length + std::max(0., -gap);
-        if ((!own.previous && along < -tolerance) ||
-            (!own.next && along > length + tolerance))
-          return true;
+        if ((!own.previous && along < 0.) || (!own.next && along > length))
+          return std::max(-along, along - length) > largest_overhang;
+        const double gap = gap_before(x, chain, facet);
         // A point past a vertex may be as far away as its bisector allows; a point
         // farther off the ends of the facet than in front of it is beside it.
         const double beside = std::max(-along, along - length);
@@ -182,7 +177,8 @@ namespace Ricochet
                                     const Position              &normal,
                                     const FacetSearch<dim>      &search,
                                     const std::vector<Position> &master_x,
-                                    const Point                 *self,
+                                    const double largest_overhang,
+                                    const Point *self,
                                     const double largest_distance) const
   {
     const auto can_touch = [&](const unsigned int f) {
@@ -198,7 +194,7 @@ namespace Ricochet
     facing.chain       = chain_around(*found, place);
     gather(y, facing.chain, master_x);
     facing.facet = facet_before(work, place);
-    if (is_off(work, facing.chain, facing.facet) ||
+    if (is_off(work, facing.chain, facing.facet, largest_overhang) ||
         !can_touch(facing.chain.facets[facing.facet]))
       return {};
     return facing;

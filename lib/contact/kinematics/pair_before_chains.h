@@ -68,15 +68,18 @@ namespace Ricochet
     facet_before(const std::vector<Position> &x,
                  const unsigned int           facet) const;
 
-    /// Whether the point is beyond an open end of the surface, or beside it.
+    /// Whether the point is beyond an open end of the surface by more than @p
+    /// largest_overhang (m), or beside it.
     bool
     is_off(const std::vector<Position> &x,
            const Chain                 &chain,
-           const unsigned int           facet) const;
+           const unsigned int           facet,
+           const double                 largest_overhang) const;
 
     /// The facet that the point @p y of the slave with the outward @p normal faces,
     /// among those of @p search, if there is one. The positions are in #work then.
     ///
+    /// @param largest_overhang beyond an open end of the surface (m).
     /// @param self the point, where a surface is searched for self-contact: its
     /// own facets and their neighbours are left out, and so are those on the far
     /// side of the wall that it is on.
@@ -86,6 +89,7 @@ namespace Ricochet
                const Position              &normal,
                const FacetSearch<dim>      &search,
                const std::vector<Position> &master_x,
+               const double                 largest_overhang,
                const Point                 *self = nullptr,
                const double                 largest_distance =
                  std::numeric_limits<double>::infinity()) const;

@@ -16,9 +16,9 @@ namespace Ricochet
   PointsBeforeFacets<dim>::PointsBeforeFacets(const Body<dim>   &body,
                                               const ContactPair &pair,
                                               const PointsIn     points_in,
-                                              const bool rounds_vertices)
+                                              const bool         is_smooth)
     : PairBeforeChains<dim>(body, pair)
-    , rounds_vertices(rounds_vertices)
+    , is_smooth(is_smooth)
   {
     if (points_in == PointsIn::quadrature_points)
       make_quadrature_points(body);
@@ -43,10 +43,11 @@ namespace Ricochet
         for (unsigned int q = 0; q < rule.size(); ++q)
           {
             Point point;
-            point.facets        = {f};
-            point.weight        = rule.weight(q) * slave.facets[f].measure;
-            point.cell_diameter = slave.facets[f].cell_diameter;
-            point.boundary_id   = slave.facets[f].boundary_id;
+            point.facets           = {f};
+            point.weight           = rule.weight(q) * slave.facets[f].measure;
+            point.cell_diameter    = slave.facets[f].cell_diameter;
+            point.boundary_id      = slave.facets[f].boundary_id;
+            point.largest_overhang = this->half_length(f);
             point.multipliers.fill(numbers::invalid_dof_index);
             if constexpr (dim == 1)
               point.nodes = {{slave.facets[f].nodes[0], 1.}};
@@ -329,6 +330,7 @@ namespace Ricochet
                        this->normal_of(point, old_positions.slave),
                        search,
                        old_positions.master,
+                       found_overhang(point),
                        is_self ? &point : nullptr,
                        self_distance);
     if (!facing)
@@ -356,19 +358,23 @@ namespace Ricochet
                                    this->normal_of(point, later.slave),
                                    search,
                                    later.master,
+                                   found_overhang(point),
                                    is_self ? &point : nullptr,
                                    self_distance);
     if (!facing)
       return;
     // The path to this facet, from where the point is now; if the point does not
     // face this part of the surface yet, along this facet.
-    const auto        &x     = gather_all(p, facing->chain, old_positions);
-    const unsigned int first = this->facet_before(x, facing->facet);
-    const bool         passes =
-      may_pass(x, first) && this->gap_before(x, facing->chain, first) > 0.;
+    const auto        &x      = gather_all(p, facing->chain, old_positions);
+    const unsigned int first  = this->facet_before(x, facing->facet);
+    const bool         passes = may_pass(x, first) &&
+      (is_smooth || this->gap_before(x, facing->chain, first) > 0.);
     const unsigned int old_facet = passes ? first : facing->facet;
     const double       old_gap   = gap_at(x, facing->chain, old_facet, passes);
-    if (!(old_gap > 0.))
+    // A point that is behind the facet can only come to face it from the side.
+    if (!(old_gap > 0.) &&
+        !(coverage_at(old_positions, p, facing->chain, old_facet, old_facet) ==
+          0.))
       return;
     begin_before(p, {std::move(facing->chain), old_facet, passes, old_gap});
   }
@@ -384,6 +390,8 @@ namespace Ricochet
     steps[p].may_pass       = place.may_pass;
     steps[p].old_facet      = place.facet;
     steps[p].chain          = std::move(place.chain);
+    gaps[p].old_coverage    = gaps[p].new_coverage =
+      coverage_at(old_positions, p, steps[p].chain, place.facet, place.facet);
   }
 
 
@@ -444,7 +452,49 @@ namespace Ricochet
             find_nodes_of_rows(x, step);
             find_nodes_of_rows(gather_all(p, step.chain, old_positions), step);
           }
+        if (is_smooth)
+          {
+            gaps[p].old_coverage =
+              coverage_at(old_positions, p, step.chain, step.first, step.last);
+            gaps[p].new_coverage =
+              coverage_at(new_positions, p, step.chain, step.first, step.last);
+          }
       }
+  }
+
+
+
+  template <int dim>
+  OpenEnds
+  PointsBeforeFacets<dim>::open_ends(const unsigned int p,
+                                     const Chain       &chain,
+                                     const unsigned int first,
+                                     const unsigned int last) const
+  {
+    if (!is_smooth || dim == 1)
+      return {};
+    return {first == 0 && !master.facets[chain.facets.front()].previous,
+            last + 1 == chain.facets.size() &&
+              !master.facets[chain.facets.back()].next,
+            own_points[p].largest_overhang};
+  }
+
+
+
+  template <int dim>
+  double
+  PointsBeforeFacets<dim>::coverage_at(const Positions   &positions,
+                                       const unsigned int p,
+                                       const Chain       &chain,
+                                       const unsigned int first,
+                                       const unsigned int last) const
+  {
+    if constexpr (dim > 1)
+      if (const auto ends = open_ends(p, chain, first, last);
+          ends.first || ends.last)
+        return FacetChain<double>::coverage(gather_all(p, chain, positions),
+                                            ends);
+    return 1.;
   }
 
 
@@ -474,7 +524,7 @@ namespace Ricochet
                                   const bool                   may_pass) const
   {
     if constexpr (dim > 1)
-      if (rounds_vertices && may_pass)
+      if (is_smooth && may_pass)
         {
           find_roundings(chain);
           return FacetChain<double>::gap(x, facet, roundings);
@@ -517,7 +567,7 @@ namespace Ricochet
   {
     if constexpr (dim > 1)
       {
-        if (is_other_side(p) || rounds_vertices)
+        if (is_other_side(p) || is_smooth)
           return;
         if (has_other_sides())
           {
@@ -604,7 +654,8 @@ namespace Ricochet
         FacetChain<Number>(old_work,
                            *new_x,
                            caution,
-                           is_rounded(step) ? &roundings : nullptr)
+                           is_rounded(step) ? &roundings : nullptr,
+                           open_ends(p, step.chain, first, step.last))
           .evaluate(step.old_facet - first, step.new_facet - first, rows);
       }
   }
@@ -625,22 +676,26 @@ namespace Ricochet
     rows.unknowns.clear();
     rows.normal.clear();
     rows.tangential[0].clear();
+    rows.coverage.clear();
     step.coordinate.clear();
     step.factor.clear();
     rows.gap_increment = chain_rows.gap_increment;
     rows.slip[0]       = chain_rows.slip;
-    const auto add =
-      [&](const auto &node, const unsigned int i, const double factor) {
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            rows.unknowns.push_back(node.unknowns[c]);
-            rows.normal.push_back(factor * chain_rows.normal[i * dim + c]);
-            rows.tangential[0].push_back(factor *
-                                         chain_rows.tangential[i * dim + c]);
-            step.coordinate.push_back(i * dim + c);
-            step.factor.push_back(factor);
-          }
-      };
+    const auto add     = [&](const auto        &node,
+                         const unsigned int i,
+                         const double       factor) {
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          rows.unknowns.push_back(node.unknowns[c]);
+          rows.normal.push_back(factor * chain_rows.normal[i * dim + c]);
+          rows.tangential[0].push_back(factor *
+                                       chain_rows.tangential[i * dim + c]);
+          if (!chain_rows.coverage.empty())
+            rows.coverage.push_back(factor * chain_rows.coverage[i * dim + c]);
+          step.coordinate.push_back(i * dim + c);
+          step.factor.push_back(factor);
+        }
+    };
     for (const auto &[node, weight] : own_points[p].nodes)
       add(slave.nodes[node], 0, weight);
     const unsigned int first = step.first;
@@ -667,16 +722,17 @@ namespace Ricochet
 
   template <int dim>
   const typename PointsBeforeFacets<dim>::Derivatives &
-  PointsBeforeFacets<dim>::derivatives(const unsigned int p,
-                                       const double       pressure,
-                                       const Tangential  &traction,
-                                       const Caution      caution) const
+  PointsBeforeFacets<dim>::derivatives(const unsigned int  p,
+                                       const Coefficients &coefficients,
+                                       const Caution       caution) const
   {
     update(p);
     compute_rows<Differentiable>(p, differentiable_rows, caution);
-    const auto        &all  = differentiable_rows;
-    const Step        &step = steps[p];
-    const unsigned int m    = step.coordinate.size();
+    const auto        &all       = differentiable_rows;
+    const Step        &step      = steps[p];
+    const unsigned int m         = step.coordinate.size();
+    const bool         is_at_end = !all.coverage.empty();
+    result.coverage.resize(is_at_end ? m : 0);
     result.gap.resize(m);
     result.slip[0].resize(m);
     result.forces.resize(m * m);
@@ -685,12 +741,18 @@ namespace Ricochet
         const unsigned int i = step.coordinate[a];
         result.gap[a]        = step.factor[a] * all.new_gap.dx(i);
         result.slip[0][a]    = step.factor[a] * all.slip.dx(i);
+        if (is_at_end)
+          result.coverage[a] = step.factor[a] * all.new_coverage.dx(i);
         for (unsigned int b = 0; b < m; ++b)
           {
-            const unsigned int j     = step.coordinate[b];
-            result.forces[a * m + b] = step.factor[a] * step.factor[b] *
-              (traction[0] * all.tangential[i].dx(j) -
-               pressure * all.normal[i].dx(j));
+            const unsigned int j = step.coordinate[b];
+            double             derivative =
+              coefficients.traction[0] * all.tangential[i].dx(j) -
+              coefficients.pressure * all.normal[i].dx(j);
+            if (is_at_end)
+              derivative += coefficients.energy * all.coverage[i].dx(j);
+            result.forces[a * m + b] =
+              step.factor[a] * step.factor[b] * derivative;
           }
       }
     return result;

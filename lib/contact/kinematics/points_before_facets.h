@@ -28,6 +28,7 @@ namespace Ricochet
   class PointsBeforeFacets : public PairBeforeChains<dim>
   {
   public:
+    using typename SurfacePair<dim>::Coefficients;
     using typename SurfacePair<dim>::Derivatives;
     using typename SurfacePair<dim>::Index;
     using typename SurfacePair<dim>::Point;
@@ -45,12 +46,12 @@ namespace Ricochet
 
     /// @throws InputError see SurfacePair.
     ///
-    /// @param rounds_vertices see FacetChain: for laws, whose energy is a function of the
-    /// gap.
+    /// @param is_smooth vertices are rounded and there is a coverage at open ends, see
+    /// FacetChain: for laws, whose energy is a function of the gap.
     PointsBeforeFacets(const Body<dim>   &body,
                        const ContactPair &pair,
                        const PointsIn     points_in,
-                       const bool         rounds_vertices);
+                       const bool         is_smooth);
 
     void
     begin_step(const ContactStart &start) override;
@@ -62,10 +63,9 @@ namespace Ricochet
     rows(const unsigned int p) const override;
 
     const Derivatives &
-    derivatives(const unsigned int p,
-                const double       pressure,
-                const Tangential  &traction,
-                const Caution      caution) const override;
+    derivatives(const unsigned int  p,
+                const Coefficients &coefficients,
+                const Caution       caution) const override;
 
     void
     stay_at_vertex(const unsigned int p, const double tolerance) override;
@@ -196,6 +196,15 @@ namespace Ricochet
       double       gap      = 0.;
     };
 
+    /// The overhang beyond open ends up to which facets are found for a point (m): with a
+    /// coverage also from where it is 0, so that a point is followed on its path in from
+    /// far off.
+    double
+    found_overhang(const Point &point) const
+    {
+      return (is_smooth ? 4. : 1.) * point.largest_overhang;
+    }
+
     /// The facets that points face at #old_positions: kept if the last step or report
     /// has found them at these.
     void
@@ -229,6 +238,21 @@ namespace Ricochet
     void
     update(const unsigned int p) const;
 
+    /// The open ends among the facets of a chain from @p first to @p last.
+    OpenEnds
+    open_ends(const unsigned int p,
+              const Chain       &chain,
+              const unsigned int first,
+              const unsigned int last) const;
+
+    /// The coverage of a point that faces facets from @p first to @p last of a chain.
+    double
+    coverage_at(const Positions   &positions,
+                const unsigned int p,
+                const Chain       &chain,
+                const unsigned int first,
+                const unsigned int last) const;
+
     /// Half widths of the vertices of a chain, see FacetChain, in #roundings.
     void
     find_roundings(const Chain &chain) const;
@@ -250,10 +274,10 @@ namespace Ricochet
     bool
     is_rounded(const Step &step) const
     {
-      return rounds_vertices && step.may_pass;
+      return is_smooth && step.may_pass;
     }
 
-    const bool                  rounds_vertices;
+    const bool                  is_smooth;
     mutable std::vector<double> roundings;
     Positions                   old_positions, new_positions;
     /// The facet of each point, and the positions for which they were found.

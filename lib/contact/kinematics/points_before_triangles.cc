@@ -36,9 +36,9 @@ namespace Ricochet
   PointsBeforeTriangles::PointsBeforeTriangles(const Body<3>     &body,
                                                const ContactPair &pair,
                                                const PointsIn     points_in,
-                                               const bool         rounds_edges)
+                                               const bool         is_smooth)
     : SurfacePair<3>(body, pair)
-    , rounds_edges(rounds_edges && !is_self)
+    , is_smooth(is_smooth && !is_self)
     , rounded_patches(master)
   {
     if (points_in == PointsIn::quadrature_points)
@@ -100,10 +100,11 @@ namespace Ricochet
         for (unsigned int q = 0; q < rule.size(); ++q)
           {
             Point point;
-            point.facets        = {f};
-            point.weight        = 2. * rule.weight(q) * facet.measure;
-            point.cell_diameter = facet.cell_diameter;
-            point.boundary_id   = facet.boundary_id;
+            point.facets           = {f};
+            point.weight           = 2. * rule.weight(q) * facet.measure;
+            point.cell_diameter    = facet.cell_diameter;
+            point.boundary_id      = facet.boundary_id;
+            point.largest_overhang = half_length(f);
             point.multipliers.fill(numbers::invalid_dof_index);
             const auto  &xi           = rule.point(q);
             const double at_corner[3] = {1. - xi[0] - xi[1], xi[0], xi[1]};
@@ -173,7 +174,8 @@ namespace Ricochet
 
 
   bool
-  PointsBeforeTriangles::is_off(const Corners<double> &x,
+  PointsBeforeTriangles::is_off(const unsigned int     p,
+                                const Corners<double> &x,
                                 const unsigned int     f,
                                 const double           tolerance) const
   {
@@ -186,12 +188,11 @@ namespace Ricochet
       std::sqrt(std::max(0., away.norm_square() - gap * gap));
     const double size =
       std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    // Half a facet beyond an open edge, as in 2D (PairBeforeChains::is_off()); the
-    // depth is added for points that are pressed into a facet that turns.
-    if (beside > .5 * size + std::max(0., -gap))
-      for (unsigned int e = 0; e < 3; ++e)
-        if (!master.facets[f].neighbours[e] && shares[(e + 2) % 3] == 0.)
-          return true;
+    // With a coverage a point is followed on its path in from far off.
+    for (unsigned int e = 0; e < 3; ++e)
+      if (!master.facets[f].neighbours[e] && shares[(e + 2) % 3] == 0. &&
+          beside > 0.)
+        return beside > (is_smooth ? 4. : 1.) * own_points[p].largest_overhang;
     // A point past a convex edge may be as far away as the neighbour is in front of
     // it; a point farther off the facet than in front of it is beside it.
     return beside > 1.5 * std::abs(gap) + tolerance * size;
@@ -220,7 +221,7 @@ namespace Ricochet
     const Corners<double> x   = corners(p, *f, positions);
     const double          gap = PointBeforeTriangle<double>::gap(x);
     // Contact does not reach through a body.
-    if (is_off(x, *f) || !(gap > -std::sqrt(master.facets[*f].measure)))
+    if (is_off(p, x, *f) || !(gap > -std::sqrt(master.facets[*f].measure)))
       return {};
     // A point behind the plane of a facet, but nearer to another one that it does not
     // face, is at the far side of the body, or beside it; except if it has only just
@@ -276,7 +277,7 @@ namespace Ricochet
     const Corners<double> x   = corners(p, *f, positions);
     const double          gap = PointBeforeTriangle<double>::gap(x);
     // Closer facets may be excluded: then the point is beside this one.
-    if (is_off(x, *f, .1))
+    if (is_off(p, x, *f, .1))
       return {};
     // A point behind the plane of a facet, but nearer to another one and in front of
     // that, is beside the body.
@@ -409,6 +410,7 @@ namespace Ricochet
     return rounded_patches.find(f,
                                 instant(p, begin),
                                 instant(p, end),
+                                own_points[p].largest_overhang,
                                 step.patch,
                                 step.rounded_gap) &&
       step.rounded_gap.evaluate();
@@ -429,11 +431,17 @@ namespace Ricochet
       {
         gaps[p].new_gap = plain_gap;
         step.patch.facets.assign(1, step.old_facet);
+        step.patch.open_edges.clear();
         return true;
       }
     if (!find_rounded_gap(p, step.old_facet, old_positions, new_positions))
       return false;
-    gaps[p].new_gap = step.rounded_gap.new_gap;
+    // Those at the beginning are known from there, except for a point that was then beyond
+    // an open edge by more than its largest overhang.
+    gaps[p].old_gap      = step.rounded_gap.old_gap;
+    gaps[p].new_gap      = step.rounded_gap.new_gap;
+    gaps[p].old_coverage = step.rounded_gap.old_coverage;
+    gaps[p].new_coverage = step.rounded_gap.new_coverage;
     return true;
   }
 
@@ -449,10 +457,15 @@ namespace Ricochet
     gaps[p].old_gap         = gap;
     steps[p].old_facet      = f;
     steps[p].may_pass       = may_pass;
-    steps[p].is_rounded     = rounds_edges && may_pass &&
+    gaps[p].old_coverage = gaps[p].new_coverage = 1.;
+    steps[p].may_be_rounded = steps[p].is_rounded = is_smooth && may_pass &&
       find_rounded_gap(p, f, old_positions, old_positions);
     if (steps[p].is_rounded)
-      gaps[p].old_gap = steps[p].rounded_gap.old_gap;
+      {
+        gaps[p].old_gap      = steps[p].rounded_gap.old_gap;
+        gaps[p].old_coverage = gaps[p].new_coverage =
+          steps[p].rounded_gap.old_coverage;
+      }
   }
 
 
@@ -494,9 +507,20 @@ namespace Ricochet
                                           const Positions      &later,
                                           FacetsAround<3>      &facets)
   {
+    // The gap with rounded edges does not depend on the facet from which it is found.
+    if (gaps[p].is_before_facet && steps[p].is_rounded)
+      return;
     const auto f = find_facet(p, search, later, reach, facets_now[p]);
     if (!f)
       return;
+    // A point that is behind the surface can only come to face it from the side.
+    if (is_smooth && find_rounded_gap(p, *f, old_positions, old_positions))
+      {
+        const auto &rounded = steps[p].rounded_gap;
+        if (rounded.old_gap > 0. || rounded.old_coverage == 0.)
+          begin_before(p, *f, rounded.old_gap, true);
+        return;
+      }
     // The path to this facet, from where the point is now; if the point does not face
     // this part of the surface yet, along this facet.
     const Position     y     = position_of(own_points[p], old_positions.slave);
@@ -586,15 +610,16 @@ namespace Ricochet
       for (unsigned int p = begin; p < end; ++p)
         if (gaps[p].is_before_facet)
           {
-            Step &step = steps[p];
-            if (step.is_rounded && evaluate_rounded(p))
+            Step &step      = steps[p];
+            step.is_rounded = step.may_be_rounded && evaluate_rounded(p);
+            if (step.is_rounded)
               {
                 step.up_to_date = false;
                 continue;
               }
-            step.is_rounded = false;
-            step.new_facet  = last_facet(p, new_positions, facets);
-            gaps[p].new_gap = PointBeforeTriangle<double>::gap(
+            gaps[p].new_coverage = gaps[p].old_coverage;
+            step.new_facet       = last_facet(p, new_positions, facets);
+            gaps[p].new_gap      = PointBeforeTriangle<double>::gap(
               corners(p, step.new_facet, new_positions));
             step.up_to_date = false;
           }
@@ -636,22 +661,26 @@ namespace Ricochet
 
   void
   PointsBeforeTriangles::rounded_rows(const unsigned int   p,
-                                      std::vector<double> &normal) const
+                                      std::vector<double> &normal,
+                                      std::vector<double> &coverage) const
   {
     using Triangle = PointBeforeTriangle<double>;
     static thread_local std::vector<std::array<Triangle::Row, 3>> rows;
-    const RoundedPatch       &patch = steps[p].patch;
-    const RoundedGap<double> &gap   = steps[p].rounded_gap;
+    const RoundedPatch       &patch   = steps[p].patch;
+    const RoundedGap<double> &gap     = steps[p].rounded_gap;
+    const bool                is_open = !patch.open_edges.empty();
     normal.assign(3 * (1 + patch.nodes.size()), 0.);
+    coverage.assign(is_open ? normal.size() : 0, 0.);
     const auto add = [&](const unsigned int   facet,
                          const double         factor,
-                         const Triangle::Row &row) {
+                         const Triangle::Row &row,
+                         std::vector<double> &sum) {
       for (unsigned int v = 0; v < 4; ++v)
         {
           const unsigned int to =
             v == 0 ? 0 : 3 * (1 + patch.corners[facet][v - 1]);
           for (unsigned int c = 0; c < 3; ++c)
-            normal[to + c] += factor * row[3 * v + c];
+            sum[to + c] += factor * row[3 * v + c];
         }
     };
     rows.resize(patch.facets.size());
@@ -663,19 +692,35 @@ namespace Ricochet
                             corners(p, patch.facets[i], new_positions),
                             of_plane,
                             from_edges);
-        add(i, gap.of_gaps[i], of_plane.row);
+        add(i, gap.of_gaps[i], of_plane.row, normal);
         for (unsigned int e = 0; e < 3; ++e)
           rows[i][e] = from_edges[e].row;
       }
     for (unsigned int e = 0; e < patch.edges.size(); ++e)
       {
-        const RoundedPatch::Edge &edge = patch.edges[e];
-        add(edge.second,
-            .5 * gap.of_edges[e],
-            rows[edge.second][edge.number_in_second]);
-        add(edge.first,
-            -.5 * gap.of_edges[e],
-            rows[edge.first][edge.number_in_first]);
+        const RoundedPatch::Edge &edge     = patch.edges[e];
+        const auto                add_edge = [&](const double         factor,
+                                  std::vector<double> &sum) {
+          add(edge.second,
+              .5 * factor,
+              rows[edge.second][edge.number_in_second],
+              sum);
+          add(edge.first,
+              -.5 * factor,
+              rows[edge.first][edge.number_in_first],
+              sum);
+        };
+        add_edge(gap.of_edges[e], normal);
+        if (is_open)
+          add_edge(gap.coverage_of_edges[e], coverage);
+      }
+    for (unsigned int e = 0; e < patch.open_edges.size(); ++e)
+      {
+        const RoundedPatch::OpenEdge &edge = patch.open_edges[e];
+        add(edge.facet,
+            -gap.coverage_of_open[e],
+            rows[edge.facet][edge.number],
+            coverage);
       }
   }
 
@@ -690,11 +735,12 @@ namespace Ricochet
     step.up_to_date = true;
 
     // Rows on the coordinates of the point and of these nodes, and the increments.
-    static thread_local std::vector<unsigned int>                   nodes;
-    static thread_local std::vector<double>                         normal;
+    static thread_local std::vector<unsigned int> nodes;
+    static thread_local std::vector<double>       normal, coverage;
     static thread_local std::array<std::vector<double>, n_tangents> tangential;
     Rows &rows = step.rows;
     nodes.clear();
+    coverage.clear();
     const auto copy = [&](const auto &from) {
       normal.assign(from.normal.begin(), from.normal.end());
       for (unsigned int d = 0; d < n_tangents; ++d)
@@ -724,7 +770,7 @@ namespace Ricochet
           {
             // The first nodes of a patch are those of that facet.
             nodes = step.patch.nodes;
-            rounded_rows(p, normal);
+            rounded_rows(p, normal, coverage);
             for (unsigned int d = 0; d < n_tangents; ++d)
               tangential[d].resize(normal.size(), 0.);
             rows.gap_increment = gaps[p].new_gap - gaps[p].old_gap;
@@ -766,11 +812,15 @@ namespace Ricochet
                               });
 
     rows.normal.assign(rows.unknowns.size(), 0.);
+    rows.coverage.assign(coverage.empty() ? 0 : rows.unknowns.size(), 0.);
     for (auto &row : rows.tangential)
       row.assign(rows.unknowns.size(), 0.);
     for (const Share &share : step.shares)
       {
         rows.normal[share.place] += share.factor * normal[share.coordinate];
+        if (!coverage.empty())
+          rows.coverage[share.place] +=
+            share.factor * coverage[share.coordinate];
         for (unsigned int d = 0; d < n_tangents; ++d)
           rows.tangential[d][share.place] +=
             share.factor * tangential[d][share.coordinate];
@@ -795,11 +845,10 @@ namespace Ricochet
 
   template <unsigned int n_points, typename Evaluate>
   void
-  PointsBeforeTriangles::differentiate(const unsigned int p,
-                                       const double       pressure,
-                                       const Tangential  &traction,
-                                       const Evaluate    &evaluate,
-                                       Derivatives       &result) const
+  PointsBeforeTriangles::differentiate(const unsigned int  p,
+                                       const Coefficients &coefficients,
+                                       const Evaluate     &evaluate,
+                                       Derivatives        &result) const
   {
     constexpr unsigned int n = 3 * n_points;
     using Differentiable     = Sacado::Fad::SLFad<double, n>;
@@ -813,6 +862,7 @@ namespace Ricochet
     evaluate(x, all);
 
     const unsigned int m = step.rows.unknowns.size();
+    result.coverage.clear();
     result.gap.assign(m, 0.);
     for (auto &row : result.slip)
       row.assign(m, 0.);
@@ -828,9 +878,10 @@ namespace Ricochet
     // The force along the rows, with its derivatives.
     for (const Share &a : step.shares)
       {
-        Differentiable entry = -pressure * all.normal[a.coordinate];
+        Differentiable entry =
+          -coefficients.pressure * all.normal[a.coordinate];
         for (unsigned int d = 0; needs_slip && d < n_tangents; ++d)
-          entry += traction[d] * all.tangential[d][a.coordinate];
+          entry += coefficients.traction[d] * all.tangential[d][a.coordinate];
         for (const Share &b : step.shares)
           result.forces[a.place * m + b.place] +=
             a.factor * b.factor * entry.dx(b.coordinate);
@@ -840,21 +891,22 @@ namespace Ricochet
 
 
   void
-  PointsBeforeTriangles::differentiate_rounded(const unsigned int p,
-                                               const double       pressure,
-                                               const Tangential  &traction,
-                                               const Caution      caution,
-                                               Derivatives       &result) const
+  PointsBeforeTriangles::differentiate_rounded(const unsigned int  p,
+                                               const Coefficients &coefficients,
+                                               const Caution       caution,
+                                               Derivatives        &result) const
   {
-    // The row of the gap is a sum of rows of the scalars s (distances from planes, coordinates of
-    // edges) with factors P(s). Both are differentiated by themselves.
+    // The rows of gap and coverage are sums of rows of the scalars s (distances from planes,
+    // coordinates of edges) with factors P(s). Both are differentiated by themselves.
     using OfTriangle = Sacado::Fad::SLFad<double, 12>;
     using OfScalars  = Sacado::Fad::SLFad<double, RoundedPatches::most_scalars>;
     using Triangle   = PointBeforeTriangle<OfTriangle>;
     const Step         &step     = steps[p];
     const RoundedPatch &patch    = step.patch;
     const unsigned int  n_facets = patch.facets.size(),
-                       n_scalars = n_facets + patch.edges.size(),
+                       n_edges   = patch.edges.size(),
+                       n_open    = patch.open_edges.size(),
+                       n_scalars = n_facets + n_edges + n_open,
                        n         = 3 * (1 + patch.nodes.size());
     struct OfFacet
     {
@@ -887,6 +939,7 @@ namespace Ricochet
     rounded.old_gaps.clear();
     rounded.new_gaps.clear();
     rounded.edges.clear();
+    rounded.open_edges.clear();
     for (unsigned int i = 0; i < n_facets; ++i)
       {
         rounded.old_gaps.push_back(facets[i].gap.old_value);
@@ -904,7 +957,34 @@ namespace Ricochet
            .5 * (b.old_value - a.old_value),
            variable(n_facets + e, .5 * (b.new_value - a.new_value))});
       }
+    for (unsigned int e = 0; e < n_open; ++e)
+      {
+        const RoundedPatch::OpenEdge &edge = patch.open_edges[e];
+        const auto &s = facets[edge.facet].from_edges[edge.number];
+        rounded.open_edges.push_back(
+          {edge.facet,
+           edge.half_overhang,
+           -s.old_value - edge.half_overhang,
+           variable(n_facets + n_edges + e,
+                    OfTriangle(-s.new_value - edge.half_overhang))});
+      }
     rounded.evaluate();
+
+    // The factors of the rows of the scalars in the force, with their derivatives.
+    static thread_local std::vector<OfScalars> factors;
+    factors.assign(n_scalars, OfScalars(0.));
+    for (unsigned int k = 0; k < n_facets + n_edges; ++k)
+      factors[k] = -coefficients.pressure *
+        (k < n_facets ? rounded.of_gaps[k] : rounded.of_edges[k - n_facets]);
+    if (n_open > 0)
+      {
+        for (unsigned int e = 0; e < n_edges; ++e)
+          factors[n_facets + e] +=
+            coefficients.energy * rounded.coverage_of_edges[e];
+        for (unsigned int e = 0; e < n_open; ++e)
+          factors[n_facets + n_edges + e] =
+            coefficients.energy * rounded.coverage_of_open[e];
+      }
 
     // The rows of the scalars and their gradients, and the derivatives of rows along the
     // way.
@@ -926,56 +1006,65 @@ namespace Ricochet
     const auto add = [&](const unsigned int      facet,
                          const unsigned int      scalar,
                          const Triangle::Scalar &value,
-                         const double            factor,
-                         const double            of_scalar) {
+                         const double            factor) {
       for (unsigned int i = 0; i < 12; ++i)
         {
           const unsigned int to = scalar * n + place(facet, i);
           row[to] += factor * value.row[i].val();
           gradient[to] += factor * value.new_value.dx(i);
         }
-      add_rows(facet, value.row, -pressure * factor * of_scalar);
+      add_rows(facet, value.row, factor * factors[scalar].val());
     };
     for (unsigned int i = 0; i < n_facets; ++i)
-      add(i, i, facets[i].gap, 1., rounded.of_gaps[i].val());
-    for (unsigned int e = 0; e < patch.edges.size(); ++e)
+      add(i, i, facets[i].gap, 1.);
+    for (unsigned int e = 0; e < n_edges; ++e)
       {
-        const RoundedPatch::Edge &edge      = patch.edges[e];
-        const double              of_scalar = rounded.of_edges[e].val();
+        const RoundedPatch::Edge &edge = patch.edges[e];
         add(edge.second,
             n_facets + e,
             facets[edge.second].from_edges[edge.number_in_second],
-            .5,
-            of_scalar);
+            .5);
         add(edge.first,
             n_facets + e,
             facets[edge.first].from_edges[edge.number_in_first],
-            -.5,
-            of_scalar);
+            -.5);
       }
-    static thread_local std::vector<double> of_gap, of_factor;
+    for (unsigned int e = 0; e < n_open; ++e)
+      {
+        const RoundedPatch::OpenEdge &edge = patch.open_edges[e];
+        add(edge.facet,
+            n_facets + n_edges + e,
+            facets[edge.facet].from_edges[edge.number],
+            -1.);
+      }
+    static thread_local std::vector<double> of_gap, of_coverage, of_factor;
     // The slope of the weights may let Newton's method oscillate, see Caution.
     const bool has_slopes = caution == Caution::none;
     of_gap.assign(n, 0.);
+    of_coverage.assign(n, 0.);
+    const auto is_weight = [&](const unsigned int l) {
+      return l >= n_facets && l < n_facets + n_edges;
+    };
     for (unsigned int k = 0; k < n_scalars; ++k)
       {
         for (unsigned int i = 0; i < n; ++i)
           of_gap[i] += rounded.new_gap.dx(k) * gradient[k * n + i];
-        const OfScalars &factor =
-          k < n_facets ? rounded.of_gaps[k] : rounded.of_edges[k - n_facets];
+        for (unsigned int i = 0; n_open > 0 && i < n; ++i)
+          of_coverage[i] += rounded.new_coverage.dx(k) * gradient[k * n + i];
         of_factor.assign(n, 0.);
         for (unsigned int l = 0; l < n_scalars; ++l)
-          if (const double derivative = factor.dx(l);
-              derivative != 0. && (l < n_facets || has_slopes))
+          if (const double derivative = factors[k].dx(l);
+              derivative != 0. && (has_slopes || !is_weight(l)))
             for (unsigned int i = 0; i < n; ++i)
               of_factor[i] += derivative * gradient[l * n + i];
         for (unsigned int i = 0; i < n; ++i)
-          if (const double entry = -pressure * row[k * n + i]; entry != 0.)
+          if (const double entry = row[k * n + i]; entry != 0.)
             for (unsigned int j = 0; j < n; ++j)
               of_rows[i * n + j] += entry * of_factor[j];
       }
 
     const unsigned int m = step.rows.unknowns.size();
+    result.coverage.assign(n_open > 0 ? m : 0, 0.);
     result.gap.assign(m, 0.);
     for (auto &one : result.slip)
       one.assign(m, 0.);
@@ -983,7 +1072,7 @@ namespace Ricochet
     if (needs_slip)
       for (unsigned int d = 0; d < n_tangents; ++d)
         {
-          add_rows(0, facets[0].slip.tangential[d], traction[d]);
+          add_rows(0, facets[0].slip.tangential[d], coefficients.traction[d]);
           for (const Share &share : step.shares)
             for (unsigned int i = 0; i < 12; ++i)
               if (place(0, i) == share.coordinate)
@@ -993,6 +1082,8 @@ namespace Ricochet
     for (const Share &a : step.shares)
       {
         result.gap[a.place] += a.factor * of_gap[a.coordinate];
+        if (n_open > 0)
+          result.coverage[a.place] += a.factor * of_coverage[a.coordinate];
         for (const Share &b : step.shares)
           result.forces[a.place * m + b.place] +=
             a.factor * b.factor * of_rows[a.coordinate * n + b.coordinate];
@@ -1002,22 +1093,20 @@ namespace Ricochet
 
 
   const SurfacePair<3>::Derivatives &
-  PointsBeforeTriangles::derivatives(const unsigned int p,
-                                     const double       pressure,
-                                     const Tangential  &traction,
-                                     const Caution      caution) const
+  PointsBeforeTriangles::derivatives(const unsigned int  p,
+                                     const Coefficients &coefficients,
+                                     const Caution       caution) const
   {
     update(p);
     static thread_local Derivatives result;
     const Step                     &step = steps[p];
     const unsigned int              old = step.old_facet, now = step.new_facet;
     if (is_at_edge(step))
-      differentiate_rounded(p, pressure, traction, caution, result);
+      differentiate_rounded(p, coefficients, caution, result);
     else if (now == old)
       differentiate<4>(
         p,
-        pressure,
-        traction,
+        coefficients,
         [&](const auto &x, auto &rows) {
           using Number = std::decay_t<decltype(x[0][0])>;
           PointBeforeTriangle<Number>::evaluate(corners(p, old, old_positions),
@@ -1029,8 +1118,7 @@ namespace Ricochet
     else
       differentiate<7>(
         p,
-        pressure,
-        traction,
+        coefficients,
         [&](const auto &x, auto &rows) {
           using Number = std::decay_t<decltype(x[0][0])>;
           PointPassingTriangles<Number>::evaluate(

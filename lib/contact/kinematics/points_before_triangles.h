@@ -29,7 +29,8 @@ namespace Ricochet
    * began until the end of the step.
    *
    * For laws, whose energy is a function of the gap, edges between triangles are rounded
-   * instead, see RoundedGap: a point near edges is in contact with a patch of triangles.
+   * instead, see RoundedGap: a point near edges is in contact with a patch of triangles, and
+   * there is a coverage at open edges.
    *
    * For a surface against itself, each point can touch other triangles of that
    * surface, see OwnFacets. A point never passes to one of those around it.
@@ -44,11 +45,11 @@ namespace Ricochet
     };
 
     /// @throws InputError see SurfacePair.
-    /// @param rounds_edges see above; not for a surface against itself.
+    /// @param is_smooth see above; not for a surface against itself.
     PointsBeforeTriangles(const Body<3>     &body,
                           const ContactPair &pair,
                           const PointsIn     points_in,
-                          const bool         rounds_edges);
+                          const bool         is_smooth);
 
     void
     begin_step(const ContactStart &start) override;
@@ -66,10 +67,9 @@ namespace Ricochet
     rows(const unsigned int p) const override;
 
     const Derivatives &
-    derivatives(const unsigned int p,
-                const double       pressure,
-                const Tangential  &traction,
-                const Caution      caution) const override;
+    derivatives(const unsigned int  p,
+                const Coefficients &coefficients,
+                const Caution       caution) const override;
 
     void
     stay_at_vertex(const unsigned int p, const double tolerance) override;
@@ -104,9 +104,9 @@ namespace Ricochet
 
     struct Step
     {
-      /// Edges are rounded; then #new_facet is #old_facet, and #patch and #rounded_gap are those for
-      /// both ends of the step.
-      bool               is_rounded = false;
+      /// Edges are rounded for the point, if it has a patch, and it has one now; then #new_facet
+      /// is #old_facet, and #patch and #rounded_gap are those for both ends of the step.
+      bool               may_be_rounded = false, is_rounded = false;
       RoundedPatch       patch;
       RoundedGap<double> rounded_gap;
       /// Facets that the point faces at the beginning and the end of the step.
@@ -140,11 +140,12 @@ namespace Ricochet
                      const Positions   &begin,
                      const Positions   &end);
 
-    /// Whether the point is in contact with more than one facet.
+    /// Whether the point is in contact with more than one facet, or beyond an open edge.
     static bool
     is_at_edge(const Step &step)
     {
-      return step.is_rounded && step.patch.facets.size() > 1;
+      return step.is_rounded &&
+        (step.patch.facets.size() > 1 || !step.patch.open_edges.empty());
     }
 
     /// The gap at the end of the step, if edges are still rounded for the point.
@@ -154,15 +155,16 @@ namespace Ricochet
     /// Rows on the coordinates of the point and of the nodes of its patch, one point after
     /// the other.
     void
-    rounded_rows(const unsigned int p, std::vector<double> &normal) const;
+    rounded_rows(const unsigned int   p,
+                 std::vector<double> &normal,
+                 std::vector<double> &coverage) const;
 
     /// The derivatives of a point with rounded edges.
     void
-    differentiate_rounded(const unsigned int p,
-                          const double       pressure,
-                          const Tangential  &traction,
-                          const Caution      caution,
-                          Derivatives       &result) const;
+    differentiate_rounded(const unsigned int  p,
+                          const Coefficients &coefficients,
+                          const Caution       caution,
+                          Derivatives        &result) const;
 
     void
     make_quadrature_points(const Body<3> &body);
@@ -207,10 +209,11 @@ namespace Ricochet
                const Positions   &now,
                FacetsAround<3>   &facets) const;
 
-    /// Whether the point, the first of @p x, is beyond an open edge of the surface, or
-    /// beside the facet @p f by more than @p tolerance times its longest edge.
+    /// Whether the point @p p, the first of @p x, is too far beyond an open edge of the
+    /// surface, or beside the facet @p f by more than @p tolerance times its longest edge.
     bool
-    is_off(const Corners<double> &x,
+    is_off(const unsigned int     p,
+           const Corners<double> &x,
            const unsigned int     f,
            const double           tolerance = .5) const;
 
@@ -266,11 +269,10 @@ namespace Ricochet
     /// Sum the derivatives of rows on @p n_points points over the Step::shares.
     template <unsigned int n_points, typename Evaluate>
     void
-    differentiate(const unsigned int p,
-                  const double       pressure,
-                  const Tangential  &traction,
-                  const Evaluate    &evaluate,
-                  Derivatives       &result) const;
+    differentiate(const unsigned int  p,
+                  const Coefficients &coefficients,
+                  const Evaluate     &evaluate,
+                  Derivatives        &result) const;
 
     /// Call @p action(begin, end) for ranges of points, on several threads.
     template <typename Action>
@@ -283,7 +285,7 @@ namespace Ricochet
     void
     update(const unsigned int p) const;
 
-    const bool           rounds_edges;
+    const bool           is_smooth;
     const RoundedPatches rounded_patches;
     /// Search distances of facets: a tenth of the surface, but no less than two
     /// facets and the approach in a step; on the point's own surface only the latter

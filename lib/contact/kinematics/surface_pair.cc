@@ -125,6 +125,22 @@ namespace Ricochet
 
 
   template <int dim>
+  double
+  SurfacePair<dim>::half_length(const unsigned int f) const
+  {
+    const auto &corners = slave.facets[f].nodes;
+    double      longest = 0.;
+    for (const unsigned int a : corners)
+      for (const unsigned int b : corners)
+        longest = std::max(longest,
+                           slave.nodes[a].reference_position.distance(
+                             slave.nodes[b].reference_position));
+    return .5 * longest;
+  }
+
+
+
+  template <int dim>
   void
   SurfacePair<dim>::make_nodal_points(const Body<dim> &body)
   {
@@ -149,6 +165,8 @@ namespace Ricochet
     for (unsigned int n = 0; n < all.size(); ++n)
       if (slave.nodes[n].mean_of.empty() && is_mine(body, n))
         {
+          for (const unsigned int f : all[n].facets)
+            all[n].largest_overhang += half_length(f) / all[n].facets.size();
           all[n].nodes       = {{n, 1.}};
           all[n].multipliers = slave.nodes[n].multipliers;
           own_points.push_back(all[n]);

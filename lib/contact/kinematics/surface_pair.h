@@ -26,6 +26,14 @@ namespace Ricochet
    * times the one and t times the other; the sum of forces and that of moments are
    * zero.
    *
+   * A point stands for a part of the slave, which may lie over an open end or edge of the
+   * master. For laws the coverage W is the part of it that has the master in front of it: 1 in
+   * front of the surface, and falling smoothly to 0 at Point::largest_overhang beyond
+   * its end. The potential of a law phi(g) is W phi(g): without this factor, energy
+   * would be made where a point comes to face the surface, or does not any more, at a gap
+   * below zero. With the row C of the coverage the exact change of the potential is mean(W)
+   * (change of phi) + mean(phi) C . change; the second term is a force along the surface.
+   *
    * Each rank owns the points of its own nodes. It has the positions of the facets of
    * its own cells, and of those patches of the master that come near its points; only
    * these are exchanged.
@@ -53,8 +61,11 @@ namespace Ricochet
       /// m^(dim-1)
       double weight = 0.;
       /// h_T (m)
-      double                     cell_diameter = 0.;
-      dealii::types::boundary_id boundary_id   = 0;
+      double cell_diameter = 0.;
+      /// Half of a facet of the slave: beyond an open end or edge by this, nothing of what
+      /// the point stands for has the master in front of it (m).
+      double                     largest_overhang = 0.;
+      dealii::types::boundary_id boundary_id      = 0;
       /// Multipliers of the node; invalid ones in quadrature points.
       std::array<Index, dim> multipliers;
     };
@@ -72,6 +83,8 @@ namespace Ricochet
       double gap_increment = 0.;
       /// T . change (m)
       Tangential slip;
+      /// C (1/m); empty where the coverage is 1 throughout the step.
+      std::vector<double> coverage;
       /// Outward unit normal of the master.
       Position direction{};
     };
@@ -82,8 +95,20 @@ namespace Ricochet
       /// Derivatives of gap and slip, 1.
       std::vector<double>                         gap;
       std::array<std::vector<double>, n_tangents> slip;
-      /// Derivatives of traction T - pressure D (Pa/m), row by row.
+      /// Derivatives of the coverage (1/m); empty where Rows::coverage is.
+      std::vector<double> coverage;
+      /// Derivatives of traction T - pressure D + energy C (Pa/m), row by row.
       std::vector<double> forces;
+    };
+
+    /// Coefficients of the rows in the force of a point: traction T - pressure D + energy C.
+    struct Coefficients
+    {
+      /// Pa
+      double     pressure = 0.;
+      Tangential traction;
+      /// J/m^(dim-1)
+      double energy = 0.;
     };
 
     /// @throws InputError see ContactSurface; or when the surfaces do not face
@@ -185,6 +210,19 @@ namespace Ricochet
       return gaps[p].new_gap;
     }
 
+    /// The coverage, see above; 1 for classes without.
+    double
+    old_coverage(const unsigned int p) const
+    {
+      return gaps[p].old_coverage;
+    }
+
+    double
+    new_coverage(const unsigned int p) const
+    {
+      return gaps[p].new_coverage;
+    }
+
     /// The gap in the middle of the step, extrapolated with the mean velocity of
     /// the step before (m).
     double
@@ -245,10 +283,9 @@ namespace Ricochet
      * FacetChain.
      */
     virtual const Derivatives &
-    derivatives(const unsigned int p,
-                const double       pressure,
-                const Tangential  &traction,
-                const Caution      caution) const = 0;
+    derivatives(const unsigned int  p,
+                const Coefficients &coefficients,
+                const Caution       caution) const = 0;
 
     /// The unknowns of the rows and those that may join them during a step, for
     /// sparsity patterns, sorted.
@@ -318,8 +355,13 @@ namespace Ricochet
     {
       bool     is_before_facet = false;
       double   old_gap = 0., new_gap = 0., predicted_gap = 0.;
+      double   old_coverage = 1., new_coverage = 1.;
       Position multipliers{};
     };
+
+    /// Half of the longest edge of facet @p f of the slave; 0 in 1D (m).
+    double
+    half_length(const unsigned int f) const;
 
     /// One point for each node of the slave that this rank owns.
     void

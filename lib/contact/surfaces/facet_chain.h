@@ -3,7 +3,8 @@
 #define ricochet_contact_surfaces_facet_chain_h
 
 #include <contact/surfaces/caution.h>
-#include <contact/surfaces/rounded_gap.h>
+#include <contact/surfaces/discrete_scalar.h>
+#include <contact/surfaces/smooth_step.h>
 
 #include <array>
 #include <cmath>
@@ -12,6 +13,14 @@
 
 namespace Ricochet
 {
+  /// Which ends of a chain of facets are open ends of the surface.
+  struct OpenEnds
+  {
+    bool first = false, last = false;
+    /// The overhang at which the coverage is 0 (m).
+    double largest_overhang = 0.;
+  };
+
   /**
    * Contact of a point with a chain of straight facets in 2D, all of which
    * move: the gap, and the directions along which forces on the point and on
@@ -43,13 +52,16 @@ namespace Ricochet
    * These weights jump where a step begins exactly on a bisector, as it does for nodes
    * that meet nodes: Newton's method then has nothing to converge to. So a vertex may be
    * rounded: within w of the bisector the gap is the mean of both distances, g = g_1 +
-   * sigma (g_2 - g_1), with the weight sigma(t/w) of RoundedGap, which rises from 0 to 1. It is
+   * sigma (g_2 - g_1), with the weight sigma(t/w) of SmoothStep, which rises from 0 to 1. It is
    * a differentiable function of the positions alone. With psi = t sigma, tau for the
    * change of psi over that of t, and the discrete gradient D_sine of e_1 x e_2,
    *
    *     D = D_1 + tau (D_2 - D_1) + (tau mean(t) - mean(psi)) D_sine,
    *
    * which is the formula above where w = 0, tau the part behind the vertex.
+   *
+   * Beyond an open end by the overhang s, P/L - L or -P/L, the coverage (see SurfacePair) falls
+   * smoothly from 1 at s = 0 to 0 at the largest overhang s_0: W = sigma(1 - 2 s/s_0).
    *
    * @tparam Number type of the new values: double, or one for automatic
    * differentiation.
@@ -73,6 +85,10 @@ namespace Ricochet
       Number slip{};
       /// D and T, 1.
       std::vector<Number> normal, tangential;
+      /// The coverage at the end of the step, and its row C (1/m), which is empty without
+      /// open ends.
+      Number              new_coverage{1.};
+      std::vector<Number> coverage;
     };
 
     /// Half widths of the rounded vertices between facets of the chain (m); null for sharp
@@ -86,11 +102,13 @@ namespace Ricochet
     FacetChain(const std::vector<Vector2<double>> &old_positions,
                const std::vector<Vector2<Number>> &new_positions,
                const Caution                       caution   = Caution::none,
-               const Roundings                    *roundings = nullptr)
+               const Roundings                    *roundings = nullptr,
+               const OpenEnds                     &open_ends = {})
       : old_x(old_positions)
       , new_x(new_positions)
       , caution(caution)
       , roundings(roundings)
+      , open_ends(open_ends)
     {}
 
     /**
@@ -106,6 +124,7 @@ namespace Ricochet
       rows.tangential.assign(2 * new_x.size(), Number(0.));
       add_normal_row(old_facet, Number(1.), rows.normal);
       add_tangential_row(old_facet, rows.tangential);
+      set_coverage(rows);
       if (roundings)
         {
           for (unsigned int facet = old_facet; facet + 3 < new_x.size();
@@ -162,7 +181,28 @@ namespace Ricochet
     static T
     past_rounded(const T &t, const double w)
     {
-      return t * RoundedGap<T>::rise(T(t / w));
+      return t * SmoothStep::value(T(t / w));
+    }
+
+    /// The coverage of the point.
+    template <typename T>
+    static T
+    coverage(const std::vector<Vector2<T>> &x, const OpenEnds &open_ends)
+    {
+      using std::sqrt;
+      T          result(1.);
+      const auto add = [&](const unsigned int facet, const bool is_first) {
+        const auto e      = edge(x, facet);
+        const T    length = sqrt(dot(e, e));
+        const T    along  = dot(e, minus(x[0], x[facet + 1])) / length;
+        result *= covered(T(is_first ? T(-along) : T(along - length)),
+                          open_ends.largest_overhang);
+      };
+      if (open_ends.first)
+        add(0, true);
+      if (open_ends.last)
+        add(x.size() - 3, false);
+      return result;
     }
 
     /// The coordinate (m) from the bisector between @p facet and the next one,
@@ -340,6 +380,76 @@ namespace Ricochet
       add_square(a, b, Number(-l * products / (2. * old_b * new_b)), row);
     }
 
+    /// W at the overhang @p s.
+    template <typename T>
+    static T
+    covered(const T &s, const double largest_overhang)
+    {
+      return SmoothStep::value(T(1. - 2. * s / largest_overhang));
+    }
+
+    /// The overhang of the point beyond the first or the last node, as a function of it and
+    /// the nodes of the facet there.
+    DiscreteScalar<Number, 6>
+    overhang(const unsigned int facet, const bool is_first) const
+    {
+      using Scalar                         = DiscreteScalar<Number, 6>;
+      const unsigned int          a        = facet + 1;
+      const Vector2<Number>       e        = minus(middle(a + 1), middle(a));
+      const std::array<double, 2> old_edge = edge(old_x, facet);
+      const std::array<Number, 2> new_edge = edge(new_x, facet);
+      const auto                  product_with_edge = [&](const unsigned int to,
+                                         const unsigned int place) {
+        const Vector2<Number> r = minus(middle(to), middle(a));
+        Scalar                product;
+        product.old_value = dot(old_edge, minus(old_x[to], old_x[a]));
+        product.new_value = dot(new_edge, minus(new_x[to], new_x[a]));
+        for (unsigned int c = 0; c < 2; ++c)
+          {
+            product.row[place + c] += e[c];
+            product.row[4 + c] += r[c];
+            product.row[2 + c] -= e[c] + r[c];
+          }
+        return product;
+      };
+      const Scalar length = sqrt(product_with_edge(a + 1, 4));
+      const Scalar along  = product_with_edge(0, 0) / length;
+      return is_first ? Scalar() - along : along - length;
+    }
+
+    void
+    set_coverage(Rows &rows) const
+    {
+      rows.coverage.clear();
+      rows.new_coverage = Number(1.);
+      if (!open_ends.first && !open_ends.last)
+        return;
+      rows.coverage.resize(2 * new_x.size(), Number(0.));
+      double     old_coverage = 1.;
+      const auto multiply = [&](const unsigned int facet, const bool is_first) {
+        const auto   s       = overhang(facet, is_first);
+        const double per     = 2. / open_ends.largest_overhang;
+        const double old_end = covered(s.old_value, open_ends.largest_overhang);
+        const Number new_end = covered(s.new_value, open_ends.largest_overhang);
+        const Number mean_end = .5 * (old_end + new_end),
+                     of_s     = -.5 * per * (old_coverage + rows.new_coverage) *
+          SmoothStep::quotient(1. - per * s.old_value,
+                               Number(1. - per * s.new_value));
+        for (Number &entry : rows.coverage)
+          entry *= mean_end;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int c = 0; c < 2; ++c)
+            rows.coverage[2 * (i == 0 ? 0 : facet + i) + c] +=
+              of_s * s.row[2 * i + c];
+        old_coverage *= old_end;
+        rows.new_coverage *= new_end;
+      };
+      if (open_ends.first)
+        multiply(0, true);
+      if (open_ends.last)
+        multiply(new_x.size() - 3, false);
+    }
+
     /// Add the terms of passing the vertex between @p facet and the next one,
     /// @p direction being 1 towards the next one and -1 from there.
     void
@@ -447,6 +557,7 @@ namespace Ricochet
     const std::vector<Vector2<Number>> &new_x;
     const Caution                       caution;
     const Roundings *const              roundings;
+    const OpenEnds                      open_ends;
   };
 } // namespace Ricochet
 

@@ -2,17 +2,18 @@
 #ifndef ricochet_contact_surfaces_rounded_gap_h
 #define ricochet_contact_surfaces_rounded_gap_h
 
-#include <cmath>
+#include <contact/surfaces/smooth_step.h>
+
 #include <vector>
 
 namespace Ricochet
 {
   /**
-   * The gap of a point to a surface of triangles with rounded edges: a differentiable
-   * function of the positions alone, whatever triangle the point faces. Where points
-   * pass from one triangle to another without it, the derivative of the gap jumps:
-   * Newton's method has nothing to converge to where a step begins on an edge, as it does
-   * for nodes that meet nodes or diagonals of quadrilaterals.
+   * The gap of a point to a surface of triangles with rounded edges, and the coverage at
+   * open ones: differentiable functions of the positions alone, whatever triangle the point
+   * faces. Where points pass from one triangle to another without it, the derivative of the
+   * gap jumps: Newton's method has nothing to converge to where a step begins on an edge, as
+   * it does for nodes that meet nodes or diagonals of quadrilaterals.
    *
    * The gap is the mean of the distances g_i from the planes of triangles,
    *
@@ -20,13 +21,17 @@ namespace Ricochet
    *
    * where t is the coordinate of the point from the bisector of an edge (m), positive
    * beyond the edge as seen from triangle i, w the half width of the rounding, and
-   * sigma rises from 0 at -1 to 1 at 1 with sigma(x) + sigma(-x) = 1. In front of a triangle
-   * and away from its edges g is g_i.
+   * sigma is SmoothStep. In front of a triangle and away from its edges g is g_i.
    *
-   * Over a step the change of g is a sum of changes of g_i and t, with factors from the rules
-   * for products and quotients of DiscreteScalar: with rows whose products with
-   * the change of the positions are those changes, the increment of g is exact, and if the
-   * moments of their rows are zero, so is that of the row of g.
+   * The coverage W is the part of what a point stands for that has the surface in front of
+   * it, see SurfacePair: the mean, with the same weights, of products of sigma(-t/w) over the
+   * open edges of the triangles, where t is the coordinate from the middle of the range in
+   * which the coverage falls from 1 to 0.
+   *
+   * Over a step the changes of g and W are sums of changes of g_i and t, with factors from
+   * the rules for products and quotients of DiscreteScalar: with rows whose products with
+   * the change of the positions are those changes, the increments are exact, and if the
+   * moments of their rows are zero, so are those of the rows of g and W.
    *
    * @tparam Number type of the new values: double, or one for automatic
    * differentiation.
@@ -47,86 +52,81 @@ namespace Ricochet
       Number new_t{};
     };
 
+    /// An open edge.
+    struct OpenEdge
+    {
+      unsigned int triangle = 0;
+      /// Half width of the range in which the coverage falls (m).
+      double width = 0.;
+      /// Coordinate from the middle of this range, positive outwards (m).
+      double old_t = 0.;
+      Number new_t{};
+    };
+
     /// Whether a triangle takes part in the mean; others are there for their edges.
     std::vector<bool> counts;
     /// Distances from the planes of the triangles (m).
-    std::vector<double> old_gaps;
-    std::vector<Number> new_gaps;
-    std::vector<Edge>   edges;
+    std::vector<double>   old_gaps;
+    std::vector<Number>   new_gaps;
+    std::vector<Edge>     edges;
+    std::vector<OpenEdge> open_edges;
 
     /// The gap at both ends of the step (m).
     double old_gap = 0.;
     Number new_gap{};
-    /// Factors of the changes of #new_gaps and of the coordinates of #edges.
+    /// Factors of the changes of #new_gaps and of the coordinates of #edges in that of
+    /// the gap.
     std::vector<Number> of_gaps, of_edges;
 
-    /// Evaluate gap and factors. @return whether there is a gap: a point may be beyond an
-    /// edge of each triangle of the patch.
+    /// The coverage at both ends of the step.
+    double old_coverage = 1.;
+    Number new_coverage{1.};
+    /// Factors of the changes of the coordinates of #edges and #open_edges in that of the
+    /// coverage (1/m).
+    std::vector<Number> coverage_of_edges, coverage_of_open;
+
+    /// Evaluate gap, coverage and factors. @return whether there is a gap: a point may be
+    /// beyond an edge of each triangle of the patch.
     bool
     evaluate()
     {
       const unsigned int n = old_gaps.size();
-      parts.resize(edges.size());
-      for (unsigned int e = 0; e < edges.size(); ++e)
-        set_part(edges[e], parts[e]);
-
       old_weight.assign(n, 1.);
       new_weight.assign(n, Number(1.));
-      factors.clear();
-      begin.assign(1, 0);
-      double old_sum = 0., old_product = 0.;
-      Number new_sum(0.), new_product(0.);
+      of_weights.clear();
+      parts.resize(edges.size());
+      for (unsigned int e = 0; e < edges.size(); ++e)
+        {
+          set_part(edges[e], parts[e]);
+          multiply(edges[e].second, e, true);
+          multiply(edges[e].first, e, false);
+        }
+      double old_sum = 0.;
+      Number new_sum(0.);
       for (unsigned int i = 0; i < n; ++i)
         {
-          if (counts[i])
-            multiply(i);
-          else
+          if (!counts[i])
             old_weight[i] = 0., new_weight[i] = Number(0.);
-          begin.push_back(factors.size());
           old_sum += old_weight[i];
           new_sum += new_weight[i];
-          old_product += old_weight[i] * old_gaps[i];
-          new_product += new_weight[i] * new_gaps[i];
         }
       constexpr double smallest = 1e-3;
       if (!(old_sum > smallest && new_sum > smallest))
         return false;
-      old_gap = old_product / old_sum;
-      new_gap = new_product / new_sum;
-
-      // g is a quotient of sums of products u_i g_i.
-      const Number per_sums    = 1. / (old_sum * new_sum);
-      const Number of_products = .5 * (old_sum + new_sum) * per_sums;
-      const Number of_sum      = .5 * (old_product + new_product) * per_sums;
-      of_gaps.assign(n, Number(0.));
-      of_edges.assign(edges.size(), Number(0.));
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          of_gaps[i] = of_products * .5 * (old_weight[i] + new_weight[i]);
-          const Number of_weight =
-            of_products * .5 * (old_gaps[i] + new_gaps[i]) - of_sum;
-          for (unsigned int k = begin[i]; k < begin[i + 1]; ++k)
-            of_edges[factors[k].edge] += of_weight * factors[k].factor;
-        }
-      for (unsigned int e = 0; e < edges.size(); ++e)
-        of_edges[e] *= parts[e].quotient;
+      set_mean(old_gaps,
+               new_gaps,
+               old_sum,
+               new_sum,
+               old_gap,
+               new_gap,
+               of_gaps,
+               of_edges);
+      set_coverage(old_sum, new_sum);
       return true;
     }
 
-    /// sigma(x)
-    template <typename T>
-    static T
-    rise(const T &x)
-    {
-      if (x <= -1.)
-        return T(0.);
-      if (x >= 1.)
-        return T(1.);
-      return T(.5 + x * (.75 - .25 * x * x));
-    }
-
   private:
-    /// sigma on the side of the second triangle of an edge.
+    /// sigma on the side of the second triangle of an edge, or outwards of an open one.
     struct Part
     {
       double old_value = 0.;
@@ -138,58 +138,125 @@ namespace Ricochet
     /// A weight changes by this factor times the change of the sigma of an edge.
     struct Factor
     {
-      unsigned int edge;
+      unsigned int triangle, edge;
       Number       factor;
     };
 
+    template <typename AnyEdge>
     static void
-    set_part(const Edge &edge, Part &part)
+    set_part(const AnyEdge &edge, Part &part)
     {
       const double old_x = edge.old_t / edge.width;
       const Number new_x = edge.new_t / edge.width;
-      part.old_value     = rise(old_x);
-      part.new_value     = rise(new_x);
-      if ((old_x <= -1. && new_x <= -1.) || (old_x >= 1. && new_x >= 1.))
-        part.quotient = Number(0.);
-      else if (old_x >= -1. && old_x <= 1. && new_x >= -1. && new_x <= 1.)
-        part.quotient =
-          (.75 - .25 * (old_x * old_x + old_x * new_x + new_x * new_x)) /
-          edge.width;
-      else
-        part.quotient =
-          (part.new_value - part.old_value) / (edge.new_t - edge.old_t);
+      part.old_value     = SmoothStep::value(old_x);
+      part.new_value     = SmoothStep::value(new_x);
+      part.quotient      = SmoothStep::quotient(old_x, new_x) / edge.width;
     }
 
-    /// The weight of triangle @p i, and how it changes.
+    /// Multiply the weight of triangle @p i by the sigma of edge @p e, or by 1 - sigma.
     void
-    multiply(const unsigned int i)
+    multiply(const unsigned int i, const unsigned int e, const bool is_second)
     {
-      const unsigned int first = factors.size();
-      for (unsigned int e = 0; e < edges.size(); ++e)
+      if (!counts[i])
+        return;
+      const Part  &part      = parts[e];
+      const double old_value = is_second ? part.old_value : 1. - part.old_value;
+      const Number new_value =
+        is_second ? part.new_value : Number(1. - part.new_value);
+      for (Factor &former : of_weights)
+        if (former.triangle == i)
+          former.factor *= .5 * (old_value + new_value);
+      of_weights.push_back(
+        {i,
+         e,
+         Number((is_second ? .5 : -.5) * (old_weight[i] + new_weight[i]))});
+      old_weight[i] *= old_value;
+      new_weight[i] *= new_value;
+    }
+
+    /// The mean of values of the triangles, a quotient of sums of products, and the factors
+    /// of the changes of the values and of the coordinates of edges in its change.
+    void
+    set_mean(const std::vector<double> &old_values,
+             const std::vector<Number> &new_values,
+             const double               old_sum,
+             const Number              &new_sum,
+             double                    &old_mean,
+             Number                    &new_mean,
+             std::vector<Number>       &of_values,
+             std::vector<Number>       &with_edges) const
+    {
+      const unsigned int n           = old_values.size();
+      double             old_product = 0.;
+      Number             new_product(0.);
+      for (unsigned int i = 0; i < n; ++i)
         {
-          if (edges[e].first != i && edges[e].second != i)
-            continue;
-          const bool   is_second = edges[e].second == i;
-          const double old_value =
-            is_second ? parts[e].old_value : 1. - parts[e].old_value;
-          const Number new_value =
-            is_second ? parts[e].new_value : Number(1. - parts[e].new_value);
-          for (unsigned int k = first; k < factors.size(); ++k)
-            factors[k].factor *= .5 * (old_value + new_value);
-          const double sign = is_second ? 1. : -1.;
-          factors.push_back(
-            {e, Number(sign * .5 * (old_weight[i] + new_weight[i]))});
-          old_weight[i] *= old_value;
-          new_weight[i] *= new_value;
+          old_product += old_weight[i] * old_values[i];
+          new_product += new_weight[i] * new_values[i];
         }
+      old_mean                 = old_product / old_sum;
+      new_mean                 = new_product / new_sum;
+      const Number per_sums    = 1. / (old_sum * new_sum);
+      const Number of_products = .5 * (old_sum + new_sum) * per_sums;
+      const Number of_sum      = .5 * (old_product + new_product) * per_sums;
+      of_values.resize(n);
+      with_edges.assign(edges.size(), Number(0.));
+      for (unsigned int i = 0; i < n; ++i)
+        of_values[i] = of_products * .5 * (old_weight[i] + new_weight[i]);
+      for (const Factor &one : of_weights)
+        with_edges[one.edge] += one.factor *
+          (of_products * .5 *
+             (old_values[one.triangle] + new_values[one.triangle]) -
+           of_sum);
+      for (unsigned int e = 0; e < edges.size(); ++e)
+        with_edges[e] *= parts[e].quotient;
+    }
+
+    void
+    set_coverage(const double old_sum, const Number &new_sum)
+    {
+      old_coverage = 1.;
+      new_coverage = Number(1.);
+      coverage_of_edges.clear();
+      coverage_of_open.clear();
+      if (open_edges.empty())
+        return;
+      const unsigned int n = old_gaps.size();
+      old_covered.assign(n, 1.);
+      new_covered.assign(n, Number(1.));
+      coverage_of_open.resize(open_edges.size());
+      for (unsigned int e = 0; e < open_edges.size(); ++e)
+        {
+          const unsigned int i = open_edges[e].triangle;
+          Part               part;
+          set_part(open_edges[e], part);
+          const double old_value = 1. - part.old_value;
+          const Number new_value = 1. - part.new_value;
+          for (unsigned int former = 0; former < e; ++former)
+            if (open_edges[former].triangle == i)
+              coverage_of_open[former] *= .5 * (old_value + new_value);
+          coverage_of_open[e] =
+            -.5 * (old_covered[i] + new_covered[i]) * part.quotient;
+          old_covered[i] *= old_value;
+          new_covered[i] *= new_value;
+        }
+      set_mean(old_covered,
+               new_covered,
+               old_sum,
+               new_sum,
+               old_coverage,
+               new_coverage,
+               of_covered,
+               coverage_of_edges);
+      for (unsigned int e = 0; e < open_edges.size(); ++e)
+        coverage_of_open[e] *= of_covered[open_edges[e].triangle];
     }
 
     // Work space.
-    std::vector<Part>         parts;
-    std::vector<double>       old_weight;
-    std::vector<Number>       new_weight;
-    std::vector<Factor>       factors;
-    std::vector<unsigned int> begin;
+    std::vector<Part>   parts;
+    std::vector<double> old_weight, old_covered;
+    std::vector<Number> new_weight, new_covered, of_covered;
+    std::vector<Factor> of_weights;
   };
 } // namespace Ricochet
 

@@ -22,6 +22,11 @@ namespace Ricochet
     for (unsigned int f = 0; f < surface.facets.size(); ++f)
       for (const unsigned int node : surface.facets[f].nodes)
         at_node[node].push_back(f);
+    for (const auto &facet : surface.facets)
+      has_open_edge.push_back(
+        std::any_of(facet.neighbours.begin(),
+                    facet.neighbours.end(),
+                    [](const auto &neighbour) { return !neighbour; }));
     // Beyond a node the lines of a triangle's edges at an angle of more than 30 degrees are
     // farther off than their roundings.
     for (const auto &facets : at_node)
@@ -126,6 +131,7 @@ namespace Ricochet
   RoundedPatches::collect(const unsigned int f,
                           const Instant     &begin,
                           const Instant     &end,
+                          const double       largest_overhang,
                           Candidates        &candidates) const
   {
     constexpr std::size_t most = 64;
@@ -138,11 +144,25 @@ namespace Ricochet
         const unsigned int             own   = facets[i];
         const auto                    &facet = surface.facets[own];
         const std::array<Distances, 2> its   = candidates.distances[i];
+        // Beyond an open edge the lines of inner edges diverge, so that a point there may
+        // have weights of several facets along the border.
+        bool is_beyond = false;
+        for (unsigned int e = 0; e < 3; ++e)
+          is_beyond = is_beyond ||
+            (!facet.neighbours[e] &&
+             std::min(its[0].from_edges[e], its[1].from_edges[e]) < 0.);
+        const double farther = is_beyond ? 2. * largest_overhang : 0.;
         for (unsigned int v = 0; v < 3; ++v)
-          if (std::min(its[0].from_nodes[v], its[1].from_nodes[v]) <
-              radius_of_node[facet.nodes[v]])
-            for (const unsigned int other : at_node[facet.nodes[v]])
-              add(other, begin, end, candidates);
+          {
+            const unsigned int node = facet.nodes[v];
+            const double       distance =
+              std::min(its[0].from_nodes[v], its[1].from_nodes[v]);
+            const bool is_near = distance < radius_of_node[node];
+            if (is_near || distance < radius_of_node[node] + farther)
+              for (const unsigned int other : at_node[node])
+                if (is_near || has_open_edge[other])
+                  add(other, begin, end, candidates);
+          }
         // At an edge at which the surface turns by less than a right angle, a point is no
         // farther inside of the neighbour than its distance from the plane.
         const auto is_far_inside = [&](const unsigned int e) {
@@ -203,12 +223,13 @@ namespace Ricochet
   RoundedPatches::find(const unsigned int  f,
                        const Instant      &begin,
                        const Instant      &end,
+                       const double        largest_overhang,
                        RoundedPatch       &patch,
                        RoundedGap<double> &gap) const
   {
     static thread_local Candidates        candidates;
     static thread_local std::vector<Edge> edges;
-    if (!collect(f, begin, end, candidates))
+    if (!collect(f, begin, end, largest_overhang, candidates))
       return false;
     collect_edges(candidates, edges);
 
@@ -223,8 +244,8 @@ namespace Ricochet
         std::array<double, 2> beyond;
         for (unsigned int k = 0; k < 2; ++k)
           {
-            beyond[k] = RoundedGap<double>::rise(
-              coordinate(candidates, edge, k) / edge.width);
+            beyond[k] =
+              SmoothStep::value(coordinate(candidates, edge, k) / edge.width);
             weights[edge.first][k] *= 1. - beyond[k];
             weights[edge.second][k] *= beyond[k];
           }
@@ -262,6 +283,24 @@ namespace Ricochet
           gap.new_gaps.push_back(candidates.distances[i][1].from_plane);
         }
     gap.counts = patch.counts;
+    patch.open_edges.clear();
+    gap.open_edges.clear();
+    for (unsigned int i = 0; i < n_candidates; ++i)
+      for (unsigned int e = 0; counts(i) && e < 3; ++e)
+        {
+          const auto &at = candidates.distances[i];
+          if (surface.facets[candidates.facets[i]].neighbours[e] ||
+              std::min(at[0].from_edges[e], at[1].from_edges[e]) >= 0.)
+            continue;
+          const RoundedPatch::OpenEdge edge{number[i],
+                                            e,
+                                            .5 * largest_overhang};
+          patch.open_edges.push_back(edge);
+          gap.open_edges.push_back({number[i],
+                                    edge.half_overhang,
+                                    edge.coordinate(at[0].from_edges),
+                                    edge.coordinate(at[1].from_edges)});
+        }
     patch.edges.clear();
     gap.edges.clear();
     for (const Edge &edge : edges)
@@ -276,7 +315,8 @@ namespace Ricochet
                                coordinate(candidates, edge, 0),
                                coordinate(candidates, edge, 1)});
         }
-    if (patch.facets.size() + patch.edges.size() > most_scalars)
+    if (patch.facets.size() + patch.edges.size() + patch.open_edges.size() >
+        most_scalars)
       return false;
 
     patch.nodes.clear();

@@ -31,11 +31,29 @@ namespace Ricochet
       }
     };
 
+    /// An open edge of a facet of the patch, and its number in it.
+    struct OpenEdge
+    {
+      unsigned int facet, number;
+      /// Half of the largest overhang of the point (m).
+      double half_overhang;
+
+      /// Coordinate of the point from the middle of the range of overhangs, positive
+      /// outwards, from its distances from the edges of the facet (m).
+      double
+      coordinate(const std::array<double, 3> &from_edges) const
+      {
+        return -from_edges[number] - half_overhang;
+      }
+    };
+
     /// The facet where the search begins is the first one.
     std::vector<unsigned int> facets;
     /// See RoundedGap::counts.
     std::vector<bool> counts;
     std::vector<Edge> edges;
+    /// Those that the point is beyond at one of the instants.
+    std::vector<OpenEdge> open_edges;
     /// Nodes of the facets, and the numbers of their corners among these.
     std::vector<unsigned int>                nodes;
     std::vector<std::array<unsigned int, 3>> corners;
@@ -54,7 +72,7 @@ namespace Ricochet
       const std::vector<Position> &nodes;
     };
 
-    /// Largest number of facets and edges of a patch.
+    /// Largest number of facets and edges, also open ones, of a patch.
     static constexpr unsigned int most_scalars = 96;
 
     /// @param surface must outlive this object.
@@ -65,6 +83,7 @@ namespace Ricochet
      * facets with a weight at one of the instants, and those whose edges these weights
      * depend on.
      *
+     * @param largest_overhang beyond open edges, at which the coverage is 0 (m).
      * @param gap gets the distances of the point from the planes of the facets, and the
      * coordinates of the edges.
      * @return whether it is small enough; points that face more are far off or pass many
@@ -74,6 +93,7 @@ namespace Ricochet
     find(const unsigned int  f,
          const Instant      &begin,
          const Instant      &end,
+         const double        largest_overhang,
          RoundedPatch       &patch,
          RoundedGap<double> &gap) const;
 
@@ -128,6 +148,7 @@ namespace Ricochet
     collect(const unsigned int f,
             const Instant     &begin,
             const Instant     &end,
+            const double       largest_overhang,
             Candidates        &candidates) const;
 
     /// All edges between the candidates.
@@ -140,6 +161,7 @@ namespace Ricochet
     /// candidates (m).
     std::vector<std::vector<unsigned int>> at_node;
     std::vector<double>                    radius_of_node;
+    std::vector<bool>                      has_open_edge;
   };
 } // namespace Ricochet
 

@@ -49,7 +49,7 @@ namespace Ricochet
               !method.friction.exists()
             ? Points::PointsIn::nodes_and_valleys
             : Points::PointsIn::nodes,
-          /* rounds_vertices */ method.law != nullptr);
+          /* is_smooth */ method.law != nullptr);
       AssertThrow(nodal, ExcMessage("Mortar couples nodes."));
       if constexpr (dim == 2)
         return std::make_unique<MortarPair>(body, pair, mortar_shape(method));
@@ -81,7 +81,7 @@ namespace Ricochet
             pair,
             nodal ? Points::PointsIn::nodes
                   : Points::PointsIn::quadrature_points,
-            /* rounds_edges */ method.law != nullptr);
+            /* is_smooth */ method.law != nullptr);
         }
       else
         return make_pair_before_chains(body, pair, method, nodal);
@@ -381,6 +381,7 @@ namespace Ricochet
   {
     const ContactLaw &law = *method.law;
     const double      h   = point_of(state).cell_diameter;
+    state.old_state.gap   = pair_of(state).old_gap(state.point);
     // Power laws are linearised where they meet the body's line; if that does
     // not help, at the gap again.
     state.linearisation = state.state;
@@ -478,14 +479,15 @@ namespace Ricochet
     const unsigned int p     = state.point;
     state.status             = Status::open;
     state.constraint.set_status(Status::open);
-    state.pressure = state.with_gap = state.error = 0.;
-    state.traction                                = 0.;
+    state.pressure = state.with_gap = state.error = state.energy = 0.;
+    state.traction                                               = 0.;
     if (!state.candidate)
       return;
     state.state.gap = pair.new_gap(p);
     if (!method.law)
       return set_constraint(state);
     evaluate_law(state);
+    set_energy(state);
     if (has_friction && state.pressure > 0.)
       {
         friction.evaluate(s,
@@ -498,7 +500,7 @@ namespace Ricochet
           state.status = Status::stick;
       }
     // Computed now, on this thread, for the assembly that follows.
-    if (state.pressure != 0.)
+    if (has_force(state))
       pair.rows(p);
   }
 
@@ -649,7 +651,7 @@ namespace Ricochet
     const Point       &point = point_of(state);
     const Pair        &pair  = pair_of(state);
     const unsigned int p     = state.point;
-    if (state.pressure != 0. || state.traction.norm_square() != 0.)
+    if (has_force(state))
       {
         const auto &rows = pair.rows(p);
         const auto  add  = [&](const double               factor,
@@ -660,12 +662,13 @@ namespace Ricochet
             values.push_back(factor * entry);
           vector.add(values.size(), rows.unknowns.data(), values.data());
         };
-        add(-point.weight * state.pressure, rows.normal, force);
+        const double covered = mean_coverage(state) * point.weight;
+        add(-covered * state.pressure, rows.normal, force);
+        if (!rows.coverage.empty())
+          add(point.weight * state.energy, rows.coverage, force);
         for (unsigned int d = 0; d < n_tangents; ++d)
           if (state.traction[d] != 0.)
-            add(point.weight * state.traction[d],
-                rows.tangential[d],
-                friction_part);
+            add(covered * state.traction[d], rows.tangential[d], friction_part);
       }
     if (method.law)
       return;
@@ -708,12 +711,13 @@ namespace Ricochet
     for (const PointState &state : states)
       {
         const Point &point = point_of(state);
-        if ((state.pressure == 0. && state.traction.norm_square() == 0.) ||
+        if (!has_force(state) ||
             (boundary_id && point.boundary_id != *boundary_id))
           continue;
         const auto &rows = pair_of(state).rows(state.point);
-        work.normal -= point.weight * state.pressure * rows.gap_increment;
-        work.friction += point.weight * (state.traction * rows.slip);
+        work.normal += normal_work(state);
+        work.friction +=
+          mean_coverage(state) * point.weight * (state.traction * rows.slip);
       }
     return work;
   }
@@ -752,7 +756,7 @@ namespace Ricochet
     struct Before
     {
       double made = 0., gap = 0.;
-      bool   is_pressed = false, is_before_facet = false;
+      bool   is_pressed = false, is_before_facet = false, is_covered = false;
     };
     std::vector<Before> before;
     for (const PointState &state : states)
@@ -765,10 +769,10 @@ namespace Ricochet
           continue;
         own.gap        = pair.new_gap(p);
         own.is_pressed = state.candidate && is_pressed(state, state.pressure);
-        own.made       = -potential_of(state, state.old_state);
-        if (state.candidate && state.pressure != 0.)
-          own.made += point_of(state).weight * state.pressure *
-            pair.rows(p).gap_increment;
+        own.made = -potential_of(state, state.old_state, pair.old_coverage(p));
+        own.is_covered = pair.new_coverage(p) > 0.;
+        if (state.candidate && has_force(state))
+          own.made -= normal_work(state);
       }
     std::vector<std::vector<bool>> crosses;
     for (const auto &pair : pairs)
@@ -786,10 +790,15 @@ namespace Ricochet
         // Depth behind a facet that is more than round-off.
         const double depth = 1e-6 * point_of(state).cell_diameter;
         ContactStep &step  = steps[point_of(state).boundary_id];
-        step.add_point(
-          own.made + (state.candidate ? potential_of(state, state.state) : 0.),
-          pair_of(state).reference_place(state.point),
-          pair_of(state).part_of(state.point));
+        step.add_point(own.made +
+                         (state.candidate
+                            ? potential_of(state,
+                                           state.state,
+                                           pair_of(state).old_coverage(
+                                             state.point))
+                            : 0.),
+                       pair_of(state).reference_place(state.point),
+                       pair_of(state).part_of(state.point));
         if (pair_of(state).is_other_side(state.point))
           continue;
         // A point has passed if it has crossed a facet, was not pressed, and is out of
@@ -801,9 +810,10 @@ namespace Ricochet
             step.place_passed = pair_of(state).reference_place(state.point);
           }
         step.n_dropped += own.is_pressed && !state.candidate &&
-          (!method.law || own.gap < -depth);
+          (!method.law || (own.gap < -depth && own.is_covered));
         step.n_entered += state.candidate && state.state.gap < -depth &&
-          !own.is_pressed && !(own.is_before_facet && own.gap < 0.);
+          !own.is_pressed &&
+          !(own.is_before_facet && (own.gap < 0. || !own.is_covered));
       }
     return reduce_steps(steps, communicator);
   }
@@ -819,7 +829,7 @@ namespace Ricochet
       {
         const PointState &state  = states[s];
         const double      weight = point_of(state).weight;
-        square += std::pow(weight * state.error, 2);
+        square += std::pow(weight * mean_coverage(state) * state.error, 2);
         if (method.law && has_friction && state.pressure > 0.)
           square += friction.error(s).norm_square() * weight * weight;
       }
@@ -1043,16 +1053,21 @@ namespace Ricochet
     if (!is_in_contact(state))
       return;
 
-    const auto &rows = pair.rows(p);
-    const auto &derivatives =
-      pair.derivatives(p,
-                       state.pressure,
-                       state.traction,
-                       n_frozen == 0      ? Caution::none
-                         : n_returns <= 2 ? Caution::at_convex_vertices
-                                          : Caution::at_all_vertices);
+    const auto  &rows        = pair.rows(p);
+    const double covered     = mean_coverage(state);
+    const bool   is_over_end = !rows.coverage.empty();
+    const auto  &derivatives = pair.derivatives(
+      p,
+      {covered * state.pressure, covered * state.traction, state.energy},
+      n_frozen == 0      ? Caution::none
+         : n_returns <= 2 ? Caution::at_convex_vertices
+                          : Caution::at_all_vertices);
     const unsigned int m      = rows.unknowns.size();
     const double       factor = weight * point.weight;
+    // The energy changes with the gap at the end of the step alone.
+    const double energy_with_gap = is_over_end
+      ? -.5 * method.law->pressure(state.state, point.cell_diameter)
+      : 0.;
 
     // Pressure and traction along variable directions, and their derivatives.
     Tensor<2, n_tangents> with_slip;
@@ -1087,7 +1102,16 @@ namespace Ricochet
                       with_pressure[d] * state.with_gap * derivatives.gap[b];
                     change += rows.tangential[d][a] * with_b;
                   }
-                entry += change;
+                entry += covered * change;
+                if (is_over_end)
+                  {
+                    double along = -state.pressure * rows.normal[a];
+                    for (unsigned int d = 0; has_friction && d < n_tangents;
+                         ++d)
+                      along += state.traction[d] * rows.tangential[d][a];
+                    entry += .5 * along * derivatives.coverage[b] +
+                      energy_with_gap * rows.coverage[a] * derivatives.gap[b];
+                  }
               }
             values[b] = factor * entry;
           }
@@ -1230,10 +1254,12 @@ namespace Ricochet
       pair->begin_step(start);
     for (PointState &state : states)
       {
-        state.candidate = pair_of(state).is_before_facet(state.point);
-        state.state     = {};
+        state.candidate = pair_of(state).is_before_facet(state.point) &&
+          pair_of(state).old_coverage(state.point) > 0.;
+        state.state = {};
         if (state.candidate)
           state.state.gap = pair_of(state).old_gap(state.point);
+        state.old_state = state.state;
       }
   }
 
@@ -1259,6 +1285,9 @@ namespace Ricochet
                ->force(state.state, state.state, point_of(state).cell_diameter)
                .gap
           : 0.;
+        state.energy   = 0.;
+        if (state.candidate)
+          set_energy(state);
         add_force(state);
       }
     force.compress(VectorOperation::add);
@@ -1277,7 +1306,9 @@ namespace Ricochet
     double sum = 0.;
     for (const PointState &state : states)
       if (state.candidate)
-        sum += potential_of(state, state.state);
+        sum += potential_of(state,
+                            state.state,
+                            pair_of(state).old_coverage(state.point));
     return Utilities::MPI::sum(sum, communicator);
   }
 
@@ -1294,7 +1325,7 @@ namespace Ricochet
     // Nodes of a surface with self-contact also have forces of other points.
     if (method.law &&
         (!method.law->traits().nodal || pair_of(state).touches_itself()))
-      return point.weight *
+      return point.weight * pair_of(state).old_coverage(state.point) *
         method.law->pressure(state.state, point.cell_diameter);
     if (pair_of(state).touches_itself())
       {

@@ -167,6 +167,9 @@ namespace Ricochet
       double pressure = 0., with_gap = 0.;
       /// Traction (Pa) along T.
       Tangential traction;
+      /// Where the coverage is not 1: mean energy of the law, without coverage, at the
+      /// beginning and the end of the step (J/m^(dim-1)).
+      double energy = 0.;
       /// The constraint, where there is no law.
       FrictionalConstraint<n_tangents> constraint;
       /// Difference between the equations in use and those of the state (Pa).
@@ -220,12 +223,20 @@ namespace Ricochet
       return pressure > (method.law ? 0. : pressure_round_off(state));
     }
 
+    /// Whether the point has forces.
+    static bool
+    has_force(const PointState &state)
+    {
+      return state.pressure != 0. || state.energy != 0. ||
+        state.traction.norm_square() != 0.;
+    }
+
     /// Whether the point has forces, or derivatives of forces.
     bool
     is_in_contact(const PointState &state) const
     {
       return state.candidate &&
-        (!method.law || state.pressure != 0. || state.with_gap != 0.);
+        (!method.law || has_force(state) || state.with_gap != 0.);
     }
 
     bool
@@ -339,13 +350,50 @@ namespace Ricochet
     void
     clear_multipliers(Vector &vector) const;
 
-    /// Energy stored at a state of a point (J); zero for a constraint.
+    /// Energy stored at a state of a point with a coverage (J); zero for a constraint.
     double
-    potential_of(const PointState &state, const ContactPointState<> &at) const
+    potential_of(const PointState          &state,
+                 const ContactPointState<> &at,
+                 const double               coverage) const
     {
-      return method.law ? point_of(state).weight *
+      return method.law ? coverage * point_of(state).weight *
           method.law->potential(at, point_of(state).cell_diameter)
                         : 0.;
+    }
+
+    double
+    mean_coverage(const PointState &state) const
+    {
+      return .5 *
+        (pair_of(state).old_coverage(state.point) +
+         pair_of(state).new_coverage(state.point));
+    }
+
+    /// Set PointState::energy.
+    void
+    set_energy(PointState &state) const
+    {
+      const Pair        &pair = pair_of(state);
+      const unsigned int p    = state.point;
+      const double       h    = point_of(state).cell_diameter;
+      const bool         is_in_front =
+        pair.old_coverage(p) == 1. && pair.new_coverage(p) == 1.;
+      state.energy = is_in_front ? 0.
+                                 : .5 *
+          (method.law->potential(state.old_state, h) +
+           method.law->potential(state.state, h));
+    }
+
+    /// Work of this step against the pressure of a point, and against its energy where its
+    /// coverage changes (J).
+    double
+    normal_work(const PointState &state) const
+    {
+      const Pair        &pair = pair_of(state);
+      const unsigned int p    = state.point;
+      return point_of(state).weight *
+        (state.energy * (pair.new_coverage(p) - pair.old_coverage(p)) -
+         mean_coverage(state) * state.pressure * pair.rows(p).gap_increment);
     }
 
     /// Begin an instant at @p solution.
