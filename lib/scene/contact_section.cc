@@ -35,6 +35,8 @@ namespace Ricochet
     handler.leave_subsection();
     // 0 stands for the value that follows from moduli, density and mesh size.
     parameters.add_parameters(handler);
+    // The methods of the papers have none.
+    parameters.corners = true;
     parameters.add_pair_parameters(handler);
   }
 } // namespace Ricochet

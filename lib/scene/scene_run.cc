@@ -181,8 +181,9 @@ namespace Ricochet
     }
 
     /// The columns resultant_x_CONTACT, ...: the force on the first surface of each contact,
-    /// pressure and friction together (N); of a surface with itself there is none. @p
-    /// assembly must outlive @p loop.
+    /// pressure and friction together (N); of a surface with itself there is none. And the columns
+    /// impulse_x_CONTACT, ...: its integral since the start (N s). @p assembly must outlive
+    /// @p loop.
     template <int dim>
     void
     add_resultants(TimeLoop &loop, const Impact<dim> &assembly)
@@ -215,11 +216,10 @@ namespace Ricochet
               resultants.back().forces.emplace_back(k, nodes);
             }
           for (const Resultant &resultant : resultants)
-            loop.add_column(
-              std::string("resultant_") + "xyz"[c] + "_" + resultant.name,
-              "N",
-              [forces       = resultant.forces,
-               communicator = assembly.body.communicator](const State &state) {
+            {
+              const auto force_at = [forces       = resultant.forces,
+                                     communicator = assembly.body.communicator](
+                                      const State &state) {
                 double sum = 0.;
                 for (const auto &[k, nodes] : forces)
                   {
@@ -231,7 +231,23 @@ namespace Ricochet
                       sum -= force(i);
                   }
                 return Utilities::MPI::sum(sum, communicator);
-              });
+              };
+              const std::string name =
+                std::string(1, "xyz"[c]) + "_" + resultant.name;
+              loop.add_column("resultant_" + name, "N", force_at);
+              loop.add_sum("impulse_" + name,
+                           "N s",
+                           [force_at,
+                            is_of_step =
+                              assembly.scheme->contact_force_is_of_step()](
+                             const State &begin,
+                             const State &end) {
+                             const double force = is_of_step
+                               ? force_at(end)
+                               : .5 * (force_at(begin) + force_at(end));
+                             return force * (end.time - begin.time);
+                           });
+            }
         }
     }
 

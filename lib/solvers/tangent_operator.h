@@ -29,7 +29,7 @@ namespace Ricochet
     /**
      * @param owned unknowns of this rank.
      * @param clamped clamped ones of these.
-     * @param rows of the contact Jacobian of this rank; they may have entries
+     * @param functionals rows of the contact Jacobian of this rank, which may have entries
      * of other ranks.
      */
     TangentOperator(const dealii::IndexSet &owned,

@@ -547,7 +547,10 @@ end
                 ledger["push_on_left_acceleration_x"][1:]):
             self.assertAlmostEqual(change, 1e-8 * acceleration, delta=1e-9)
         self.assertEqual(ledger["contact_force_ends"][-1], 0.)
-        self.assertLess(largest([e - energy for e in ledger["energy"]]), 1e-12 * energy)
+        # With what is stored at the corners of their ends.
+        self.assertLess(largest([e - energy for e in ledger["modified_energy"]]),
+                        1e-12 * energy)
+        self.assertLess(largest([e - energy for e in ledger["energy"]]), .02 * energy)
 
     def test_points_at_vertices(self):
         """Disks of equal facets, where half of the points in contact are near vertices and each

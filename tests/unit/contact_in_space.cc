@@ -15,6 +15,7 @@
 #include <contact/surfaces/contact_surface.h>
 #include <contact/surfaces/facet_search.h>
 #include <contact/surfaces/point_passing_triangles.h>
+#include <contact/surfaces/surface_features.h>
 #include <discretization/curved_geometry.h>
 #include <discretization/distributed_mesh.h>
 #include <materials/hyperelastic_law_implementation.h>
@@ -714,6 +715,57 @@ namespace
     join_parts<3>({&parts[0], &parts[1]}, whole);
   }
 } // namespace
+
+
+
+// Features by hand: of a cube of 2 x 2 x 2 cells 20 nodes and 24 edges, of one face of it its 8
+// border nodes, and of two faces side by side the border of both and the edge between them. Sides of
+// one cube are connected, different cubes are not.
+BOOST_AUTO_TEST_CASE(features_by_hand)
+{
+  Triangulation<3> parts[2], whole;
+  for (unsigned int p = 0; p < 2; ++p)
+    {
+      dealii::GridGenerator::subdivided_hyper_rectangle(
+        parts[p],
+        {2, 2, 2},
+        Point<3>(2. * p, 0., 0.),
+        Point<3>(2. * p + 1., 1., 1.),
+        /* colorize */ true);
+      for (const auto &cell : parts[p].active_cell_iterators())
+        for (const auto &face : cell->face_iterators())
+          if (face->at_boundary())
+            face->set_boundary_id(face->boundary_id() + 6 * p);
+    }
+  join_parts<3>({&parts[0], &parts[1]}, whole);
+  const auto mesh = distribute_mesh<3>(
+    [&](Triangulation<3> &to) { to.copy_triangulation(whole); },
+    MPI_COMM_WORLD);
+  const std::set<dealii::types::boundary_id> first = {0, 1, 2, 3, 4, 5},
+                                             other = {6, 7, 8, 9, 10, 11};
+  std::set<dealii::types::boundary_id> all         = first;
+  all.insert(other.begin(), other.end());
+  const Body<3> body(*mesh, 1, {}, all, MultiplierSpace::none, MPI_COMM_WORLD);
+  const auto    check = [&](const std::set<dealii::types::boundary_id> &ids,
+                         const unsigned int                          n_nodes,
+                         const unsigned int                          n_edges) {
+    const SurfaceFeatures features = features_of(ContactSurface<3>(body, ids));
+    BOOST_CHECK_EQUAL(std::count(features.is_on.begin(),
+                                 features.is_on.end(),
+                                 true),
+                      n_nodes);
+    BOOST_CHECK_EQUAL(features.edges.size(), n_edges);
+  };
+  check(first, 20, 24);
+  check({5}, 8, 8);
+  check({1, 5}, 13, 14);
+  const auto groups = ContactSurface<3>(body, all).connected_boundaries();
+  BOOST_REQUIRE_EQUAL(groups.size(), 2);
+  BOOST_CHECK(groups[0] == first && groups[1] == other);
+  BOOST_CHECK_EQUAL(
+    ContactSurface<3>(body, {0, 1}).connected_boundaries().size(),
+    2);
+}
 
 
 

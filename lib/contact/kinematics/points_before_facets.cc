@@ -22,6 +22,8 @@ namespace Ricochet
   {
     if (points_in == PointsIn::quadrature_points)
       make_quadrature_points(body);
+    else if (points_in == PointsIn::corners)
+      this->make_corner_points(body);
     else
       this->make_nodal_points(body);
     n_first_sides = own_points.size();

@@ -41,7 +41,9 @@ namespace Ricochet
       nodes,
       /// Nodes, each with two points and two multipliers.
       nodes_and_valleys,
-      quadrature_points
+      quadrature_points,
+      /// See SurfacePair::make_corner_points().
+      corners
     };
 
     /// @throws InputError see SurfacePair.

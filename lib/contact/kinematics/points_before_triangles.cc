@@ -43,6 +43,8 @@ namespace Ricochet
   {
     if (points_in == PointsIn::quadrature_points)
       make_quadrature_points(body);
+    else if (points_in == PointsIn::corners)
+      make_corner_points(body);
     else
       make_nodal_points(body);
     gaps.resize(own_points.size());
@@ -436,7 +438,7 @@ namespace Ricochet
       }
     if (!find_rounded_gap(p, step.old_facet, old_positions, new_positions))
       return false;
-    // Those at the beginning are known from there, except for a point that was then beyond
+    // Values at the beginning are known from there, except for a point that was then beyond
     // an open edge by more than its largest overhang.
     gaps[p].old_gap      = step.rounded_gap.old_gap;
     gaps[p].new_gap      = step.rounded_gap.new_gap;

@@ -41,7 +41,9 @@ namespace Ricochet
     enum class PointsIn
     {
       nodes,
-      quadrature_points
+      quadrature_points,
+      /// See SurfacePair::make_corner_points().
+      corners
     };
 
     /// @throws InputError see SurfacePair.

@@ -3,10 +3,12 @@
 #include <contact/kinematics/surface_pair.h>
 #include <contact/surfaces/closest_point.h>
 #include <contact/surfaces/facet_search.h>
+#include <contact/surfaces/surface_features.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <iterator>
 #include <map>
 #include <numeric>
 
@@ -66,7 +68,7 @@ namespace Ricochet
         std::none_of(slave.nodes.begin(), slave.nodes.end(), moves))
       throw InputError("The contact '" + pair.name +
                        "' can do nothing: all nodes of its surfaces are held.");
-    if (is_self)
+    if (is_self || pair.is_part)
       return;
     bool some_face = false;
     for (unsigned int f = 0; f < slave.facets.size() && !some_face; ++f)
@@ -141,8 +143,8 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  SurfacePair<dim>::make_nodal_points(const Body<dim> &body)
+  std::vector<typename SurfacePair<dim>::Point>
+  SurfacePair<dim>::points_of_nodes() const
   {
     std::vector<Point> all(slave.nodes.size());
     const auto         add =
@@ -163,14 +165,72 @@ namespace Ricochet
                                  });
         }
     for (unsigned int n = 0; n < all.size(); ++n)
-      if (slave.nodes[n].mean_of.empty() && is_mine(body, n))
+      if (slave.nodes[n].mean_of.empty())
         {
           for (const unsigned int f : all[n].facets)
             all[n].largest_overhang += half_length(f) / all[n].facets.size();
           all[n].nodes       = {{n, 1.}};
           all[n].multipliers = slave.nodes[n].multipliers;
-          own_points.push_back(all[n]);
         }
+    return all;
+  }
+
+
+
+  template <int dim>
+  void
+  SurfacePair<dim>::make_nodal_points(const Body<dim> &body)
+  {
+    for (const Point &point : points_of_nodes())
+      if (!point.nodes.empty() && is_mine(body, point.nodes.front().first))
+        own_points.push_back(point);
+  }
+
+
+
+  template <int dim>
+  void
+  SurfacePair<dim>::make_corner_points(const Body<dim> &body)
+  {
+    const std::vector<Point> all            = points_of_nodes();
+    const SurfaceFeatures    features       = features_of(slave);
+    const auto               is_on_symmetry = [&](const unsigned int node) {
+      unsigned int n_prescribed = 0;
+      for (const Index index : slave.nodes[node].unknowns)
+        n_prescribed += body.constraints().is_constrained(index);
+      return n_prescribed > 0 && n_prescribed < dim;
+    };
+    // The points of an edge share what its nodes stand for.
+    constexpr unsigned int parts = dim == 3 ? 4 : 1;
+    for (unsigned int n = 0; n < all.size(); ++n)
+      if (features.is_on[n] && is_mine(body, n) && !is_on_symmetry(n))
+        {
+          own_points.push_back(all[n]);
+          own_points.back().weight /= parts;
+        }
+    for (const auto &edge : features.edges)
+      if (is_mine(body, edge.nodes[0]) &&
+          !(is_on_symmetry(edge.nodes[0]) && is_on_symmetry(edge.nodes[1])))
+        for (unsigned int k = 1; k < parts; ++k)
+          {
+            const double second = 1. * k / parts;
+            const Point &a = all[edge.nodes[0]], &b = all[edge.nodes[1]];
+            Point        point = a;
+            point.nodes        = {{edge.nodes[0], 1. - second},
+                                  {edge.nodes[1], second}};
+            point.weight       = .5 * (a.weight + b.weight) / parts;
+            point.largest_overhang =
+              .5 * (a.largest_overhang + b.largest_overhang);
+            point.facets.clear();
+            std::set_intersection(a.facets.begin(),
+                                  a.facets.end(),
+                                  b.facets.begin(),
+                                  b.facets.end(),
+                                  std::back_inserter(point.facets));
+            own_points.push_back(point);
+          }
+    for (Point &point : own_points)
+      point.multipliers.fill(numbers::invalid_dof_index);
   }
 
 

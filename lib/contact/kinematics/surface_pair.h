@@ -141,6 +141,14 @@ namespace Ricochet
       needs_slip = false;
     }
 
+    /// Let all points have this boundary id in reports.
+    void
+    report_as(const dealii::types::boundary_id id)
+    {
+      for (Point &point : own_points)
+        point.boundary_id = id;
+    }
+
     /// The displacements of all nodes of both surfaces, and the multipliers of this
     /// rank's points: all that contact acts on. The distance (m) with each one gives
     /// the order in which contact is expected to spread: how much farther it is from
@@ -367,6 +375,11 @@ namespace Ricochet
     void
     make_nodal_points(const Body<dim> &body);
 
+    /// Points without multipliers for nodes on features of the slave, and in 3D for three points
+    /// between the nodes of each of its edges that are features, but not on planes of symmetry.
+    void
+    make_corner_points(const Body<dim> &body);
+
     bool
     is_mine(const Body<dim> &body, const unsigned int slave_node) const
     {
@@ -429,6 +442,10 @@ namespace Ricochet
     std::vector<unsigned int> near_facets;
 
   private:
+    /// Points of all nodes of the slave, of any rank; without nodes for means.
+    std::vector<Point>
+    points_of_nodes() const;
+
     /// Set up the exchange of the positions of the facets of the master's patches
     /// #known, and of this rank's own. Collective.
     void

@@ -23,6 +23,9 @@ namespace Ricochet
     /// is kept from penetrating any of its facets. Slave and master are the
     /// same then.
     bool is_self = false;
+
+    /// One of several pairs of a contact, whose surfaces need not face each other.
+    bool is_part = false;
   };
 
   /// The surface of the boundary @p ids that may touch itself.

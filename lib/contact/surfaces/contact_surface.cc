@@ -447,6 +447,41 @@ namespace Ricochet
   }
 
 
+  template <int dim>
+  std::vector<std::set<types::boundary_id>>
+  ContactSurface<dim>::connected_boundaries() const
+  {
+    std::vector<std::set<types::boundary_id>> groups;
+    const auto                                group_of = [&](const auto id) {
+      return std::find_if(groups.begin(), groups.end(), [&](const auto &group) {
+        return group.count(id) > 0;
+      });
+    };
+    for (const Facet &facet : facets)
+      if (group_of(facet.boundary_id) == groups.end())
+        groups.push_back({facet.boundary_id});
+    const auto join = [&](const Facet                       &facet,
+                          const std::optional<unsigned int> &neighbour) {
+      if (!neighbour)
+        return;
+      const auto own   = group_of(facet.boundary_id);
+      const auto other = group_of(facets[*neighbour].boundary_id);
+      if (own == other)
+        return;
+      own->insert(other->begin(), other->end());
+      groups.erase(other);
+    };
+    for (const Facet &facet : facets)
+      {
+        join(facet, facet.previous);
+        join(facet, facet.next);
+        for (const auto &neighbour : facet.neighbours)
+          join(facet, neighbour);
+      }
+    return groups;
+  }
+
+
   template class ContactSurface<1>;
   template class ContactSurface<2>;
   template class ContactSurface<3>;

@@ -94,6 +94,10 @@ namespace Ricochet
         action(of, 1. / mean_of.size());
     }
 
+    /// The boundaries of the surface in groups whose facets are connected with each other.
+    std::vector<std::set<dealii::types::boundary_id>>
+    connected_boundaries() const;
+
   private:
     void
     connect_facets();

@@ -52,7 +52,7 @@ namespace Ricochet
     /// See RoundedGap::counts.
     std::vector<bool> counts;
     std::vector<Edge> edges;
-    /// Those that the point is beyond at one of the instants.
+    /// Open edges that the point is beyond at one of the instants.
     std::vector<OpenEdge> open_edges;
     /// Nodes of the facets, and the numbers of their corners among these.
     std::vector<unsigned int>                nodes;

@@ -31,6 +31,8 @@ namespace Ricochet
     ParameterValues values = all_parameters();
     /// Between bodies: "points", "mortar", "dual mortar" or "cut faces".
     std::string coupling = "points";
+    /// Between bodies: corners of the master are points, too, see PairContact.
+    bool corners = false;
 
     /// Let the values that have a unit be zero, which stands for set_missing().
     void

@@ -2,6 +2,7 @@
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
 #include <contact/kinematics/cut_faces.h>
+#include <contact/laws/corner_compliance.h>
 #include <contact/treatments/active_set_contact.h>
 #include <contact/treatments/contact_treatment.h>
 #include <contact/laws/augmentation.h>
@@ -598,16 +599,20 @@ namespace Ricochet
     auto             contact   = std::make_unique<PairContact<dim>>(
       body,
       pairs,
-      PairMethod{parameters.coupling == "mortar" ? PairCoupling::mortar
-                                 : parameters.coupling == "dual mortar"
-                                 ? PairCoupling::dual_mortar
-                                 : PairCoupling::points,
-                 treatment.make_law ? treatment.make_law(parameters.values)
-                                                  : nullptr,
-                 treatment.condition,
-                 augmentation(parameters),
-                 make_friction(parameters),
-                 exact_coefficient(parameters)});
+      PairMethod{
+        parameters.coupling == "mortar" ? PairCoupling::mortar
+                        : parameters.coupling == "dual mortar" ? PairCoupling::dual_mortar
+                                                               : PairCoupling::points,
+        treatment.make_law ? treatment.make_law(parameters.values) : nullptr,
+        treatment.make_law
+                        ? nullptr
+                        : std::make_unique<ContactLawImplementation<CornerCompliance>>(
+              CornerCompliance{10. * augmentation(parameters)}),
+        treatment.condition,
+        augmentation(parameters),
+        make_friction(parameters),
+        exact_coefficient(parameters),
+        parameters.corners});
     contact->promise =
       energy_promise(parameters,
                      scheme,
@@ -868,6 +873,12 @@ namespace Ricochet
       "Lagrangian between linear elastic bodies; small displacements, and faces that "
       "face each other at the start do so for ever.",
       Patterns::Selection("points|mortar|dual mortar|cut faces"));
+    parameters.add_parameter(
+      "Corners",
+      corners,
+      "Whether corners, edges and open ends of the second surface are points against the "
+      "first one, too, between whose nodes they would enter it otherwise; cut faces and "
+      "self-contact have none.");
     parameters.leave_subsection();
   }
 

@@ -87,6 +87,35 @@ namespace Ricochet
         return make_pair_before_chains(body, pair, method, nodal);
     }
 
+    /// A pair for each group of connected boundaries of the master. A law has a coverage by
+    /// each of them: energy would be made where the nearest one changes.
+    template <int dim>
+    std::vector<ContactPair>
+    parts_of(const Body<dim> &body, const ContactPair &pair)
+    {
+      std::vector<ContactPair> parts;
+      for (const auto &group :
+           ContactSurface<dim>(body, pair.master).connected_boundaries())
+        parts.push_back({pair.name, pair.slave, group, false, true});
+      if (parts.size() == 1)
+        return {pair};
+      return parts;
+    }
+
+    /// The corners of the master, in front of the facets of the slave.
+    template <int dim>
+    std::unique_ptr<SurfacePair<dim>>
+    make_corner_pair(const Body<dim> &body, const ContactPair &corners)
+    {
+      using Points = std::conditional_t<dim == 3,
+                                        PointsBeforeTriangles,
+                                        PointsBeforeFacets<dim == 3 ? 2 : dim>>;
+      return std::make_unique<Points>(body,
+                                      corners,
+                                      Points::PointsIn::corners,
+                                      /* is_smooth */ true);
+    }
+
     /// A slip vector with the tangential components of this dimension.
     template <int n_tangents>
     Tensor<1, 3>
@@ -113,6 +142,7 @@ namespace Ricochet
     , friction(method.friction, method.augmentation)
     , n_displacements_owned(body.owned_indices().n_elements() -
                             body.multiplier_indices().n_elements())
+    , corner_part(body.make_vector())
   {
     AssertThrow(method.law || body.has_multipliers(),
                 ExcMessage("Constraints between bodies need multipliers."));
@@ -122,15 +152,41 @@ namespace Ricochet
         if (!slaves.insert(id).second)
           throw InputError("The boundary " + std::to_string(id) +
                            " is the slave of more than one contact.");
+    const bool has_coverage =
+      dim > 1 && method.law && method.coupling == PairCoupling::points;
     for (const ContactPair &pair : pair_list)
       {
-        pairs.push_back(make_surface_pair(body, pair, method));
+        const unsigned int             first = pairs.size();
+        const std::vector<ContactPair> parts = has_coverage && !pair.is_self
+          ? parts_of(body, pair)
+          : std::vector<ContactPair>{pair};
+        for (const ContactPair &part : parts)
+          {
+            pairs.push_back(make_surface_pair(body, part, method));
+            first_part.push_back(first);
+          }
+      }
+    n_own_pairs = pairs.size();
+    for (const ContactPair &pair : pair_list)
+      if (dim > 1 && method.corners && !pair.is_self)
+        for (const ContactPair &part :
+             parts_of(body, ContactPair{pair.name, pair.master, pair.slave}))
+          {
+            auto corners = make_corner_pair(body, part);
+            corners->report_as(*pair.slave.begin());
+            if (Utilities::MPI::sum(static_cast<unsigned int>(
+                                      corners->points().size()),
+                                    communicator) > 0)
+              pairs.push_back(std::move(corners));
+          }
+    for (unsigned int k = 0; k < pairs.size(); ++k)
+      {
         if (!has_friction)
-          pairs.back()->leave_out_slip();
-        for (unsigned int p = 0; p < pairs.back()->points().size(); ++p)
+          pairs[k]->leave_out_slip();
+        for (unsigned int p = 0; p < pairs[k]->points().size(); ++p)
           {
             PointState state;
-            state.pair  = pairs.size() - 1;
+            state.pair  = k;
             state.point = p;
             states.push_back(state);
           }
@@ -205,11 +261,11 @@ namespace Ricochet
         // A threshold, as Newton's method leaves pressures of round-off size in
         // open points.
         const bool was_pressed =
-          !method.law && is_pressed(state, pair.multipliers(p)[0]);
+          !law_of(state) && is_pressed(state, pair.multipliers(p)[0]);
         state.old_state.gap = pair.old_gap(p);
         // The predictor leads away from a surface that is not flat, and pressed
         // points would be released.
-        if (!method.law && method.condition == ClosingCondition::persistent)
+        if (!law_of(state) && method.condition == ClosingCondition::persistent)
           state.candidate =
             pair.predicted_gap(p) <= pair.round_off(p) || was_pressed;
         if (state.candidate && was_pressed)
@@ -292,7 +348,7 @@ namespace Ricochet
         n_frozen = method.law ? 4 : 4 * std::max(1u, n_returns - 1);
         if (n_returns > 1)
           for (PointState &state : states)
-            if (state.candidate &&
+            if (state.candidate && !is_corner(state) &&
                 pair_of(state).passage(state.point) != state.accepted_passage)
               pairs[state.pair]->stay_at_vertex(state.point, tolerance);
         // Other sides of concave corners may have become candidates.
@@ -313,7 +369,8 @@ namespace Ricochet
         {
           const int passage = pair_of(state).passage(state.point);
           if (passage != state.accepted_passage &&
-              ++state.n_passages_changed >= 2 && stays_early)
+              ++state.n_passages_changed >= 2 && stays_early &&
+              !is_corner(state))
             pairs[state.pair]->stay_at_vertex(state.point, near_vertex);
           state.accepted_passage = passage;
         }
@@ -346,7 +403,8 @@ namespace Ricochet
     forget_patterns();
     for (PointState &state : states)
       {
-        state.candidate       = state.status != Status::open;
+        if (!law_of(state))
+          state.candidate = state.status != Status::open;
         state.accepted_status = state.status;
       }
     return true;
@@ -379,7 +437,7 @@ namespace Ricochet
   void
   PairContact<dim>::evaluate_law(PointState &state) const
   {
-    const ContactLaw &law = *method.law;
+    const ContactLaw &law = *law_of(state);
     const double      h   = point_of(state).cell_diameter;
     state.old_state.gap   = pair_of(state).old_gap(state.point);
     // Power laws are linearised where they meet the body's line; if that does
@@ -420,7 +478,7 @@ namespace Ricochet
     if (state.status == Status::open)
       return result;
     result.closing = closing(state);
-    if (has_exact_friction())
+    if (has_exact_friction(state))
       result.slip = pair.rows(state.point).slip;
     return result;
   }
@@ -435,7 +493,7 @@ namespace Ricochet
     const Pair                 &pair    = pair_of(state);
     ConstraintState<n_tangents> current = constraint_state(state);
     state.pressure                      = current.pressure;
-    if (has_exact_friction())
+    if (has_exact_friction(state))
       state.traction = current.traction;
 
     // A margin, so that round-off neither opens nor closes a point.
@@ -448,7 +506,7 @@ namespace Ricochet
     if (!FrictionalConstraint<n_tangents>::closes(current, r, margin))
       return;
     bool new_sticks = false;
-    if (has_exact_friction())
+    if (has_exact_friction(state))
       {
         const auto &rows = pair.rows(state.point);
         current.slip     = rows.slip;
@@ -461,8 +519,8 @@ namespace Ricochet
       }
     state.constraint.choose(current,
                             r,
-                            has_exact_friction() ? method.exact_coefficient
-                                                 : 0.,
+                            has_exact_friction(state) ? method.exact_coefficient
+                                                      : 0.,
                             margin,
                             new_sticks);
     state.status = state.constraint.status();
@@ -480,14 +538,18 @@ namespace Ricochet
     state.status             = Status::open;
     state.constraint.set_status(Status::open);
     state.pressure = state.with_gap = state.error = state.energy = 0.;
+    state.corner_force                                           = 0.;
     state.traction                                               = 0.;
     if (!state.candidate)
       return;
     state.state.gap = pair.new_gap(p);
-    if (!method.law)
+    if (!law_of(state))
       return set_constraint(state);
     evaluate_law(state);
     set_energy(state);
+    if (is_corner(state))
+      state.corner_force =
+        point_of(state).weight * mean_coverage(state) * state.pressure;
     if (has_friction && state.pressure > 0.)
       {
         friction.evaluate(s,
@@ -533,7 +595,7 @@ namespace Ricochet
     // The largest error of all ranks.
     double largest = 0.;
     for (PointState &state : states)
-      if (state.status != state.accepted_status)
+      if (!law_of(state) && state.status != state.accepted_status)
         {
           const double r     = stiffness(state);
           const double error = std::abs(state.pressure - r * closing(state)) *
@@ -543,7 +605,7 @@ namespace Ricochet
         }
     largest = Utilities::MPI::max(largest, communicator);
     for (PointState &state : states)
-      if (state.status != state.accepted_status)
+      if (!law_of(state) && state.status != state.accepted_status)
         {
           if (state.error == largest)
             state.error = 0.;
@@ -621,8 +683,11 @@ namespace Ricochet
       for (const unsigned int place : own_place)
         friction_forces[place] = 0.;
     for (const PointState &state : states)
-      add_force(state);
+      if (!is_corner(state))
+        add_force(state);
     force.compress(VectorOperation::add);
+    if (has_corners())
+      add_corners(forces);
     if (has_friction)
       {
         friction_part.compress(VectorOperation::add);
@@ -640,6 +705,26 @@ namespace Ricochet
         const unsigned int f = skin_place(index);
         skin_force[f] -= open_diagonal(state) * values_now[own_place[f]];
       });
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::add_corners(double *forces)
+  {
+    double *of_corners = local_values(corner_part);
+    for (const unsigned int place : own_place)
+      of_corners[place] = 0.;
+    corner_part.swap(force);
+    for (const PointState &state : states)
+      if (is_corner(state))
+        add_force(state);
+    force.compress(VectorOperation::add);
+    corner_part.swap(force);
+    of_corners = local_values(corner_part);
+    for (const unsigned int place : own_place)
+      forces[place] += of_corners[place];
   }
 
 
@@ -670,7 +755,7 @@ namespace Ricochet
           if (state.traction[d] != 0.)
             add(covered * state.traction[d], rows.tangential[d], friction_part);
       }
-    if (method.law)
+    if (law_of(state))
       return;
 
     // The residual of the multipliers' equations.
@@ -810,7 +895,7 @@ namespace Ricochet
             step.place_passed = pair_of(state).reference_place(state.point);
           }
         step.n_dropped += own.is_pressed && !state.candidate &&
-          (!method.law || (own.gap < -depth && own.is_covered));
+          (!law_of(state) || (own.gap < -depth && own.is_covered));
         step.n_entered += state.candidate && state.state.gap < -depth &&
           !own.is_pressed &&
           !(own.is_before_facet && (own.gap < 0. || !own.is_covered));
@@ -830,7 +915,7 @@ namespace Ricochet
         const PointState &state  = states[s];
         const double      weight = point_of(state).weight;
         square += std::pow(weight * mean_coverage(state) * state.error, 2);
-        if (method.law && has_friction && state.pressure > 0.)
+        if (law_of(state) && has_friction && state.pressure > 0.)
           square += friction.error(s).norm_square() * weight * weight;
       }
     return std::sqrt(Utilities::MPI::sum(square, communicator));
@@ -847,8 +932,8 @@ namespace Ricochet
       if (state.status != Status::open)
         {
           double factor =
-            method.law ? std::abs(state.with_gap) : stiffness(state);
-          if (method.law && state.status == Status::stick)
+            law_of(state) ? std::abs(state.with_gap) : stiffness(state);
+          if (law_of(state) && state.status == Status::stick)
             factor += friction.round_off(1.);
           square += std::pow(point_of(state).weight * factor *
                                pair_of(state).round_off(state.point),
@@ -985,10 +1070,12 @@ namespace Ricochet
           // The zero multiplier of an open point stays zero: its effect on the forces
           // is irrelevant.
           const auto &multipliers = pair_of(state).multipliers(state.point);
-          if (state.status == Status::open &&
+          const bool  is_open     = law_of(state) ? !is_in_contact(state)
+                                                  : state.status == Status::open &&
               std::all_of(multipliers.begin(),
                           multipliers.end(),
-                          [](const double value) { return value == 0.; }))
+                          [](const double value) { return value == 0.; });
+          if (is_open)
             continue;
           add_tangent(state, add);
           for_each_multiplier(state, [&](const types::global_dof_index index) {
@@ -1021,7 +1108,7 @@ namespace Ricochet
     const auto  of_constraint = state.constraint.derivatives();
     const auto &multipliers   = point.multipliers;
     // Entries in the rows and columns of multipliers.
-    if (!method.law)
+    if (!law_of(state))
       {
         const double on_multipliers = -weight * point.weight / r;
         for (unsigned int c = 0; c < dim; ++c)
@@ -1066,13 +1153,13 @@ namespace Ricochet
     const double       factor = weight * point.weight;
     // The energy changes with the gap at the end of the step alone.
     const double energy_with_gap = is_over_end
-      ? -.5 * method.law->pressure(state.state, point.cell_diameter)
+      ? -.5 * law_of(state)->pressure(state.state, point.cell_diameter)
       : 0.;
 
     // Pressure and traction along variable directions, and their derivatives.
     Tensor<2, n_tangents> with_slip;
     Tangential            with_pressure;
-    if (method.law && has_friction && state.pressure > 0.)
+    if (law_of(state) && has_friction && state.pressure > 0.)
       {
         const auto of_friction = friction.derivatives(&state - states.data());
         for (unsigned int d = 0; d < n_tangents; ++d)
@@ -1089,7 +1176,7 @@ namespace Ricochet
         for (unsigned int b = 0; b < m; ++b)
           {
             double entry = derivatives.forces[a * m + b];
-            if (method.law)
+            if (law_of(state))
               {
                 double change =
                   state.with_gap * rows.normal[a] * derivatives.gap[b];
@@ -1117,7 +1204,7 @@ namespace Ricochet
           }
         add(rows.unknowns[a], m, rows.unknowns.data(), values.data());
       }
-    if (method.law)
+    if (law_of(state))
       return;
 
     // Columns and rows of the multipliers.
@@ -1131,7 +1218,8 @@ namespace Ricochet
                   i,
                   -factor / r * of_constraint.normal_with_closing * half *
                     derivatives.gap[a]);
-        for (unsigned int d = 0; has_exact_friction() && d < n_tangents; ++d)
+        for (unsigned int d = 0; has_exact_friction(state) && d < n_tangents;
+             ++d)
           {
             add_entry(i, multipliers[d + 1], factor * rows.tangential[d][a]);
             double with_slip_of_a = 0.;
@@ -1273,15 +1361,17 @@ namespace Ricochet
   {
     result = 0.;
     // A constraint has no reaction outside of a stage.
-    if (!method.law)
+    if (!method.law && !has_corners())
       return;
     begin_instant(solution, time);
     force = 0.;
     for (PointState &state : states)
       {
+        if (!law_of(state))
+          continue;
         state.traction = 0.;
         state.pressure = state.candidate
-          ? -method.law
+          ? -law_of(state)
                ->force(state.state, state.state, point_of(state).cell_diameter)
                .gap
           : 0.;
@@ -1300,7 +1390,7 @@ namespace Ricochet
   double
   PairContact<dim>::potential(const Vector &solution, const double time)
   {
-    if (!method.law)
+    if (!method.law && !has_corners())
       return 0.;
     begin_instant(solution, time);
     double sum = 0.;
@@ -1315,6 +1405,18 @@ namespace Ricochet
 
 
   template <int dim>
+  Vector
+  PairContact<dim>::force_of_own_points(const ContactInstant &instant) const
+  {
+    Vector result(instant.contact_force);
+    if (has_corners())
+      result.add(-1., corner_part);
+    return result;
+  }
+
+
+
+  template <int dim>
   double
   PairContact<dim>::normal_force(const PointState &state,
                                  const Vector     &contact_force) const
@@ -1323,8 +1425,11 @@ namespace Ricochet
       return 0.;
     const Point &point = point_of(state);
     // Nodes of a surface with self-contact also have forces of other points.
+    if (is_corner(state))
+      return state.corner_force;
     if (method.law &&
-        (!method.law->traits().nodal || pair_of(state).touches_itself()))
+        (!method.law->traits().nodal || pair_of(state).touches_itself() ||
+         has_parts(state)))
       return point.weight * pair_of(state).old_coverage(state.point) *
         method.law->pressure(state.state, point.cell_diameter);
     if (pair_of(state).touches_itself())
@@ -1348,13 +1453,15 @@ namespace Ricochet
   PairContact<dim>::pressure_field(const ContactInstant &instant)
   {
     begin_instant(instant.solution, instant.time);
-    Vector sums(instant.contact_force), weights(instant.contact_force);
+    const Vector own_force = force_of_own_points(instant);
+    Vector       sums(instant.contact_force), weights(instant.contact_force);
     sums = weights = 0.;
     for (const PointState &state : states)
       {
-        if (!state.candidate || pair_of(state).is_other_side(state.point))
+        if (!state.candidate || is_corner(state) ||
+            pair_of(state).is_other_side(state.point))
           continue;
-        const double normal   = normal_force(state, instant.contact_force);
+        const double normal   = normal_force(state, own_force);
         const Point &point    = point_of(state);
         const auto  &unknowns = pair_of(state).rows(state.point).unknowns;
         for (unsigned int k = 0; k < point.nodes.size(); ++k)
@@ -1382,29 +1489,42 @@ namespace Ricochet
   PairContact<dim>::summary(const ContactInstant &instant)
   {
     begin_instant(instant.solution, instant.time);
+    const Vector     own_force = force_of_own_points(instant);
     ContactSummaries my_sums;
-    // Area of the points that face a facet: only they have a gap.
+    // Area of the points that face a facet: only they have a gap. Each is counted once, in
+    // front of one of the parts of the master; corners of the master have no area.
     std::map<types::boundary_id, double> my_area;
+    std::vector<std::vector<bool>>       is_counted(n_own_pairs);
+    for (unsigned int k = 0; k < n_own_pairs; ++k)
+      is_counted[k].assign(pairs[k]->points().size(), false);
     for (const PointState &state : states)
       {
-        if (pair_of(state).is_other_side(state.point))
+        if (!state.candidate || pair_of(state).is_other_side(state.point))
           continue;
-        const Point    &point = point_of(state);
-        ContactSummary &sums  = my_sums[point.boundary_id];
-        if (state.candidate)
+        const Point    &point  = point_of(state);
+        const double    normal = normal_force(state, own_force);
+        ContactPoint    numbers;
+        ContactSummary &sums = my_sums[point.boundary_id];
+        if (!is_corner(state) &&
+            !is_counted[first_part[state.pair]][state.point])
           {
-            const double normal = normal_force(state, instant.contact_force);
-            ContactPoint numbers;
-            numbers.weight = point.weight;
-            sums.add(numbers,
-                     state.state.gap,
-                     normal,
-                     is_pressed(state, normal / point.weight));
-            my_area[point.boundary_id] += point.weight;
+            is_counted[first_part[state.pair]][state.point] = true;
+            numbers.weight                                  = point.weight;
           }
-        else
-          sums.area += point.weight;
+        sums.add(numbers,
+                 state.state.gap,
+                 normal,
+                 is_pressed(state, normal / point.weight));
+        my_area[point.boundary_id] += numbers.weight;
       }
+    for (unsigned int k = 0; k < n_own_pairs; ++k)
+      for (unsigned int p = 0; p < pairs[k]->points().size(); ++p)
+        if (first_part[k] == k && !is_counted[k][p] &&
+            !pairs[k]->is_other_side(p))
+          {
+            const Point &point = pairs[k]->points()[p];
+            my_sums[point.boundary_id].area += point.weight;
+          }
     ContactSummaries summaries = reduce_summaries(my_sums, communicator);
     for (auto &[id, total] : summaries)
       {

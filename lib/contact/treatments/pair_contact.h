@@ -31,6 +31,8 @@ namespace Ricochet
     PairCoupling coupling = PairCoupling::points;
     /// A law for the pressure; null for a constraint.
     std::unique_ptr<ContactLaw> law;
+    /// The law at corners of the master, beside a constraint; null without.
+    std::unique_ptr<ContactLaw> corner_law;
     /// The condition of a constraint.
     ClosingCondition condition = ClosingCondition::signorini;
     /// r_0 (Pa): r = r_0 / h_T affects Newton's method, but not the solution.
@@ -40,6 +42,8 @@ namespace Ricochet
     RegularisedFriction friction;
     /// Coulomb's mu of a constraint, whose friction is exact.
     double exact_coefficient = 0.;
+    /// Corners of the master are points, too.
+    bool corners = true;
   };
 
   /**
@@ -50,6 +54,10 @@ namespace Ricochet
    * rows on the unknowns of both surfaces (see FacetChain): for any pressure the
    * work over a step is pressure times the change of the gap, and the sum of the
    * forces and of their moments is zero.
+   *
+   * Corners, edges and open ends of the master would enter the facets of the slave between
+   * its nodes. So the nodes of the master on such features are points, too, before the
+   * facets of the slave, with the same law, or with a law of their own beside a constraint.
    *
    * Laws give the pressure as a function of the gaps at both ends of the step. A
    * constraint has the pressure as a multiplier in the node, and with friction the
@@ -170,6 +178,8 @@ namespace Ricochet
       /// Where the coverage is not 1: mean energy of the law, without coverage, at the
       /// beginning and the end of the step (J/m^(dim-1)).
       double energy = 0.;
+      /// The normal force of a corner in the last evaluation (N).
+      double corner_force = 0.;
       /// The constraint, where there is no law.
       FrictionalConstraint<n_tangents> constraint;
       /// Difference between the equations in use and those of the state (Pa).
@@ -201,6 +211,31 @@ namespace Ricochet
       return pair_of(state).points()[state.point];
     }
 
+    /// Whether the point is a corner of the master.
+    bool
+    is_corner(const PointState &state) const
+    {
+      return state.pair >= n_own_pairs;
+    }
+
+    /// Whether the point is in front of several parts of a master, so that the force on its node
+    /// is not of one of them.
+    bool
+    has_parts(const PointState &state) const
+    {
+      const unsigned int k = state.pair;
+      return first_part[k] != k ||
+        (k + 1 < n_own_pairs && first_part[k + 1] == k);
+    }
+
+    /// The law of a point; null for a constraint.
+    const ContactLaw *
+    law_of(const PointState &state) const
+    {
+      return is_corner(state) && !method.law ? method.corner_law.get()
+                                             : method.law.get();
+    }
+
     /// r = r_0 / h_T (Pa/m)
     double
     stiffness(const PointState &state) const
@@ -220,7 +255,7 @@ namespace Ricochet
     bool
     is_pressed(const PointState &state, const double pressure) const
     {
-      return pressure > (method.law ? 0. : pressure_round_off(state));
+      return pressure > (law_of(state) ? 0. : pressure_round_off(state));
     }
 
     /// Whether the point has forces.
@@ -236,13 +271,13 @@ namespace Ricochet
     is_in_contact(const PointState &state) const
     {
       return state.candidate &&
-        (!method.law || has_force(state) || state.with_gap != 0.);
+        (!law_of(state) || has_force(state) || state.with_gap != 0.);
     }
 
     bool
-    has_exact_friction() const
+    has_exact_friction(const PointState &state) const
     {
-      return has_friction && !method.law;
+      return has_friction && !law_of(state);
     }
 
     /// Compliance of a closed point (m/Pa), see SurfacePair::softness().
@@ -308,6 +343,10 @@ namespace Ricochet
     void
     add_force(const PointState &state);
 
+    /// Set #corner_part, and add it to @p forces, the local values of #force.
+    void
+    add_corners(double *forces);
+
     /// @param add gets rows of the tangent: an unknown, and n other ones with values.
     template <typename Add>
     void
@@ -323,7 +362,7 @@ namespace Ricochet
     void
     for_each_multiplier(const PointState &state, const Action &action) const
     {
-      if (!method.law)
+      if (!law_of(state))
         for (const auto index : point_of(state).multipliers)
           if (index != dealii::numbers::invalid_dof_index)
             action(index);
@@ -356,9 +395,9 @@ namespace Ricochet
                  const ContactPointState<> &at,
                  const double               coverage) const
     {
-      return method.law ? coverage * point_of(state).weight *
-          method.law->potential(at, point_of(state).cell_diameter)
-                        : 0.;
+      return law_of(state) ? coverage * point_of(state).weight *
+          law_of(state)->potential(at, point_of(state).cell_diameter)
+                           : 0.;
     }
 
     double
@@ -380,8 +419,8 @@ namespace Ricochet
         pair.old_coverage(p) == 1. && pair.new_coverage(p) == 1.;
       state.energy = is_in_front ? 0.
                                  : .5 *
-          (method.law->potential(state.old_state, h) +
-           method.law->potential(state.state, h));
+          (law_of(state)->potential(state.old_state, h) +
+           law_of(state)->potential(state.state, h));
     }
 
     /// Work of this step against the pressure of a point, and against its energy where its
@@ -395,6 +434,16 @@ namespace Ricochet
         (state.energy * (pair.new_coverage(p) - pair.old_coverage(p)) -
          mean_coverage(state) * state.pressure * pair.rows(p).gap_increment);
     }
+
+    bool
+    has_corners() const
+    {
+      return pairs.size() > n_own_pairs;
+    }
+
+    /// The contact force at an instant without that of corners (N).
+    Vector
+    force_of_own_points(const ContactInstant &instant) const;
 
     /// Begin an instant at @p solution.
     void
@@ -413,18 +462,23 @@ namespace Ricochet
     std::uint64_t
     facets_signature() const;
 
-    const MPI_Comm                     communicator;
-    const dealii::IndexSet             owned;
-    const PairMethod                   method;
-    const bool                         has_friction;
-    PointwiseFriction                  friction;
+    const MPI_Comm         communicator;
+    const dealii::IndexSet owned;
+    const PairMethod       method;
+    const bool             has_friction;
+    PointwiseFriction      friction;
+    /// Pairs of the contacts, and then pairs of corners.
     std::vector<std::unique_ptr<Pair>> pairs;
-    std::vector<PointState>            states;
-    const unsigned int                 n_displacements_owned;
-    double                             weight     = 1.;
-    double                             time_step  = 0.;
-    unsigned int                       n_iterates = 0;
-    unsigned int                       pass       = 0;
+    unsigned int                       n_own_pairs = 0;
+    /// For each pair of a contact the first one of that contact, if its master has several
+    /// unconnected parts.
+    std::vector<unsigned int> first_part;
+    std::vector<PointState>   states;
+    const unsigned int        n_displacements_owned;
+    double                    weight     = 1.;
+    double                    time_step  = 0.;
+    unsigned int              n_iterates = 0;
+    unsigned int              pass       = 0;
     /// Patterns of former iterates.
     struct Patterns
     {
@@ -464,6 +518,8 @@ namespace Ricochet
     std::vector<unsigned int> place_in_skin;
     // State of evaluate_at_increment().
     Vector point_of_change;
+    /// The part of the last evaluated force that is of corners (N).
+    Vector corner_part;
     // Work space.
     std::vector<double> values;
   };
