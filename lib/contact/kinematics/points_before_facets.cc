@@ -332,7 +332,7 @@ namespace Ricochet
                        this->normal_of(point, old_positions.slave),
                        search,
                        old_positions.master,
-                       found_overhang(point),
+                       this->found_overhang(point, is_smooth),
                        is_self ? &point : nullptr,
                        self_distance);
     if (!facing)
@@ -360,7 +360,7 @@ namespace Ricochet
                                    this->normal_of(point, later.slave),
                                    search,
                                    later.master,
-                                   found_overhang(point),
+                                   this->found_overhang(point, is_smooth),
                                    is_self ? &point : nullptr,
                                    self_distance);
     if (!facing)

@@ -198,15 +198,6 @@ namespace Ricochet
       double       gap      = 0.;
     };
 
-    /// The overhang beyond open ends up to which facets are found for a point (m): with a
-    /// coverage also from where it is 0, so that a point is followed on its path in from
-    /// far off.
-    double
-    found_overhang(const Point &point) const
-    {
-      return (is_smooth ? 4. : 1.) * point.largest_overhang;
-    }
-
     /// The facets that points face at #old_positions: kept if the last step or report
     /// has found them at these.
     void

@@ -190,11 +190,10 @@ namespace Ricochet
       std::sqrt(std::max(0., away.norm_square() - gap * gap));
     const double size =
       std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    // With a coverage a point is followed on its path in from far off.
     for (unsigned int e = 0; e < 3; ++e)
       if (!master.facets[f].neighbours[e] && shares[(e + 2) % 3] == 0. &&
           beside > 0.)
-        return beside > (is_smooth ? 4. : 1.) * own_points[p].largest_overhang;
+        return beside > found_overhang(own_points[p], is_smooth);
     // A point past a convex edge may be as far away as the neighbour is in front of
     // it; a point farther off the facet than in front of it is beside it.
     return beside > 1.5 * std::abs(gap) + tolerance * size;
@@ -460,14 +459,18 @@ namespace Ricochet
     steps[p].old_facet      = f;
     steps[p].may_pass       = may_pass;
     gaps[p].old_coverage = gaps[p].new_coverage = 1.;
-    steps[p].may_be_rounded = steps[p].is_rounded = is_smooth && may_pass &&
-      find_rounded_gap(p, f, old_positions, old_positions);
-    if (steps[p].is_rounded)
-      {
-        gaps[p].old_gap      = steps[p].rounded_gap.old_gap;
-        gaps[p].old_coverage = gaps[p].new_coverage =
-          steps[p].rounded_gap.old_coverage;
-      }
+    steps[p].may_be_rounded = steps[p].is_rounded = false;
+  }
+
+
+
+  void
+  PointsBeforeTriangles::begin_rounded(const unsigned int p)
+  {
+    steps[p].may_be_rounded = steps[p].is_rounded = true;
+    gaps[p].old_gap      = steps[p].rounded_gap.old_gap;
+    gaps[p].old_coverage = gaps[p].new_coverage =
+      steps[p].rounded_gap.old_coverage;
   }
 
 
@@ -520,7 +523,10 @@ namespace Ricochet
       {
         const auto &rounded = steps[p].rounded_gap;
         if (rounded.old_gap > 0. || rounded.old_coverage == 0.)
-          begin_before(p, *f, rounded.old_gap, true);
+          {
+            begin_before(p, *f, rounded.old_gap, true);
+            begin_rounded(p);
+          }
         return;
       }
     // The path to this facet, from where the point is now; if the point does not face
@@ -534,6 +540,9 @@ namespace Ricochet
         if (gap > 0.)
           {
             begin_before(p, old_facet, gap, old_facet == first);
+            if (is_smooth && old_facet == first &&
+                find_rounded_gap(p, first, old_positions, old_positions))
+              begin_rounded(p);
             return;
           }
       }
@@ -576,11 +585,16 @@ namespace Ricochet
             continue;
           step.normal = normal_of(own_points[p], old_positions.slave);
           if (const auto f = facets_now[p])
-            begin_before(p,
-                         *f,
-                         PointBeforeTriangle<double>::gap(
-                           corners(p, *f, old_positions)),
-                         true);
+            {
+              begin_before(p,
+                           *f,
+                           PointBeforeTriangle<double>::gap(
+                             corners(p, *f, old_positions)),
+                           true);
+              if (is_smooth &&
+                  find_rounded_gap(p, *f, old_positions, old_positions))
+                begin_rounded(p);
+            }
           if (has_length &&
               (!gap.is_before_facet || may_change_facet(gap.old_gap, way)))
             find_facet_later(p, *later, course.end, facets);
@@ -613,17 +627,14 @@ namespace Ricochet
         if (gaps[p].is_before_facet)
           {
             Step &step      = steps[p];
+            step.up_to_date = false;
             step.is_rounded = step.may_be_rounded && evaluate_rounded(p);
             if (step.is_rounded)
-              {
-                step.up_to_date = false;
-                continue;
-              }
+              continue;
             gaps[p].new_coverage = gaps[p].old_coverage;
             step.new_facet       = last_facet(p, new_positions, facets);
             gaps[p].new_gap      = PointBeforeTriangle<double>::gap(
               corners(p, step.new_facet, new_positions));
-            step.up_to_date = false;
           }
     });
   }
@@ -956,8 +967,8 @@ namespace Ricochet
           {edge.first,
            edge.second,
            edge.width,
-           .5 * (b.old_value - a.old_value),
-           variable(n_facets + e, .5 * (b.new_value - a.new_value))});
+           edge.coordinate(a.old_value, b.old_value),
+           variable(n_facets + e, edge.coordinate(a.new_value, b.new_value))});
       }
     for (unsigned int e = 0; e < n_open; ++e)
       {
@@ -966,9 +977,8 @@ namespace Ricochet
         rounded.open_edges.push_back(
           {edge.facet,
            edge.half_overhang,
-           -s.old_value - edge.half_overhang,
-           variable(n_facets + n_edges + e,
-                    OfTriangle(-s.new_value - edge.half_overhang))});
+           edge.coordinate(s.old_value),
+           variable(n_facets + n_edges + e, edge.coordinate(s.new_value))});
       }
     rounded.evaluate();
 

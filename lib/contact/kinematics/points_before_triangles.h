@@ -261,7 +261,11 @@ namespace Ricochet
                      const Positions      &later,
                      FacetsAround<3>      &facets);
 
-    /// Let the point @p p begin at facet @p f.
+    /// Let the point @p p begin with the gap and the coverage of Step::rounded_gap.
+    void
+    begin_rounded(const unsigned int p);
+
+    /// Let the point @p p begin at facet @p f, with sharp edges.
     void
     begin_before(const unsigned int p,
                  const unsigned int f,

@@ -209,15 +209,14 @@ namespace Ricochet
           own_points.back().weight /= parts;
         }
     for (const auto &edge : features.edges)
-      if (is_mine(body, edge.nodes[0]) &&
-          !(is_on_symmetry(edge.nodes[0]) && is_on_symmetry(edge.nodes[1])))
+      if (is_mine(body, edge[0]) &&
+          !(is_on_symmetry(edge[0]) && is_on_symmetry(edge[1])))
         for (unsigned int k = 1; k < parts; ++k)
           {
             const double second = 1. * k / parts;
-            const Point &a = all[edge.nodes[0]], &b = all[edge.nodes[1]];
+            const Point &a = all[edge[0]], &b = all[edge[1]];
             Point        point = a;
-            point.nodes        = {{edge.nodes[0], 1. - second},
-                                  {edge.nodes[1], second}};
+            point.nodes        = {{edge[0], 1. - second}, {edge[1], second}};
             point.weight       = .5 * (a.weight + b.weight) / parts;
             point.largest_overhang =
               .5 * (a.largest_overhang + b.largest_overhang);

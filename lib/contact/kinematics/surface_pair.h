@@ -371,6 +371,15 @@ namespace Ricochet
     double
     half_length(const unsigned int f) const;
 
+    /// The overhang beyond open ends and edges up to which facets are found for a point (m):
+    /// with a coverage also from where it is 0, so that a point is followed on its path in from
+    /// far off.
+    static double
+    found_overhang(const Point &point, const bool has_coverage)
+    {
+      return (has_coverage ? 4. : 1.) * point.largest_overhang;
+    }
+
     /// One point for each node of the slave that this rank owns.
     void
     make_nodal_points(const Body<dim> &body);

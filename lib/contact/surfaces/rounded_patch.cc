@@ -121,8 +121,9 @@ namespace Ricochet
                              const unsigned int k) const
   {
     const auto &all = candidates.distances;
-    return edge.coordinate(all[edge.first][k].from_edges,
-                           all[edge.second][k].from_edges);
+    return edge.coordinate(
+      all[edge.first][k].from_edges[edge.number_in_first],
+      all[edge.second][k].from_edges[edge.number_in_second]);
   }
 
 
@@ -298,8 +299,8 @@ namespace Ricochet
           patch.open_edges.push_back(edge);
           gap.open_edges.push_back({number[i],
                                     edge.half_overhang,
-                                    edge.coordinate(at[0].from_edges),
-                                    edge.coordinate(at[1].from_edges)});
+                                    edge.coordinate(at[0].from_edges[e]),
+                                    edge.coordinate(at[1].from_edges[e])});
         }
     patch.edges.clear();
     gap.edges.clear();

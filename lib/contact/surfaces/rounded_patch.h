@@ -22,12 +22,12 @@ namespace Ricochet
       double width;
 
       /// Coordinate of the point from the bisector, positive on the side of the second facet,
-      /// from its distances from the edges of both (m).
-      double
-      coordinate(const std::array<double, 3> &in_first,
-                 const std::array<double, 3> &in_second) const
+      /// from its distances from the edge in both (m).
+      template <typename Number>
+      static Number
+      coordinate(const Number &in_first, const Number &in_second)
       {
-        return .5 * (in_second[number_in_second] - in_first[number_in_first]);
+        return .5 * (in_second - in_first);
       }
     };
 
@@ -39,11 +39,12 @@ namespace Ricochet
       double half_overhang;
 
       /// Coordinate of the point from the middle of the range of overhangs, positive
-      /// outwards, from its distances from the edges of the facet (m).
-      double
-      coordinate(const std::array<double, 3> &from_edges) const
+      /// outwards, from its distance from the edge (m).
+      template <typename Number>
+      Number
+      coordinate(const Number &from_edge) const
       {
-        return -from_edges[number] - half_overhang;
+        return -from_edge - half_overhang;
       }
     };
 

@@ -39,7 +39,7 @@ namespace Ricochet
             return;
           features.is_on[a] = features.is_on[b] = true;
           if (a != b && (!neighbour || f < *neighbour))
-            features.edges.push_back({{{a, b}}, f});
+            features.edges.push_back({{a, b}});
         };
         if constexpr (dim == 2)
           {

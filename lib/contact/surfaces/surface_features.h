@@ -16,14 +16,8 @@ namespace Ricochet
   {
     /// Whether each node lies on one.
     std::vector<bool> is_on;
-    /// In 3D the nodes of the edges between facets, and open ones, that are features, each once,
-    /// and a facet at it.
-    struct Edge
-    {
-      std::array<unsigned int, 2> nodes;
-      unsigned int                facet;
-    };
-    std::vector<Edge> edges;
+    /// In 3D the nodes of the edges between facets, and open ones, that are features, each once.
+    std::vector<std::array<unsigned int, 2>> edges;
   };
 
   template <int dim>

@@ -31,7 +31,7 @@ namespace Ricochet
     PairCoupling coupling = PairCoupling::points;
     /// A law for the pressure; null for a constraint.
     std::unique_ptr<ContactLaw> law;
-    /// The law at corners of the master, beside a constraint; null without.
+    /// The law at corners of the master, beside a constraint.
     std::unique_ptr<ContactLaw> corner_law;
     /// The condition of a constraint.
     ClosingCondition condition = ClosingCondition::signorini;
@@ -43,7 +43,7 @@ namespace Ricochet
     /// Coulomb's mu of a constraint, whose friction is exact.
     double exact_coefficient = 0.;
     /// Corners of the master are points, too.
-    bool corners = true;
+    bool corners = false;
   };
 
   /**
