@@ -43,6 +43,8 @@ ctest --test-dir build/release --output-on-failure -j 2
 bash scripts/docs.sh --without-api --build-dir build/release
 
 if [ "${1:-}" = "--full" ]; then
+  # Each three choices, and not only each two, in integration/covering_array.
+  export RICOCHET_FULL=1
   for kernels in Nehalem:sse4_2 Sandybridge:avx Haswell:avx2 Zen:avx2 SkylakeX:avx512f; do
     grep -qw "${kernels#*:}" /proc/cpuinfo || continue
     echo "kernels of OpenBLAS: ${kernels%:*}"

@@ -391,6 +391,17 @@ def tr_bdf2_matrix(w, part=2 - 2**.5):
     return np.array(columns).T
 
 
+def bdf2_matrix(w):
+    """A step of length 1 on the states (u, v) at the ends of the last two steps."""
+    matrix = np.zeros((4, 4))
+    for column, (u, v, u_before, v_before) in enumerate(np.eye(4)):
+        v_part = 4 / 3 * v - v_before / 3
+        origin = 4 / 3 * u - u_before / 3 + 2 / 3 * v_part
+        a = -w * origin / (1 + 4 / 9 * w)
+        matrix[:, column] = origin + 4 / 9 * a, v_part + 2 / 3 * a, u, v
+    return matrix
+
+
 SCHEMES = {
     "crank-nicolson": [("Crank-Nicolson", lambda w: hht_matrix(w, 0.), BLUE)],
     "hht": [(rf"HHT, $\alpha = {a:g}$", lambda w, a=a: hht_matrix(w, a), c)
@@ -402,6 +413,7 @@ SCHEMES = {
     "newmark": [(rf"Newmark, $\beta = {b:g}$, $\gamma = {g:g}$",
                  lambda w, b=b, g=g: newmark_matrix(w, 0., 0., b, g), c)
                 for b, g, c in ((.3025, .6, BLUE), (.25, .5, GREY), (.5625, 1., GREEN))],
+    "bdf2": [("BDF2", bdf2_matrix, BLUE), ("TR-BDF2", tr_bdf2_matrix, GREY)],
     "tr-bdf2": [("TR-BDF2", tr_bdf2_matrix, BLUE),
                 (r"HHT, $\alpha = 0.05$", lambda w: hht_matrix(w, .05), GREY)],
 }
@@ -420,7 +432,11 @@ def show_scheme(name):
     left.set_title("what a step leaves of a vibration")
     label, matrix, colour = SCHEMES[name][0]
     for i, (frequency, shade) in enumerate(((.2, colour), (12., RED))):
-        state, values = np.array([1., 0., -frequency]), [1.]
+        # From rest; of two steps, with the exact state a step before.
+        speed = frequency**.5
+        state, values = np.array(
+            [1., 0., -frequency] if len(matrix(frequency)) == 3
+            else [1., 0., np.cos(speed), speed * np.sin(speed)]), [1.]
         for _ in range(60):
             state = matrix(frequency) @ state
             values.append(state[0])

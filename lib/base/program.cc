@@ -52,8 +52,8 @@ namespace Ricochet
           command_line.validate_only = true;
         else if (argument == "--print-parameters")
           command_line.print_parameters = true;
-        else if (argument == "--promises")
-          command_line.promises = true;
+        else if (argument == "--promises" || argument == "--combinations")
+          command_line.table = argument;
         else if (argument == "--quiet")
           command_line.quiet = true;
         else if (argument == "--help" || argument == "-h")
@@ -73,6 +73,7 @@ namespace Ricochet
                                                  "--validate",
                                                  "--print-parameters",
                                                  "--promises",
+                                                 "--combinations",
                                                  "--quiet",
                                                  "--help",
                                                  "--version"},
@@ -103,6 +104,10 @@ namespace Ricochet
     std::string
     help_text(const Program &program)
     {
+      std::string of_tables;
+      for (const Program::Table &table : program.tables)
+        of_tables += "  " + table.option +
+          std::string(28 - table.option.size(), ' ') + table.description + "\n";
       return program.description + "\n\n" + "Usage: " + program.name +
         " [FILE.prm] [options]\n"
         "  --set \"Section/Name=value\"  override one parameter; may be "
@@ -116,10 +121,7 @@ namespace Ricochet
         "  --validate                  check the parameters and stop\n"
         "  --print-parameters          print all parameters with their "
         "documentation\n" +
-        (program.promises
-           ? std::string("  --promises                  print what contact "
-                         "treatments promise of the energy\n")
-           : "") +
+        of_tables +
         "  --quiet                     no lines on the console (log.txt has "
         "them)\n"
         "  --help, --version\n"
@@ -213,13 +215,16 @@ namespace Ricochet
           print(help_text(program));
           return no_run;
         }
-      if (command_line.promises)
+      if (!command_line.table.empty())
         {
-          if (!program.promises)
-            throw InputError("There is no option '--promises' of " +
-                             program.name + "; ricochet has it.");
-          print(program.promises());
-          return no_run;
+          for (const Program::Table &table : program.tables)
+            if (table.option == command_line.table)
+              {
+                print(table.text());
+                return no_run;
+              }
+          throw InputError("There is no option '" + command_line.table +
+                           "' of " + program.name + "; ricochet has it.");
         }
       if (command_line.version)
         {

@@ -26,10 +26,11 @@ namespace Ricochet
     bool                     overwrite        = false;
     bool                     validate_only    = false;
     bool                     print_parameters = false;
-    bool                     promises         = false;
     bool                     help             = false;
     bool                     version          = false;
     bool                     quiet            = false;
+    /// An option of Program::tables; empty for none.
+    std::string table;
   };
 
   /// Parse the arguments of main(). @throws InputError on an unknown option.
@@ -58,8 +59,13 @@ namespace Ricochet
     /// out. Pictures may be written to the folder, if its name is not empty.
     std::function<std::string(const std::string &folder)> description_of_input =
       {};
-    /// Output of `--promises`; may be left out.
-    std::function<std::string()> promises = {};
+    /// A table that an option prints.
+    struct Table
+    {
+      std::string                  option, description;
+      std::function<std::string()> text;
+    };
+    std::vector<Table> tables = {};
   };
 
   /**

@@ -21,7 +21,7 @@ namespace Ricochet
 
   namespace
   {
-    const std::string magic     = "Ricochet checkpoint, format 14\n";
+    const std::string magic     = "Ricochet checkpoint, format 15\n";
     const std::string file_name = "checkpoint.bin";
 
     /// The vectors of a checkpoint, in the order in which they are stored.
@@ -35,8 +35,10 @@ namespace Ricochet
       visit(checkpoint.state.contact_force);
       visit(checkpoint.state.mean_velocity);
       visit(checkpoint.state.scheme_force);
-      for (auto *part :
-           {&checkpoint.state.friction_force, &checkpoint.state.viscous_force})
+      for (auto *part : {&checkpoint.state.friction_force,
+                         &checkpoint.state.viscous_force,
+                         &checkpoint.state.solution_before,
+                         &checkpoint.state.velocity_before})
         if (part->size() > 0)
           visit(*part);
       for (auto &share : checkpoint.state.contact_shares)
@@ -64,7 +66,7 @@ namespace Ricochet
       std::string           parameters;
       std::uint64_t         mesh = 0;
       unsigned int          step = 0;
-      double                time = 0.;
+      double                time = 0., step_before = 0.;
       std::vector<double>   sums;
       unsigned int          n_rows   = 0;
       std::uint32_t         checksum = 0;
@@ -76,8 +78,8 @@ namespace Ricochet
       void
       serialize(Archive &archive, const unsigned int /*version*/)
       {
-        archive &parameters &mesh &step &time &sums &n_rows &checksum &tangent
-          &values;
+        archive &parameters &mesh &step &time &step_before &sums &n_rows
+          &checksum &tangent &values;
       }
     };
 
@@ -92,6 +94,7 @@ namespace Ricochet
                     mesh.checksum,
                     step,
                     state.time,
+                    state.step_before,
                     sums,
                     ledger.n_rows,
                     ledger.checksum,
@@ -194,11 +197,17 @@ namespace Ricochet
       }
 
     Checkpoint checkpoint;
-    checkpoint.step           = payload.step;
-    checkpoint.sums           = payload.sums;
-    checkpoint.ledger         = {payload.n_rows, payload.checksum};
-    checkpoint.state          = first_state;
-    checkpoint.state.time     = payload.time;
+    checkpoint.step       = payload.step;
+    checkpoint.sums       = payload.sums;
+    checkpoint.ledger     = {payload.n_rows, payload.checksum};
+    checkpoint.state      = first_state;
+    checkpoint.state.time = payload.time;
+    if (payload.step_before > 0.)
+      {
+        checkpoint.state.step_before     = payload.step_before;
+        checkpoint.state.solution_before = first_state.solution;
+        checkpoint.state.velocity_before = first_state.velocity;
+      }
     checkpoint.tangent.record = payload.tangent;
     if (checkpoint.tangent.exists())
       checkpoint.tangent.solution = first_state.solution;

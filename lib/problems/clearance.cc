@@ -56,9 +56,7 @@ namespace Ricochet
 
 
   void
-  check_motions(const SchemeTraits &scheme,
-                const Obstacles    &obstacles,
-                const bool          with_friction)
+  check_motions(const SchemeTraits &scheme, const Obstacles &obstacles)
   {
     if (std::all_of(obstacles.begin(), obstacles.end(), [](const auto &entry) {
           return entry.second->motion().is_at_rest();
@@ -72,16 +70,6 @@ namespace Ricochet
                          return !s.needs_potential;
                        }) +
                        ".");
-    if (with_friction && !scheme.contact_over_step)
-      throw InputError(
-        "Friction on an obstacle that moves cannot be combined with the time "
-        "scheme '" +
-        scheme.name +
-        "': its slip is known over a step between two states, not at an "
-        "instant.\nAllowed with it: " +
-        names_of_schemes(
-          [](const SchemeTraits &s) { return s.contact_over_step; }) +
-        ".");
   }
 
 

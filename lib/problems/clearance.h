@@ -9,12 +9,10 @@
 
 namespace Ricochet
 {
-  /// Check that moving @p obstacles are supported by the time @p scheme,
-  /// @p with_friction on them or without. @throws InputError
+  /// Check that moving @p obstacles are supported by the time @p scheme.
+  /// @throws InputError
   void
-  check_motions(const SchemeTraits &scheme,
-                const Obstacles    &obstacles,
-                const bool          with_friction);
+  check_motions(const SchemeTraits &scheme, const Obstacles &obstacles);
 
   /**
    * The undeformed @p body and the @p obstacles at time 0 do not overlap. The

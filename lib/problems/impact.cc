@@ -376,34 +376,44 @@ namespace Ricochet
     }
 
     template <int dim>
+    void
+    check_pair(const ImpactParameters &parameters,
+               const ImpactSetup<dim> &setup,
+               const Contact          &contact)
+    {
+      const auto materials = materials_of(setup);
+      check_pair_combination(contact.parameters,
+                             scheme_traits(parameters.scheme.name),
+                             {contact.pairs.front().is_self,
+                              dim,
+                              setup.degree,
+                              std::all_of(materials.begin(),
+                                          materials.end(),
+                                          [](const Material<dim> &material) {
+                                            return material.linear.has_value();
+                                          }),
+                              parameters.redistributed_mass()});
+    }
+
+    template <int dim>
     std::unique_ptr<ContactOperator>
     make_contact_on_cut_faces(const ImpactParameters     &parameters,
                               const Body<dim>            &body,
                               const ImpactSetup<dim>     &setup,
                               const std::vector<Contact> &contacts)
     {
-      const Contact             &contact = contacts.back();
+      const Contact &contact = contacts.back();
+      check_pair(parameters, setup, contact);
       std::vector<LinearElastic> materials;
       for (const Material<dim> &material : materials_of(setup))
         {
-          if (!material.linear)
-            throw InputError(
-              "Contact/Coupling = cut faces is for linear elastic bodies, whose "
-              "displacements are small. For others take points or mortar.");
+          AssertThrow(material.linear, ExcInternalError());
           materials.push_back(*material.linear);
         }
       if (contacts.size() > 1)
         throw InputError(
           "Contact/Coupling = cut faces cannot be combined with "
           "rigid obstacles or other contacts.");
-      if (setup.degree > 1)
-        throw InputError(
-          "Contact/Coupling = cut faces needs displacements of degree 1.");
-      for (const ContactPair &pair : contact.pairs)
-        if (pair.is_self)
-          throw InputError(
-            "A surface that may touch itself goes with Contact/Coupling = points "
-            "only.");
       if constexpr (dim == 2)
         return make_cut_face_contact(contact.parameters,
                                      scheme_traits(parameters.scheme.name),
@@ -424,10 +434,7 @@ namespace Ricochet
       const SchemeTraits &scheme = scheme_traits(parameters.scheme.name);
       if (contact.is_between_bodies())
         {
-          check_pair_combination(contact.parameters,
-                                 scheme,
-                                 contact.pairs.front().is_self,
-                                 dim);
+          check_pair(parameters, setup, contact);
           return make_pair_contact(contact.parameters,
                                    scheme,
                                    body,
@@ -667,7 +674,7 @@ namespace Ricochet
   {
     const SchemeTraits traits = scheme_traits(parameters.scheme.name);
     for (const Contact &one : contacts)
-      check_motions(traits, one.obstacles, has_friction(one.parameters));
+      check_motions(traits, one.obstacles);
     if (is_moved(setup) && !traits.contact_over_step)
       throw InputError(
         "An imposed displacement cannot be combined with the time "

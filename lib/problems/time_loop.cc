@@ -607,7 +607,8 @@ namespace Ricochet
       if (!std::isfinite(row[i]) && !ledger.columns()[i].may_be_empty)
         throw ComputationError(
           "The state at t = " + units.text(state.time, "s") +
-          " is not finite. All results up to then are "
+          " is not finite, in the column '" + ledger.columns()[i].name +
+          "' at first. All results up to then are "
           "in the output folder.");
     ledger.add_row(row);
     if (checked.breaks_promise)

@@ -201,17 +201,20 @@ namespace Ricochet
                               scheme_traits(impact.scheme.name),
                               impact.redistributed_mass(),
                               is_linear,
-                              is_viscous);
+                              is_viscous,
+                              degree);
             for (const unsigned int k : touching.obstacles)
               check_motions(
                 scheme_traits(impact.scheme.name),
-                {{0, obstacles[k].second.make(impact.time.final_time)}},
-                has_friction(contact.parameters));
+                {{0, obstacles[k].second.make(impact.time.final_time)}});
             if (touching.obstacles.empty())
               check_pair_combination(contact.parameters,
                                      scheme_traits(impact.scheme.name),
-                                     touching.is_self,
-                                     dim);
+                                     {touching.is_self,
+                                      dim,
+                                      degree,
+                                      is_linear,
+                                      impact.redistributed_mass()});
           }
         catch (const InputError &error)
           {
@@ -226,12 +229,6 @@ namespace Ricochet
                                contact.parameters.treatment +
                                "' takes the stress at the surface, which must "
                                "be of one material.");
-        if (touching.obstacles.empty() && degree > 1 &&
-            contact.parameters.coupling != "points")
-          throw InputError(
-            contact.section.where +
-            ": with Mesh/Degree = 2 contact between bodies takes "
-            "Coupling = points.");
       }
     ImpactSetup<dim> setup{parts.front().material.template make<dim>()};
     for (const ConditionSection<dim> &condition : conditions)

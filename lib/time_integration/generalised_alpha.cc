@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
 #include <base/vector_operations.h>
 #include <time_integration/generalised_alpha.h>
 
@@ -201,13 +202,19 @@ namespace Ricochet
       {
         system.bulk.force(old_state.solution, old_part);
         system.bulk.force(new_state.solution, new_part);
+        const double work = work_on_straight_path(system.bulk,
+                                                  old_state.solution,
+                                                  new_state.solution);
+        // A body that turns by nearly half a turn in a step.
+        if (!std::isfinite(work))
+          throw NewtonFailure(
+            "On the straight path of the step a cell is turned inside out, so that "
+            "the work of its forces is not known.\n");
         report.numerical_dissipation += .5 *
             product(entries(old_part) + entries(new_part),
                     increment,
                     communicator) -
-          work_on_straight_path(system.bulk,
-                                old_state.solution,
-                                new_state.solution);
+          work;
       }
 
     system.external_load(old_state.time, old_part);

@@ -9,7 +9,8 @@ namespace Ricochet
   {
     if (this == &other)
       return *this;
-    time = other.time;
+    time        = other.time;
+    step_before = other.step_before;
     for (Vector State::*const part : {&State::solution,
                                       &State::velocity,
                                       &State::acceleration,
@@ -17,7 +18,9 @@ namespace Ricochet
                                       &State::mean_velocity,
                                       &State::scheme_force,
                                       &State::friction_force,
-                                      &State::viscous_force})
+                                      &State::viscous_force,
+                                      &State::solution_before,
+                                      &State::velocity_before})
       if ((other.*part).size() > 0)
         copy_values(other.*part, this->*part);
     contact_shares.resize(other.contact_shares.size());

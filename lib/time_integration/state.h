@@ -37,6 +37,10 @@ namespace Ricochet
     /// The force -M a of the scheme's own equation of motion (N); used by the
     /// energy balance only.
     Vector scheme_force;
+    /// The state a step before, displacements (m) and velocity (m/s), and the length of that
+    /// step (s), 0 for none; kept by schemes of several steps.
+    Vector solution_before, velocity_before;
+    double step_before = 0.;
 
     State()              = default;
     State(const State &) = default;

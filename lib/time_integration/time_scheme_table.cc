@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <time_integration/arkode.h>
+#include <time_integration/bdf2.h>
 #include <time_integration/hht.h>
 #include <time_integration/midpoint.h>
 #include <time_integration/newmark.h>
@@ -27,6 +28,7 @@ namespace Ricochet
          time_scheme_entry<GeneralisedAlpha>(),
          time_scheme_entry<Newmark>(),
          time_scheme_entry<TRBDF2>(),
+         time_scheme_entry<BDF2>(),
          time_scheme_entry<Midpoint>(),
          time_scheme_entry<ARKode>()});
       return schemes;

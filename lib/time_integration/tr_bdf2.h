@@ -2,6 +2,7 @@
 #ifndef ricochet_time_integration_tr_bdf2_h
 #define ricochet_time_integration_tr_bdf2_h
 
+#include <time_integration/backward_difference.h>
 #include <time_integration/hht.h>
 
 namespace Ricochet
@@ -58,13 +59,11 @@ namespace Ricochet
   private:
     const double gamma;
     // y_new = a_middle y_middle - a_old y_old + a_rate dt y'_new
-    const double a_middle, a_old;
-    double       a_rate;
-    HHT          trapezoidal_rule;
-    State        middle;
-    Stage        stage;
-    // Work space.
-    Vector middle_force, new_force, work, increment, velocity_increment;
+    const double            a_middle, a_old;
+    double                  a_rate;
+    HHT                     trapezoidal_rule;
+    State                   middle;
+    BackwardDifferenceStage stage;
   };
 } // namespace Ricochet
 

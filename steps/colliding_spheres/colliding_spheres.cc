@@ -270,8 +270,7 @@ CollidingSpheres::validate() const
 {
   check_pair_combination(impact.contact,
                          scheme_traits(impact.scheme.name),
-                         /* is_self = */ false,
-                         /* dim = */ 3);
+                         {/* is_self */ false, /* dim */ 3});
   material.validate(3, impact.scheme.name);
   impact.validate(material.is_linear(),
                   material.viscosity != "none" && material.viscosity_eta > 0.);

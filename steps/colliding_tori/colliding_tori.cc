@@ -250,7 +250,7 @@ CollidingTori::validate() const
 {
   check_pair_combination(impact.contact,
                          scheme_traits(impact.scheme.name),
-                         touch_themselves);
+                         {touch_themselves, /* dim */ 3});
   material.validate(3, impact.scheme.name);
   impact.validate(material.is_linear(),
                   material.viscosity != "none" && material.viscosity_eta > 0.);

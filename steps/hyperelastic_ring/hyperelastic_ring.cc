@@ -233,7 +233,7 @@ HyperelasticRing::validate() const
   if (touches_itself)
     check_pair_combination(parameters.impact.contact,
                            scheme_traits(parameters.impact.scheme.name),
-                           /* is_self */ true);
+                           {/* is_self */ true});
   parameters.impact.check_size(2. * n_nodes_around * n_nodes_across *
                                  parameters.degree * parameters.degree,
                                2);

@@ -247,13 +247,12 @@ ObstacleCourse::validate() const
   if (touches_itself)
     check_pair_combination(impact.contact,
                            scheme_traits(impact.scheme.name),
-                           /* is_self */ true);
+                           {/* is_self */ true});
   material.validate(2, impact.scheme.name);
   impact.validate(material.is_linear(),
                   material.viscosity != "none" && material.viscosity_eta > 0.);
   check_motions(scheme_traits(impact.scheme.name),
-                {{surface, obstacle.make(impact.time.final_time)}},
-                has_friction(impact.contact));
+                {{surface, obstacle.make(impact.time.final_time)}});
   impact.check_size(2. * n_boundary_nodes * n_boundary_nodes / 8., 2);
   Triangulation<2> triangulation;
   make_grid(triangulation);

@@ -92,6 +92,7 @@
 // with NAME for your own names.
 
 #include <base/program.h>
+#include <problems/combinations.h>
 #include <scene/scene.h>
 
 #include <memory>
@@ -146,5 +147,10 @@ main(int argc, char **argv)
      [&](const std::string &folder) {
        return scene.description_of_input(folder);
      },
-     promises_as_table});
+     {{"--promises",
+       "print what contact treatments promise of the energy",
+       promises_as_table},
+      {"--combinations",
+       "print which choices go together, as CSV",
+       combinations_as_csv}}});
 }

@@ -47,11 +47,11 @@
 //    \beta = \tfrac14 (1 + |\alpha|)^2, \quad \gamma = \tfrac12 + |\alpha| . $$
 //
 // Crank-Nicolson is $\alpha = 0$; TR-BDF2 (C (33)) has its equations in the
-// introduction of the program bar_ss. In the limit of large $\omega \Delta t$
-// the spectral radii are
+// introduction of the program bar_ss, BDF2 in `lib/time_integration/backward_difference.h`. In
+// the limit of large $\omega \Delta t$ the spectral radii are
 //
 // $$ \rho_\infty = \frac{1 - |\alpha|}{1 + |\alpha|} \;\text{(HHT)}, \qquad
-//    1 \;\text{(Crank-Nicolson)}, \qquad 0 \;\text{(TR-BDF2)}. $$
+//    1 \;\text{(Crank-Nicolson)}, \qquad 0 \;\text{(TR-BDF2, BDF2)}. $$
 //
 // The generalised-alpha method (Chung and Hulbert 1993) is made for a limit that
 // is given; its formulas stand in `lib/time_integration/generalised_alpha.h`.
@@ -62,7 +62,7 @@
 // The program also integrates the oscillator over a fixed time with smaller and
 // smaller steps, from which the **order** of each scheme follows: the exponent
 // of $\Delta t$ in the error. It is 2 for Crank-Nicolson, HHT with $\alpha > 0$,
-// generalised-alpha and TR-BDF2. For $\alpha < 0$ it is 1, whatever C (28) says: second order
+// generalised-alpha, TR-BDF2 and BDF2. For $\alpha < 0$ it is 1, whatever C (28) says: second order
 // takes $\gamma = \tfrac12 + \alpha$ with the sign of $\alpha$, and what is
 // used is $\gamma = \tfrac12 + |\alpha|$.
 //
@@ -120,7 +120,9 @@ private:
                   const MPI_Comm                communicator) const;
 
   double
-  spectral_radius(Impact<1> &oscillator, const double time_step) const;
+  spectral_radius(Impact<1>   &oscillator,
+                  const double time_step,
+                  const bool   of_two_steps) const;
 
   double
   error(Impact<1>         &oscillator,
@@ -205,8 +207,11 @@ SpectralRadius::schemes() const
       scheme.values["Spectral radius"] = radius;
       entries.push_back({"generalised-alpha " + to_text(radius), scheme});
     }
-  scheme.name = "TR-BDF2";
-  entries.push_back({"TR-BDF2", scheme});
+  for (const std::string name : {"TR-BDF2", "BDF2"})
+    {
+      scheme.name = name;
+      entries.push_back({name, scheme});
+    }
   return entries;
 }
 
@@ -243,27 +248,40 @@ SpectralRadius::make_oscillator(const Triangulation<1>       &triangulation,
 //
 // One step from each of the three unit states, $u = 1$, $\Delta t\, \dot u = 1$
 // and $\Delta t^2 \ddot u = 1$, gives the three columns of $A$. The states need
-// not belong to a motion; the scheme does not depend on that.
+// not belong to a motion; the scheme does not depend on that. The state of BDF2 also
+// has displacement and velocity of the step before: there $A$ has five columns.
 double
 SpectralRadius::spectral_radius(Impact<1>   &oscillator,
-                                const double time_step) const
+                                const double time_step,
+                                const bool   of_two_steps) const
 {
-  const double           scale[3] = {1., time_step, time_step * time_step};
-  Eigen::Matrix3d        amplification;
+  std::vector<Ricochet::Vector State::*> parts = {&State::solution,
+                                                  &State::velocity,
+                                                  &State::acceleration};
+  std::vector<double> scale = {1., time_step, time_step * time_step};
+  if (of_two_steps)
+    {
+      parts.insert(parts.end(),
+                   {&State::solution_before, &State::velocity_before});
+      scale.insert(scale.end(), {1., time_step});
+    }
+  const unsigned int     n = parts.size();
+  Eigen::MatrixXd        amplification(n, n);
   const Ricochet::Vector zero = oscillator.body.make_vector();
-  for (unsigned int column = 0; column < 3; ++column)
+  for (unsigned int column = 0; column < n; ++column)
     {
       State state = oscillator.system.initial_state(zero, zero, 0.), new_state;
-      Ricochet::Vector *parts[3] = {&state.solution,
-                                    &state.velocity,
-                                    &state.acceleration};
-      (*parts[column])(left)     = 1. / scale[column];
-      parts[column]->compress(VectorOperation::insert);
+      if (of_two_steps)
+        {
+          state.solution_before = state.velocity_before = zero;
+          state.step_before                             = time_step;
+        }
+      (state.*parts[column])(left) = 1. / scale[column];
+      (state.*parts[column]).compress(VectorOperation::insert);
 
       oscillator.scheme->step(oscillator.system, state, time_step, new_state);
-      amplification(0, column) = new_state.solution(left) * scale[0];
-      amplification(1, column) = new_state.velocity(left) * scale[1];
-      amplification(2, column) = new_state.acceleration(left) * scale[2];
+      for (unsigned int row = 0; row < n; ++row)
+        amplification(row, column) = (new_state.*parts[row])(left)*scale[row];
     }
   return amplification.eigenvalues().cwiseAbs().maxCoeff();
 }
@@ -336,10 +354,11 @@ SpectralRadius::run(RunFolder &folder)
       const double omega_tilde =
         smallest * std::pow(largest / smallest, p / (n_points - 1.));
       rows.push_back({omega_tilde});
-      for (const auto &oscillator : oscillators)
+      for (unsigned int i = 0; i < entries.size(); ++i)
         rows.back().push_back(
-          spectral_radius(*oscillator,
-                          std::sqrt(omega_tilde * mass / stiffness)));
+          spectral_radius(*oscillators[i],
+                          std::sqrt(omega_tilde * mass / stiffness),
+                          entries[i].scheme.name == "BDF2"));
     }
   write("spectral_radii.csv", "omega_tilde [1]", rows);
   folder.log("spectral radius at (omega dt)^2 = " +
@@ -350,7 +369,7 @@ SpectralRadius::run(RunFolder &folder)
       const double alpha         = std::abs(values["HHT alpha"]);
       const double limit         = name == "HHT" ? (1. - alpha) / (1. + alpha)
                 : name == "generalised-alpha"    ? values["Spectral radius"]
-                : name == "TR-BDF2"              ? 0.
+                : name != "Crank-Nicolson"       ? 0.
                                                  : 1.;
       char         line[120];
       std::snprintf(line,

@@ -32,6 +32,7 @@ SCHEMES = {
     "HHT -0.02": ["Time/Scheme=HHT", "Time/HHT alpha=-0.02"],
     "generalised-alpha": ["Time/Scheme=generalised-alpha"],
     "TR-BDF2": ["Time/Scheme=TR-BDF2"],
+    "BDF2": ["Time/Scheme=BDF2"],
     "midpoint": ["Time/Scheme=midpoint"],
 }
 

@@ -91,7 +91,7 @@ class BadInput(Refusal):
 
     def test_arkode_with_constraints(self):
         self.refuse("cannot be combined with the time scheme 'ARKODE'",
-                    "Crank-Nicolson, HHT, generalised-alpha, Newmark, TR-BDF2, midpoint.",
+                    "Crank-Nicolson, HHT, generalised-alpha, Newmark, TR-BDF2, BDF2, midpoint.",
                     parameters=["Contact/Treatment=Signorini active set",
                                 "Time/Scheme=ARKODE"])
 
@@ -353,7 +353,7 @@ class BadThrownBodies(Refusal):
     def test_friction_with_another_scheme(self):
         self.refuse_ball("Friction cannot be combined with the time scheme "
                          "'ARKODE'", "Allowed with it: Crank-Nicolson, HHT, "
-                         "generalised-alpha, Newmark, TR-BDF2, midpoint",
+                         "generalised-alpha, Newmark, TR-BDF2, BDF2, midpoint",
                          parameters=["Time/Scheme=ARKODE",
                                      "Contact/Treatment=penalty",
                                      "Contact/Friction coefficient=0.1"])

@@ -560,17 +560,20 @@ class BadBodies(ProgramTest):
                     "Disks/Distance=1.9")
 
     def test_time_schemes(self):
+        """Conditions over a step, and gaps that are means over what is cut at its beginning."""
         for program in PARTS:
             for scheme in ("HHT", "TR-BDF2", "Crank-Nicolson", "ARKODE"):
                 with self.subTest(f"{program} {scheme}"):
                     self.refuse(program,
                                 ["cannot be combined with the time scheme "
                                  f"'{scheme}'", "midpoint"],
-                                f"Time/Scheme={scheme}")
+                                f"Time/Scheme={scheme}",
+                                "Contact/Treatment=persistent contact")
         self.refuse("colliding_disks",
-                    ["Contact between bodies cannot be combined with the time "
-                     "scheme 'HHT'", "Allowed with it: midpoint"],
-                    "Time/Scheme=HHT", "Contact/Treatment=penalty")
+                    ["Contact/Coupling = mortar cannot be combined with the time "
+                     "scheme 'HHT'", "Allowed with it: midpoint; or points"],
+                    "Time/Scheme=HHT", "Contact/Treatment=Signorini active set",
+                    "Contact/Coupling=mortar")
 
     def test_treatments_of_rigid_obstacles(self):
         """The sentence names what is allowed, and nothing else."""

@@ -305,12 +305,6 @@ class BadObstacles(ProgramTest):
                     "Contact/Treatment=penalty", "Time/Scheme=ARKODE",
                     "Obstacle/Rotation=t")
 
-    def test_friction_at_instants_on_a_moving_obstacle(self):
-        for scheme in ("Crank-Nicolson", "HHT", "generalised-alpha", "Newmark", "TR-BDF2"):
-            self.refuse("Friction on an obstacle that moves",
-                        "Contact/Treatment=penalty", "Contact/Friction coefficient=0.3",
-                        f"Time/Scheme={scheme}", "Obstacle/Rotation=t")
-
     def test_parameters_of_another_shape(self):
         self.refuse("Obstacle/Radius", "Obstacle/Shape=half space",
                     "Obstacle/Radius=2")

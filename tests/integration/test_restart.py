@@ -40,6 +40,7 @@ class Restart(ProgramTest):
                 ("bar_sd", "Signorini active set", "HHT 0.05", "consistent"),
                 ("bar_ss", "proximal augmented Lagrangian", "TR-BDF2",
                  "consistent"),
+                ("bar_ss", "penalty", "BDF2", "redistributed"),
                 ("bar_ss", "Nitsche-hybrid", "midpoint", "redistributed"))
         if is_debug_build():
             cases, stops = cases[1::2], stops[1:4:2]

@@ -477,10 +477,6 @@ class BadInput(ProgramTest):
                 self.refuse([f"the time scheme '{scheme}'", "midpoint"],
                             f"Time/Scheme={scheme}",
                             f"Contact/Treatment={treatment}")
-        # Against rigid obstacles this treatment does go with the scheme.
-        self.refuse(["Contact between bodies cannot be combined with the time scheme "
-                     "'TR-BDF2'", "Allowed with it: midpoint"],
-                    "Time/Scheme=TR-BDF2", "Contact/Treatment=Signorini active set")
 
 
 if __name__ == "__main__":

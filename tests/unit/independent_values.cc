@@ -1412,6 +1412,36 @@ BOOST_AUTO_TEST_CASE(oscillator_by_tr_bdf2)
   check_oscillator(parameters, 1., -11. / 65., -124. / 65., 44. / 65.);
 }
 
+// BDF2 after a step of 1/2 from u = 1/4 and v = 1 takes one of 1: with 9/5, 4/5 and 3/5 v1 = -4/5 + 3
+// a1/5, u1 = 9/5 - 1/5 + 3 v1/5 and a1 = -4 u1, so u1 = 28/61 and v1 = -116/61; the first
+// step of a run is that of TR-BDF2. Its dissipation closes the balance.
+BOOST_AUTO_TEST_CASE(oscillator_by_bdf2_with_unequal_steps)
+{
+  Oscillator oscillator(scheme_named("BDF2"));
+  State     &start      = oscillator.start;
+  start.solution_before = start.velocity_before = start.solution;
+  start.solution_before *= .25;
+  start.step_before = .5;
+  oscillator.step(1.);
+  BOOST_CHECK_CLOSE(oscillator.right_end(oscillator.end.solution),
+                    28. / 61.,
+                    round_off);
+  BOOST_CHECK_CLOSE(oscillator.right_end(oscillator.end.velocity),
+                    -116. / 61.,
+                    round_off);
+  BOOST_CHECK_EQUAL(oscillator.end.step_before, 1.);
+  // (v1^2 + 4 u1^2)/2 is that much less than 2, for the mass 1.
+  BOOST_CHECK_CLOSE(oscillator.report.numerical_dissipation,
+                    2. - .5 * (116. * 116. + 4. * 28. * 28.) / (61. * 61.),
+                    1e-9);
+
+  Oscillator first(scheme_named("BDF2")), other(scheme_named("TR-BDF2"));
+  first.step(1.);
+  other.step(1.);
+  BOOST_CHECK_EQUAL(first.right_end(first.end.solution),
+                    other.right_end(other.end.solution));
+}
+
 // With eta = 1 Pa s beside the spring, dt = 1/2: v1 = -(1 + u1) - (u1 - 1) = -2
 // u1 and u1 = 1 + v1/4, so u1 = 2/3, and (1/3)^2/dt is dissipated. The trapezoidal rule is
 // the same: its mean viscous force is v1/2 = -2/3 N.

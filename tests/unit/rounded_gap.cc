@@ -235,7 +235,7 @@ namespace
         *body,
         ContactPair{"blocks", {1}, {0}},
         PointsBeforeTriangles::PointsIn::nodes,
-        /* is_smooth */ true);
+        /* has_coverage */ true);
       std::map<dealii::types::global_dof_index, Point<3>> positions;
       dealii::DoFTools::map_dofs_to_support_points(body->mapping(),
                                                    body->dof_handler(),

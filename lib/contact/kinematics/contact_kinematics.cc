@@ -32,10 +32,10 @@ namespace Ricochet
   {
     time_step = start.time_step;
     end_time  = start.end_time;
+    rate_time = start.rate_origin ? start.rate_time : 0.;
     place_obstacles();
     evaluator.evaluate(start.solution, old);
-    has_rate_origin = start.rate_origin != nullptr;
-    if (has_rate_origin)
+    if (start.rate_origin)
       evaluator.evaluate(*start.rate_origin, rate_origin);
     find_states(old, Instant::begin, old_states);
   }
@@ -45,9 +45,9 @@ namespace Ricochet
   void
   ContactKinematics::begin_instant(const double time)
   {
-    time_step       = 0.;
-    end_time        = time;
-    has_rate_origin = false;
+    time_step = 0.;
+    end_time  = time;
+    rate_time = 0.;
     place_obstacles();
   }
 

@@ -245,11 +245,13 @@ namespace Ricochet
     displacement_with_slip(const unsigned int p) const
     {
       return displacement(p) -
-        displacement_of(has_rate_origin ? rate_origin[p] : old[p]);
+        displacement_of(rate_time > 0. ? rate_origin[p] : old[p]);
     }
 
     // Length and end of the step (s); the length is zero in an instant.
-    double                     time_step = 0., end_time = 0.;
+    double time_step = 0., end_time = 0.;
+    /// See ContactStart; 0 without a rate origin (s).
+    double                     rate_time = 0.;
     std::vector<PointGeometry> geometries;
     // Observables at the end and the beginning of the step, and predicted rates.
     std::vector<PointVector> current, old, rate;
@@ -263,7 +265,6 @@ namespace Ricochet
 
     std::vector<bool> up_to_date;
     // See ContactStart.
-    bool                     has_rate_origin = false;
     std::vector<PointVector> rate_origin;
   };
 

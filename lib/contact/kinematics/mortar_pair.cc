@@ -31,16 +31,10 @@ namespace Ricochet
     : PairBeforeChains<2>(body, pair)
     , shape(shape)
   {
-    if (is_self)
-      throw InputError(
-        "A surface that may touch itself goes with Contact/Coupling "
-        "= points only.");
     // The facets between the nodes of degree 2 have weights for a uniform pressure
     // other than those of the displacements.
-    if (body.dof_handler().get_fe().degree > 1)
-      throw InputError(
-        "Mortar contact takes displacements of degree 1. With degree 2 take "
-        "Contact/Coupling = points.");
+    AssertThrow(!is_self && body.dof_handler().get_fe().degree == 1,
+                ExcInternalError());
     make_nodal_points(body);
     gaps.resize(own_points.size());
     all_rows.resize(own_points.size());

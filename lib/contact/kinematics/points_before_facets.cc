@@ -307,6 +307,18 @@ namespace Ricochet
   void
   PointsBeforeFacets<dim>::find_places_now()
   {
+    if (this->keeps_facets)
+      {
+        for (unsigned int p = 0; p < own_points.size(); ++p)
+          if (places_now[p])
+            places_now[p]->gap =
+              gap_at(gather_all(p, places_now[p]->chain, old_positions),
+                     places_now[p]->chain,
+                     places_now[p]->facet,
+                     places_now[p]->may_pass);
+        found_at = {};
+        return;
+      }
     // The search distance of self-contact depends on the step.
     const bool are_known = !is_self && found_at.is_same(old_positions);
     if (are_known)

@@ -36,9 +36,10 @@ namespace Ricochet
   PointsBeforeTriangles::PointsBeforeTriangles(const Body<3>     &body,
                                                const ContactPair &pair,
                                                const PointsIn     points_in,
-                                               const bool         is_smooth)
+                                               const bool         has_coverage)
     : SurfacePair<3>(body, pair)
-    , is_smooth(is_smooth && !is_self)
+    , is_smooth(!is_self)
+    , has_coverage(has_coverage && !is_self)
     , rounded_patches(master)
   {
     if (points_in == PointsIn::quadrature_points)
@@ -193,7 +194,7 @@ namespace Ricochet
     for (unsigned int e = 0; e < 3; ++e)
       if (!master.facets[f].neighbours[e] && shares[(e + 2) % 3] == 0. &&
           beside > 0.)
-        return beside > found_overhang(own_points[p], is_smooth);
+        return beside > found_overhang(own_points[p], has_coverage);
     // A point past a convex edge may be as far away as the neighbour is in front of
     // it; a point farther off the facet than in front of it is beside it.
     return beside > 1.5 * std::abs(gap) + tolerance * size;
@@ -488,7 +489,7 @@ namespace Ricochet
   void
   PointsBeforeTriangles::find_facets_now()
   {
-    if (found_at.is_same(old_positions))
+    if (keeps_facets || found_at.is_same(old_positions))
       return;
     const FacetSearch<3> search(master, old_positions.master, near_facets);
     facets_now.resize(own_points.size());

@@ -28,9 +28,9 @@ namespace Ricochet
    * nevertheless, at vertices of some kinds, the point keeps the triangle where it
    * began until the end of the step.
    *
-   * For laws, whose energy is a function of the gap, edges between triangles are rounded
-   * instead, see RoundedGap: a point near edges is in contact with a patch of triangles, and
-   * there is a coverage at open edges.
+   * That is for a surface against itself. Between two surfaces edges are rounded, see
+   * RoundedGap, so that the gap is a differentiable function of the positions: a point near
+   * edges is in contact with a patch of triangles.
    *
    * For a surface against itself, each point can touch other triangles of that
    * surface, see OwnFacets. A point never passes to one of those around it.
@@ -47,11 +47,12 @@ namespace Ricochet
     };
 
     /// @throws InputError see SurfacePair.
-    /// @param is_smooth see above; not for a surface against itself.
+    /// @param has_coverage points reach over open edges as far as their coverage does, and
+    /// not only up to half of their own facet.
     PointsBeforeTriangles(const Body<3>     &body,
                           const ContactPair &pair,
                           const PointsIn     points_in,
-                          const bool         is_smooth);
+                          const bool         has_coverage);
 
     void
     begin_step(const ContactStart &start) override;
@@ -292,6 +293,7 @@ namespace Ricochet
     update(const unsigned int p) const;
 
     const bool           is_smooth;
+    const bool           has_coverage;
     const RoundedPatches rounded_patches;
     /// Search distances of facets: a tenth of the surface, but no less than two
     /// facets and the approach in a step; on the point's own surface only the latter

@@ -33,6 +33,17 @@ namespace Ricochet
   {
     for (unsigned int i = 0; i < obstacles.size(); ++i)
       steps[i] = obstacles[i]->step(end_time - time_step, end_time);
+    if (rate_time == 0. || !some_move)
+      return;
+    // Velocities of obstacles are differences, as motions are expressions: over so short a
+    // time that their error of second order is far below that of the scheme, and long
+    // enough for round-off.
+    constexpr double part_of_step = 1e-3;
+    length_around                 = part_of_step * rate_time;
+    around.resize(obstacles.size());
+    for (unsigned int i = 0; i < obstacles.size(); ++i)
+      around[i] = obstacles[i]->step(end_time - .5 * length_around,
+                                     end_time + .5 * length_around);
   }
 
 
@@ -64,9 +75,17 @@ namespace Ricochet
         // with it.
         rows = obstacles[i]->rows(steps[i], x, x, Tensor<1, 3>());
         rows.direction_derivative *= 2.;
-        // Friction of an instant is that on obstacles at rest.
         rows.relative_way            = displacement_with_slip(p);
         rows.relative_way_derivative = dealii::unit_symmetric_tensor<3>();
+        if (rate_time > 0. && some_move)
+          {
+            // Both ends of the material's displacement move with the point.
+            const double longer = rate_time / length_around;
+            rows.relative_way -=
+              longer * obstacles[i]->material_displacement(around[i], x, x);
+            rows.relative_way_derivative -= 2. * longer *
+              obstacles[i]->material_displacement_derivative(around[i]);
+          }
       }
     else
       rows =

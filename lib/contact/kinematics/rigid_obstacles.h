@@ -62,7 +62,10 @@ namespace Ricochet
     // Each obstacle once, and where it is during the step.
     std::vector<const RigidObstacle *> obstacles;
     std::vector<RigidObstacle::Step>   steps;
-    std::vector<unsigned int>          obstacle_of_point;
+    /// For friction at an instant, their motion around it, over #length_around (s).
+    std::vector<RigidObstacle::Step> around;
+    double                           length_around = 0.;
+    std::vector<unsigned int>        obstacle_of_point;
   };
 } // namespace Ricochet
 

@@ -42,6 +42,9 @@ namespace Ricochet
   class SurfacePair
   {
   public:
+    /// softness() of a point that is a node on another one.
+    static constexpr double softness_of_doubles = 1e-9;
+
     using Index    = dealii::types::global_dof_index;
     using Position = std::array<double, dim>;
 
@@ -125,6 +128,29 @@ namespace Ricochet
     /// Evaluate rows and gaps for the end of the step.
     virtual void
     evaluate(const Vector &solution) = 0;
+
+    /// From now on begin_step() leaves points before the facets that they face, wherever they
+    /// go, or, with false, finds those that they face.
+    void
+    keep_facets(const bool keep)
+    {
+      keeps_facets = keep;
+    }
+
+    /// Make increment() known until the next begin_step() or evaluate(). Collective.
+    /// @param increments a vector of displacement increments (m).
+    void
+    set_increments(const Vector &increments)
+    {
+      ghosted.import(increments);
+    }
+
+    /// The increment (m) of an unknown of rows().
+    double
+    increment(const Index unknown) const
+    {
+      return ghosted.values()[ghosted.local_index(unknown)];
+    }
 
     /// Whether the pair is one surface, against itself.
     bool
@@ -355,9 +381,6 @@ namespace Ricochet
     /// facets around the last one.
     static constexpr unsigned int farthest_walk = 4;
 
-    /// softness() of a point that is a node on another one.
-    static constexpr double softness_of_doubles = 1e-9;
-
     /// Data of a point over a step.
     struct Gaps
     {
@@ -441,7 +464,9 @@ namespace Ricochet
 
     const bool is_self;
     /// See leave_out_slip().
-    bool                needs_slip = true;
+    bool needs_slip = true;
+    /// See keep_facets().
+    bool                keeps_facets = false;
     ContactSurface<dim> slave, master;
     std::vector<Point>  own_points;
     std::vector<Gaps>   gaps;

@@ -3,6 +3,7 @@
 #define ricochet_contact_laws_corner_compliance_h
 
 #include <contact/laws/normal_compliance.h>
+#include <contact/laws/penalty.h>
 
 namespace Ricochet
 {
@@ -64,6 +65,18 @@ namespace Ricochet
       return {{CompliancePotential{stiffness / cell_diameter, 2.}}};
     }
   };
+
+  /// The law at corners beside a constraint with r_0 = @p stiffness (Pa). At an instant there
+  /// is no change over which a pressure could be a quotient: there it is that of penalty.
+  inline std::unique_ptr<ContactLaw>
+  make_corner_law(const double stiffness, const bool acts_over_step)
+  {
+    if (acts_over_step)
+      return std::make_unique<ContactLawImplementation<CornerCompliance>>(
+        CornerCompliance{stiffness});
+    return std::make_unique<ContactLawImplementation<Penalty>>(
+      Penalty{1. / stiffness});
+  }
 } // namespace Ricochet
 
 #endif

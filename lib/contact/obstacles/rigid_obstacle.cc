@@ -100,14 +100,8 @@ namespace Ricochet
     rows.relative_way_derivative = identity;
     if (!rigid_motion.is_at_rest())
       {
-        rows.relative_way -= step.material_end.translation -
-          step.material_begin.translation +
-          step.material_rotation_change *
-            (.5 *
-             (step.material_begin.pull_back(old_x) +
-              step.material_end.pull_back(x)));
-        rows.relative_way_derivative -= .5 * step.material_rotation_change *
-          transpose(step.material_end.rotation);
+        rows.relative_way -= material_displacement(step, old_x, x);
+        rows.relative_way_derivative -= material_displacement_derivative(step);
       }
     return rows;
   }

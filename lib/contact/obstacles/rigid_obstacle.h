@@ -107,6 +107,28 @@ namespace Ricochet
       dealii::Tensor<2, 3> relative_way_derivative;
     };
 
+    /// The displacement (m) over @p step of the obstacle's material at a point that is at
+    /// @p old_x at the beginning and at @p x at the end.
+    dealii::Tensor<1, 3>
+    material_displacement(const Step                 &step,
+                          const dealii::Tensor<1, 3> &old_x,
+                          const dealii::Tensor<1, 3> &x) const
+    {
+      return step.material_end.translation - step.material_begin.translation +
+        step.material_rotation_change *
+        (.5 *
+         (step.material_begin.pull_back(old_x) +
+          step.material_end.pull_back(x)));
+    }
+
+    /// Its derivative with respect to @p x.
+    dealii::Tensor<2, 3>
+    material_displacement_derivative(const Step &step) const
+    {
+      return .5 * step.material_rotation_change *
+        transpose(step.material_end.rotation);
+    }
+
     /// @param old_x the point at the beginning. @param x the point at the end.
     /// @param way displacement increment x - old_x, without the round-off of
     /// the difference.

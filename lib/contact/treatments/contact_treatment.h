@@ -87,6 +87,7 @@ namespace Ricochet
    *
    * @param linear_material the body is linear elastic.
    * @param viscous the body is viscous.
+   * @param degree of the displacements.
    * @throws InputError that names what is allowed.
    */
   void
@@ -94,19 +95,33 @@ namespace Ricochet
                     const SchemeTraits      &scheme,
                     const bool               redistributed_mass,
                     const bool               linear_material,
-                    const bool               viscous);
+                    const bool               viscous,
+                    const unsigned int       degree = 1);
 
-  /// As check_combination(), for contact between bodies. Where the opposite facet
-  /// changes, contact is formulated over the steps of the midpoint scheme, for
-  /// treatments that need neither stress nor the multipliers of rigid obstacles.
-  /// @param is_self a surface touches itself.
-  /// @param dim dimension; fewer combinations are possible in 3D than in 2D.
+  /// Properties of bodies and surfaces in contact that a combination may depend on.
+  struct PairProperties
+  {
+    /// A surface touches itself.
+    bool         is_self = false;
+    unsigned int dim     = 2;
+    /// Degree of the displacements.
+    unsigned int degree             = 1;
+    bool         linear_material    = true;
+    bool         redistributed_mass = false;
+  };
+
+  /// As check_combination(), for contact between bodies, where treatments need neither
+  /// stress nor the multipliers of rigid obstacles, except on cut faces.
   /// @throws InputError that names what is allowed.
   void
   check_pair_combination(const ContactParameters &parameters,
                          const SchemeTraits      &scheme,
-                         const bool               is_self = false,
-                         const unsigned int       dim     = 2);
+                         const PairProperties    &properties = {});
+
+  /// Each treatment with each choice of its parameters, and a name for it: "Nitsche, theta =
+  /// -1".
+  std::vector<std::pair<std::string, ContactParameters>>
+  treatment_variants();
 
   /// The promise of the treatment in a time scheme; against obstacles and on cut faces,
   /// and between bodies.

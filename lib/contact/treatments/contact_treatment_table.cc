@@ -238,6 +238,33 @@ namespace Ricochet
 
 
 
+  std::vector<std::pair<std::string, ContactParameters>>
+  treatment_variants()
+  {
+    std::vector<std::pair<std::string, ContactParameters>> variants;
+    for (const Treatment &treatment : table())
+      {
+        ContactParameters parameters;
+        parameters.treatment = treatment.name;
+        variants.emplace_back(treatment.name, parameters);
+        for (const OwnParameter &parameter : treatment.parameters)
+          for (const std::string &choice :
+               Utilities::split_string_list(parameter.choices, '|'))
+            {
+              const double value = Utilities::string_to_double(choice);
+              if (value == parameter.default_value)
+                continue;
+              parameters.values[parameter.name] = value;
+              variants.emplace_back(treatment.name + ", " +
+                                      choice_in_words(parameter, value),
+                                    parameters);
+            }
+      }
+    return variants;
+  }
+
+
+
   std::string
   promises_as_table()
   {
@@ -248,23 +275,8 @@ namespace Ricochet
         "| " + name + " | " + promise.verb() + " | " + promise.reason + " |\n";
     };
     const SchemeTraits midpoint = scheme_traits("midpoint");
-    for (const Treatment &treatment : table())
-      {
-        ContactParameters parameters;
-        parameters.treatment = treatment.name;
-        add(treatment.name, energy_promise(parameters, midpoint));
-        for (const OwnParameter &parameter : treatment.parameters)
-          for (const std::string &choice :
-               Utilities::split_string_list(parameter.choices, '|'))
-            {
-              const double value = Utilities::string_to_double(choice);
-              if (value == parameter.default_value)
-                continue;
-              parameters.values[parameter.name] = value;
-              add(treatment.name + ", " + choice_in_words(parameter, value),
-                  energy_promise(parameters, midpoint));
-            }
-      }
+    for (const auto &[name, parameters] : treatment_variants())
+      add(name, energy_promise(parameters, midpoint));
     ContactParameters parameters;
     parameters.treatment = "penalty";
     add("any law with a potential on 3D mortar",
@@ -402,10 +414,20 @@ namespace Ricochet
                     const SchemeTraits      &scheme,
                     const bool               redistributed_mass,
                     const bool               linear_material,
-                    const bool               viscous)
+                    const bool               viscous,
+                    const unsigned int       degree)
   {
     const ContactLawTraits traits = find(parameters).traits;
     parameters.values.check(ContactParameters::all_parameters());
+    if (traits.needs_multiplier && traits.nodal && degree > 1)
+      throw InputError(
+        "The contact treatment '" + parameters.treatment +
+        "' has multipliers in the nodes and takes displacements of degree "
+        "1.\nAllowed with degree " +
+        std::to_string(degree) + ": " + names_of([](const auto &t) {
+          return !t.needs_multiplier || !t.nodal;
+        }) +
+        ".");
     if (!linear_material && traits.uses_stress)
       throw InputError(
         "The contact treatment '" + parameters.treatment +
@@ -497,11 +519,36 @@ namespace Ricochet
   void
   check_pair_combination(const ContactParameters &parameters,
                          const SchemeTraits      &scheme,
-                         const bool               is_self,
-                         const unsigned int       dim)
+                         const PairProperties    &properties)
   {
+    const auto &[is_self, dim, degree, linear_material, redistributed_mass] =
+      properties;
+    if (is_self && parameters.coupling != "points")
+      throw InputError(
+        "A surface that may touch itself goes with Contact/Coupling = points "
+        "only.");
+    if (is_self && dim == 3 && !scheme.contact_over_step)
+      throw InputError(
+        "In 3D contact of a surface against itself cannot be combined with the "
+        "time scheme '" +
+        scheme.name +
+        "': its edges are sharp, and at an instant gaps have no slope there for "
+        "Newton's method.\nAllowed with it: " +
+        names_of_schemes(
+          [](const SchemeTraits &s) { return s.contact_over_step; }) +
+        ".");
+    if (degree > 1 && parameters.coupling != "points")
+      throw InputError(
+        "Contact/Coupling = " + parameters.coupling +
+        " takes displacements of degree 1.\nAllowed with degree " +
+        std::to_string(degree) + ": points.");
     if (parameters.coupling == "cut faces")
       {
+        if (!linear_material)
+          throw InputError(
+            "Contact/Coupling = cut faces is for linear elastic bodies, whose "
+            "displacements are small.\nAllowed with others: points, mortar, "
+            "dual mortar.");
         if (dim == 3)
           throw InputError(
             "Contact/Coupling = cut faces is there in 2D only.\nAllowed in 3D: "
@@ -533,6 +580,14 @@ namespace Ricochet
                        "' is one for rigid obstacles, not for contact between "
                        "bodies.\nAllowed there: " +
                        names_of(good) + ".");
+    if (is_self && redistributed_mass && is_constraint(parameters))
+      throw InputError(
+        "The contact treatment '" + parameters.treatment +
+        "' of a surface against itself cannot be combined with the redistributed "
+        "mass: nodes without inertia would have conditions on both sides, and "
+        "more of them than can be kept.\nAllowed with it: the consistent mass; "
+        "or a law: " +
+        names_of_laws() + ".");
     const auto is_nodal = [](const ContactLawTraits &traits) {
       return traits.nodal && !traits.uses_stress && !traits.needs_multiplier;
     };
@@ -557,14 +612,16 @@ namespace Ricochet
         "stored at the end of one would not be what the next one gives back.\nAllowed "
         "with it: " +
         names_of(is_good_in_space) + ". For others take points.");
-    if (!scheme.contact_over_step)
+    if (parameters.coupling != "points" && !scheme.contact_over_step)
       throw InputError(
-        "Contact between bodies cannot be combined with the time "
-        "scheme '" +
-        scheme.name +
-        "'.\nAllowed with it: midpoint, over whose steps the work "
-        "of a contact force is exactly pressure times the change "
-        "of the gap.");
+        "Contact/Coupling = " + parameters.coupling +
+        " cannot be combined with the time scheme '" + scheme.name +
+        "': the pieces over which its gaps are means are cut at the beginning of a "
+        "step and stay, so that there is no gap that is a function of an instant "
+        "alone.\nAllowed with it: " +
+        names_of_schemes(
+          [](const SchemeTraits &s) { return s.contact_over_step; }) +
+        "; or points.");
   }
 
 
@@ -604,15 +661,15 @@ namespace Ricochet
                         : parameters.coupling == "dual mortar" ? PairCoupling::dual_mortar
                                                                : PairCoupling::points,
         treatment.make_law ? treatment.make_law(parameters.values) : nullptr,
-        treatment.make_law
-                        ? nullptr
-                        : std::make_unique<ContactLawImplementation<CornerCompliance>>(
-              CornerCompliance{10. * augmentation(parameters)}),
+        treatment.make_law ? nullptr
+                                         : make_corner_law(10. * augmentation(parameters),
+                                             scheme.contact_over_step),
         treatment.condition,
         augmentation(parameters),
         make_friction(parameters),
         exact_coefficient(parameters),
-        parameters.corners});
+        parameters.corners,
+        scheme.contact_over_step});
     contact->promise =
       energy_promise(parameters,
                      scheme,

@@ -45,11 +45,12 @@ namespace Ricochet
           body,
           pair,
           !nodal ? Points::PointsIn::quadrature_points
-            : !method.law && method.condition == ClosingCondition::signorini &&
+            : !method.law && method.acts_over_step &&
+              method.condition == ClosingCondition::signorini &&
               !method.friction.exists()
             ? Points::PointsIn::nodes_and_valleys
             : Points::PointsIn::nodes,
-          /* is_smooth */ method.law != nullptr);
+          /* is_smooth */ method.law || !method.acts_over_step);
       AssertThrow(nodal, ExcMessage("Mortar couples nodes."));
       if constexpr (dim == 2)
         return std::make_unique<MortarPair>(body, pair, mortar_shape(method));
@@ -81,7 +82,7 @@ namespace Ricochet
             pair,
             nodal ? Points::PointsIn::nodes
                   : Points::PointsIn::quadrature_points,
-            /* is_smooth */ method.law != nullptr);
+            /* has_coverage */ method.law || !method.acts_over_step);
         }
       else
         return make_pair_before_chains(body, pair, method, nodal);
@@ -113,18 +114,7 @@ namespace Ricochet
       return std::make_unique<Points>(body,
                                       corners,
                                       Points::PointsIn::corners,
-                                      /* is_smooth */ true);
-    }
-
-    /// A slip vector with the tangential components of this dimension.
-    template <int n_tangents>
-    Tensor<1, 3>
-    along_surface(const Tensor<1, n_tangents> &slip)
-    {
-      Tensor<1, 3> result;
-      for (unsigned int d = 0; d < n_tangents; ++d)
-        result[d] = slip[d];
-      return result;
+                                      /* smooth, with a coverage */ true);
     }
   } // namespace
 
@@ -240,7 +230,7 @@ namespace Ricochet
       }
     own_traits.has_friction        = has_friction;
     own_traits.gaps_may_be_unknown = true;
-    own_traits.knows_work          = true;
+    own_traits.knows_work          = method.acts_over_step;
   }
 
 
@@ -256,13 +246,14 @@ namespace Ricochet
     state.accepted_passage   = 0;
     state.n_passages_changed = 0;
     state.old_state          = {};
+    state.begin_gap          = 0.;
     if (state.candidate)
       {
         // A threshold, as Newton's method leaves pressures of round-off size in
         // open points.
         const bool was_pressed =
           !law_of(state) && is_pressed(state, pair.multipliers(p)[0]);
-        state.old_state.gap = pair.old_gap(p);
+        state.old_state.gap = state.begin_gap = pair.old_gap(p);
         // The predictor leads away from a surface that is not flat, and pressed
         // points would be released.
         if (!law_of(state) && method.condition == ClosingCondition::persistent)
@@ -296,9 +287,15 @@ namespace Ricochet
     n_iterates = 0;
     pass       = 0;
     forget_patterns();
-    friction.begin_stage(time_step);
+    end_time = start.end_time;
+    friction.begin_stage(start.slip_time());
+    if (has_friction && start.rate_origin)
+      copy_values(*start.rate_origin, rate_origin);
     for (const auto &pair : pairs)
-      pair->begin_step(start);
+      {
+        pair->keep_facets(false);
+        pair->begin_step(start);
+      }
     std::atomic<bool> changed = false;
     for_each_range(states.size(),
                    64,
@@ -328,7 +325,16 @@ namespace Ricochet
       sets_recur = true;
     if (n_frozen > 0)
       --n_frozen;
-    if (facets.returns(facets_signature()))
+    const bool facets_return = facets.returns(facets_signature());
+    if (facets_return && !method.acts_over_step)
+      {
+        // Between two facets gaps are differentiable, but the rates of slip along them are
+        // not beyond their ends: points that alternate stay until the stage is solved.
+        if (++n_returns > 1)
+          for (const auto &pair : pairs)
+            pair->keep_facets(true);
+      }
+    else if (facets_return)
       {
         // Oscillation of points between two facets, at a vertex that supports them: if
         // it goes on, they stay with the facet where they began. A condition on the
@@ -421,9 +427,11 @@ namespace Ricochet
         // A point that is behind a facet at the beginning of the step, not detected
         // by the contact of nodes, is not pushed out, which would generate energy;
         // but it is kept from going deeper.
-        const double old_gap = state.old_state.gap;
-        return old_gap < -1e-9 * point_of(state).cell_diameter
-          ? state.state.gap - old_gap
+        const double begin_gap = method.acts_over_step
+          ? pair_of(state).old_gap(state.point)
+          : state.begin_gap;
+        return begin_gap < -1e-11 * point_of(state).cell_diameter
+          ? state.state.gap - begin_gap
           : state.state.gap;
       }
     if (method.condition == ClosingCondition::two_step && pass == 0)
@@ -479,8 +487,70 @@ namespace Ricochet
       return result;
     result.closing = closing(state);
     if (has_exact_friction(state))
-      result.slip = pair.rows(state.point).slip;
+      result.slip = slip(state);
     return result;
+  }
+
+
+
+  template <int dim>
+  typename PairContact<dim>::Tangential
+  PairContact<dim>::slip(const PointState &state) const
+  {
+    const Pair &pair = pair_of(state);
+    const auto &rows = pair.rows(state.point);
+    if (method.acts_over_step)
+      return rows.slip;
+    Tangential result;
+    for (unsigned int a = 0; a < rows.unknowns.size(); ++a)
+      for (unsigned int d = 0; d < n_tangents; ++d)
+        result[d] += rows.tangential[d][a] * pair.increment(rows.unknowns[a]);
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::array<Tensor<1, 3>, PairContact<dim>::n_tangents>
+  PairContact<dim>::axes(const PointState &state) const
+  {
+    std::array<Tensor<1, 3>, n_tangents> result;
+    for (unsigned int d = 0; d < n_tangents; ++d)
+      if (method.acts_over_step)
+        result[d][d] = 1.;
+      else
+        {
+          // The force on the point, as a sum over its nodes.
+          const auto &row = pair_of(state).rows(state.point).tangential[d];
+          for (unsigned int k = 0; k < point_of(state).nodes.size(); ++k)
+            for (unsigned int c = 0; c < dim; ++c)
+              result[d][c] += row[k * dim + c];
+        }
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::find_turning(const PointState &state,
+                                 const Caution     caution,
+                                 Turning          &turning) const
+  {
+    const Pair        &pair     = pair_of(state);
+    const auto        &unknowns = pair.rows(state.point).unknowns;
+    const unsigned int m        = unknowns.size();
+    for (unsigned int d = 0; d < n_tangents; ++d)
+      {
+        typename Pair::Coefficients along;
+        along.traction[d] = n_moving_ends();
+        const auto &forces =
+          pair.derivatives(state.point, along, caution).forces;
+        turning[d].assign(m, 0.);
+        for (unsigned int a = 0; a < m; ++a)
+          for (unsigned int b = 0; b < m; ++b)
+            turning[d][b] += pair.increment(unknowns[a]) * forces[a * m + b];
+      }
   }
 
 
@@ -508,14 +578,15 @@ namespace Ricochet
     bool new_sticks = false;
     if (has_exact_friction(state))
       {
-        const auto &rows = pair.rows(state.point);
-        current.slip     = rows.slip;
+        current.slip = slip(state);
         // A point that is only about to close has no pressure yet. It sticks if the
         // displacement up to closure was within the cone of friction, unless this
         // choice has led back to an open point.
-        new_sticks = !sets_recur &&
-          rows.slip.norm() <=
-            method.exact_coefficient * std::abs(rows.gap_increment);
+        const double approach = method.acts_over_step
+          ? pair.rows(state.point).gap_increment
+          : state.state.gap - state.begin_gap;
+        new_sticks            = !sets_recur &&
+          current.slip.norm() <= method.exact_coefficient * std::abs(approach);
       }
     state.constraint.choose(current,
                             r,
@@ -552,12 +623,17 @@ namespace Ricochet
         point_of(state).weight * mean_coverage(state) * state.pressure;
     if (has_friction && state.pressure > 0.)
       {
+        const auto       along     = axes(state);
+        const Tangential slip_here = slip(state);
+        Tensor<1, 3>     slip_vector;
+        for (unsigned int d = 0; d < n_tangents; ++d)
+          slip_vector += slip_here[d] * along[d];
         friction.evaluate(s,
                           state.pressure,
-                          along_surface(pair.rows(p).slip),
+                          slip_vector,
                           point_of(state).cell_diameter);
         for (unsigned int d = 0; d < n_tangents; ++d)
-          state.traction[d] = friction.traction(s)[d];
+          state.traction[d] = along[d] * friction.traction(s);
         if (friction.sticks(s))
           state.status = Status::stick;
       }
@@ -661,8 +737,17 @@ namespace Ricochet
   void
   PairContact<dim>::evaluate(const Vector &solution)
   {
+    if (!method.acts_over_step)
+      begin_instant(solution, end_time);
     for (const auto &pair : pairs)
       pair->evaluate(solution);
+    if (!method.acts_over_step && has_friction)
+      {
+        increments = solution;
+        increments -= rate_origin;
+        for (const auto &pair : pairs)
+          pair->set_increments(increments);
+      }
     friction.begin_evaluation(states.size());
     for_each_range(states.size(),
                    64,
@@ -749,7 +834,7 @@ namespace Ricochet
         };
         const double covered = mean_coverage(state) * point.weight;
         add(-covered * state.pressure, rows.normal, force);
-        if (!rows.coverage.empty())
+        if (law_of(state) && !rows.coverage.empty())
           add(point.weight * state.energy, rows.coverage, force);
         for (unsigned int d = 0; d < n_tangents; ++d)
           if (state.traction[d] != 0.)
@@ -1140,21 +1225,31 @@ namespace Ricochet
     if (!is_in_contact(state))
       return;
 
-    const auto  &rows        = pair.rows(p);
-    const double covered     = mean_coverage(state);
-    const bool   is_over_end = !rows.coverage.empty();
-    const auto  &derivatives = pair.derivatives(
-      p,
-      {covered * state.pressure, covered * state.traction, state.energy},
-      n_frozen == 0      ? Caution::none
-         : n_returns <= 2 ? Caution::at_convex_vertices
-                          : Caution::at_all_vertices);
-    const unsigned int m      = rows.unknowns.size();
-    const double       factor = weight * point.weight;
-    // The energy changes with the gap at the end of the step alone.
+    const auto   &rows        = pair.rows(p);
+    const double  covered     = mean_coverage(state);
+    const bool    is_over_end = law_of(state) && !rows.coverage.empty();
+    const Caution caution     = n_frozen == 0 ? Caution::none
+          : n_returns <= 2                    ? Caution::at_convex_vertices
+                                              : Caution::at_all_vertices;
+    static thread_local Turning turning;
+    const bool                  turns = has_friction && !method.acts_over_step;
+    if (turns)
+      find_turning(state, caution, turning);
+    const double       ends        = n_moving_ends();
+    const auto        &derivatives = pair.derivatives(p,
+                                               {ends * covered * state.pressure,
+                                                       ends * covered * state.traction,
+                                                       ends * state.energy},
+                                               caution);
+    const unsigned int m           = rows.unknowns.size();
+    const double       factor      = weight * point.weight;
+    // The mean energy changes with the gaps at the ends that move.
     const double energy_with_gap = is_over_end
-      ? -.5 * law_of(state)->pressure(state.state, point.cell_diameter)
+      ? -.5 * ends * law_of(state)->pressure(state.state, point.cell_diameter)
       : 0.;
+    const auto   slip_with = [&](const unsigned int d, const unsigned int b) {
+      return derivatives.slip[d][b] + (turns ? turning[d][b] : 0.);
+    };
 
     // Pressure and traction along variable directions, and their derivatives.
     Tensor<2, n_tangents> with_slip;
@@ -1162,11 +1257,12 @@ namespace Ricochet
     if (law_of(state) && has_friction && state.pressure > 0.)
       {
         const auto of_friction = friction.derivatives(&state - states.data());
+        const auto along       = axes(state);
         for (unsigned int d = 0; d < n_tangents; ++d)
           {
-            with_pressure[d] = of_friction.with_pressure[d];
+            with_pressure[d] = along[d] * of_friction.with_pressure;
             for (unsigned int e = 0; e < n_tangents; ++e)
-              with_slip[d][e] = of_friction.with_slip[d][e];
+              with_slip[d][e] = along[d] * (of_friction.with_slip * along[e]);
           }
       }
     static thread_local std::vector<double> values;
@@ -1184,7 +1280,7 @@ namespace Ricochet
                   {
                     double with_b = 0.;
                     for (unsigned int e = 0; e < n_tangents; ++e)
-                      with_b += with_slip[d][e] * derivatives.slip[e][b];
+                      with_b += with_slip[d][e] * slip_with(e, b);
                     with_b -=
                       with_pressure[d] * state.with_gap * derivatives.gap[b];
                     change += rows.tangential[d][a] * with_b;
@@ -1196,7 +1292,7 @@ namespace Ricochet
                     for (unsigned int d = 0; has_friction && d < n_tangents;
                          ++d)
                       along += state.traction[d] * rows.tangential[d][a];
-                    entry += .5 * along * derivatives.coverage[b] +
+                    entry += .5 * ends * along * derivatives.coverage[b] +
                       energy_with_gap * rows.coverage[a] * derivatives.gap[b];
                   }
               }
@@ -1224,8 +1320,8 @@ namespace Ricochet
             add_entry(i, multipliers[d + 1], factor * rows.tangential[d][a]);
             double with_slip_of_a = 0.;
             for (unsigned int e = 0; e < n_tangents; ++e)
-              with_slip_of_a += of_constraint.tangential_with_slip[d][e] *
-                derivatives.slip[e][a];
+              with_slip_of_a +=
+                of_constraint.tangential_with_slip[d][e] * slip_with(e, a);
             add_entry(multipliers[d + 1], i, -factor / r * with_slip_of_a);
           }
       }

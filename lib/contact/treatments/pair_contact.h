@@ -44,16 +44,24 @@ namespace Ricochet
     double exact_coefficient = 0.;
     /// Corners of the master are points, too.
     bool corners = false;
+    /// Forces act over the step between two states; otherwise at an instant.
+    bool acts_over_step = true;
   };
 
   /**
    * Contact of deformable bodies: pairs of surfaces, over the steps of the midpoint
-   * scheme.
+   * scheme or at the instants of other schemes.
    *
    * The force of a point is pressure times D, and its friction traction times T,
    * rows on the unknowns of both surfaces (see FacetChain): for any pressure the
    * work over a step is pressure times the change of the gap, and the sum of the
    * forces and of their moments is zero.
+   *
+   * At an instant (SchemeTraits::contact_over_step is false) both ends of the step are the
+   * same state: D is the gradient of the gap there, and its derivative twice the one with
+   * respect to the end, since the rows are symmetric in both ends. The facet that a point
+   * faces is found anew in each evaluation, without memory. Slip is T times the increment
+   * since ContactStart::rate_origin.
    *
    * Corners, edges and open ends of the master would enter the facets of the slave between
    * its nodes. So the nodes of the master on such features are points, too, before the
@@ -180,6 +188,8 @@ namespace Ricochet
       double energy = 0.;
       /// The normal force of a corner in the last evaluation (N).
       double corner_force = 0.;
+      /// The gap at the beginning of the step or stage (m).
+      double begin_gap = 0.;
       /// The constraint, where there is no law.
       FrictionalConstraint<n_tangents> constraint;
       /// Difference between the equations in use and those of the state (Pa).
@@ -280,11 +290,41 @@ namespace Ricochet
       return has_friction && !law_of(state);
     }
 
-    /// Compliance of a closed point (m/Pa), see SurfacePair::softness().
+    /// Slip over the step, or since ContactStart::rate_origin (m).
+    Tangential
+    slip(const PointState &state) const;
+
+    /// Directions of the tangential components for friction, which remembers directions of
+    /// iterates: over a step, whose facets stay, axes of their own; at an instant unit
+    /// vectors, as the facet may change from one iterate to the next.
+    std::array<dealii::Tensor<1, 3>, n_tangents>
+    axes(const PointState &state) const;
+
+    /// The derivatives of slip() at an instant beyond those of SurfacePair::Derivatives:
+    /// directions turn while the increment since the rate origin stays.
+    using Turning = std::array<std::vector<double>, n_tangents>;
+    void
+    find_turning(const PointState &state,
+                 const Caution     caution,
+                 Turning          &turning) const;
+
+    /// Derivatives with respect to the end of a step count for both ends at an instant.
+    double
+    n_moving_ends() const
+    {
+      return method.acts_over_step ? 1. : 2.;
+    }
+
+    /// Compliance of a closed point (m/Pa), see SurfacePair::softness(). At an instant nodes
+    /// of a surface against itself come to lie on each other in any iterate.
     double
     softness(const PointState &state) const
     {
-      return pair_of(state).softness(state.point) / stiffness(state);
+      const Pair  &pair = pair_of(state);
+      const double part = method.acts_over_step || !pair.touches_itself()
+        ? pair.softness(state.point)
+        : Pair::softness_of_doubles;
+      return part / stiffness(state);
     }
 
     /// Whether the equation of multiplier @p c of a point has the softness().
@@ -400,12 +440,14 @@ namespace Ricochet
                            : 0.;
     }
 
+    /// The factor of the force; 1 for a constraint, whose multiplier is free.
     double
     mean_coverage(const PointState &state) const
     {
-      return .5 *
-        (pair_of(state).old_coverage(state.point) +
-         pair_of(state).new_coverage(state.point));
+      return law_of(state) ? .5 *
+          (pair_of(state).old_coverage(state.point) +
+           pair_of(state).new_coverage(state.point))
+                           : 1.;
     }
 
     /// Set PointState::energy.
@@ -475,10 +517,13 @@ namespace Ricochet
     std::vector<unsigned int> first_part;
     std::vector<PointState>   states;
     const unsigned int        n_displacements_owned;
-    double                    weight     = 1.;
-    double                    time_step  = 0.;
-    unsigned int              n_iterates = 0;
-    unsigned int              pass       = 0;
+    double                    weight    = 1.;
+    double                    time_step = 0.;
+    /// Time of the instant (s), and the origin of slip (m).
+    double       end_time = 0.;
+    Vector       rate_origin, increments;
+    unsigned int n_iterates = 0;
+    unsigned int pass       = 0;
     /// Patterns of former iterates.
     struct Patterns
     {
