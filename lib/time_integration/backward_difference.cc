@@ -19,9 +19,8 @@ namespace Ricochet
 
     // v_new = velocity_part + rate_step a_new, and the same for u_new: so
     // u_new = inertia_origin + rate_step^2 a_new.
-    new_state          = last;
-    new_state.time     = end_time;
-    new_state.velocity = last.velocity;
+    new_state      = last;
+    new_state.time = end_time;
     new_state.velocity.sadd(of_last, -of_before, velocity_before);
     stage.inertia  = 1. / (rate_step * rate_step);
     stage.end_time = new_state.time;

@@ -7,6 +7,7 @@
 // is the same on two ranks.
 
 #include "on_all_ranks.h"
+#include "contact_tangent.h"
 #include "meshes.h"
 
 #include <base/exceptions.h>
@@ -275,46 +276,14 @@ namespace
       for (unsigned int i = 0; i < parts.size(); ++i)
         if (parts[i] == 0)
           local_values(solution)[i] += local_values(along)[i];
-      // At an instant slip is counted from elsewhere.
-      const bool is_instant = scheme != "midpoint";
-      Vector     origin(disks.state.solution);
-      randomise(noise, 1e-3, 3);
-      origin += noise;
-      contact.begin_stage({disks.state.solution,
-                           disks.state.contact_force,
-                           disks.state.mean_velocity,
-                           is_instant ? 0. : time_step,
-                           disks.state.time + time_step,
-                           nullptr,
-                           is_instant ? &origin : nullptr,
-                           is_instant ? time_step : 0.},
-                          1.);
-
-      Matrix body_matrix, matrix;
-      body_matrix.reinit(body.sparsity_pattern());
-      Vector residual(solution), product(solution), difference(solution);
-      residual = 0.;
-      contact.add_residual(solution, residual);
-      UnitedPattern united;
-      united.update(body.sparsity_pattern(), *contact.couplings());
-      united.embed(body_matrix, matrix);
-      contact.add_tangent(matrix);
-      matrix.vmult(product, direction);
-
-      const double h  = 1e-7;
-      const auto   at = [&](const double length) {
-        Vector point(solution), result(solution);
-        point.add(length, direction);
-        result = 0.;
-        contact.add_residual(point, result);
-        return result;
-      };
-      difference = at(h);
-      difference -= at(-h);
-      difference *= .5 / h;
-      BOOST_CHECK_GT(product.l2_norm(), 1.);
-      difference -= product;
-      BOOST_CHECK_SMALL(difference.l2_norm() / product.l2_norm(), 1e-6);
+      check_contact_tangent(contact,
+                            body,
+                            disks.state,
+                            scheme,
+                            time_step,
+                            solution,
+                            direction,
+                            1.);
     }
   }
 } // namespace

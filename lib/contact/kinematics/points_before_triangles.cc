@@ -38,7 +38,6 @@ namespace Ricochet
                                                const PointsIn     points_in,
                                                const bool         has_coverage)
     : SurfacePair<3>(body, pair)
-    , is_smooth(!is_self)
     , has_coverage(has_coverage && !is_self)
     , rounded_patches(master)
   {
@@ -520,7 +519,7 @@ namespace Ricochet
     if (!f)
       return;
     // A point that is behind the surface can only come to face it from the side.
-    if (is_smooth && find_rounded_gap(p, *f, old_positions, old_positions))
+    if (!is_self && find_rounded_gap(p, *f, old_positions, old_positions))
       {
         const auto &rounded = steps[p].rounded_gap;
         if (rounded.old_gap > 0. || rounded.old_coverage == 0.)
@@ -541,7 +540,7 @@ namespace Ricochet
         if (gap > 0.)
           {
             begin_before(p, old_facet, gap, old_facet == first);
-            if (is_smooth && old_facet == first &&
+            if (!is_self && old_facet == first &&
                 find_rounded_gap(p, first, old_positions, old_positions))
               begin_rounded(p);
             return;
@@ -592,7 +591,7 @@ namespace Ricochet
                            PointBeforeTriangle<double>::gap(
                              corners(p, *f, old_positions)),
                            true);
-              if (is_smooth &&
+              if (!is_self &&
                   find_rounded_gap(p, *f, old_positions, old_positions))
                 begin_rounded(p);
             }

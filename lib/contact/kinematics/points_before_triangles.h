@@ -292,7 +292,6 @@ namespace Ricochet
     void
     update(const unsigned int p) const;
 
-    const bool           is_smooth;
     const bool           has_coverage;
     const RoundedPatches rounded_patches;
     /// Search distances of facets: a tenth of the surface, but no less than two

@@ -737,10 +737,11 @@ namespace Ricochet
   void
   PairContact<dim>::evaluate(const Vector &solution)
   {
-    if (!method.acts_over_step)
+    if (method.acts_over_step)
+      for (const auto &pair : pairs)
+        pair->evaluate(solution);
+    else
       begin_instant(solution, end_time);
-    for (const auto &pair : pairs)
-      pair->evaluate(solution);
     if (!method.acts_over_step && has_friction)
       {
         increments = solution;
