@@ -47,6 +47,7 @@ def scene(bodies, contacts, gravity, held, end, step, friction=0):
     for number, (first, second) in enumerate(contacts):
         lines += [f"subsection Contact c{number}", f"  set Surface = {first}",
                   f"  set Against = {second}", "  set Treatment = {treatment}",
+                  "  set Coupling = {coupling}",
                   f"  set Friction coefficient = {friction}", "end"]
     for number, boundary in enumerate(held):
         lines += [f"subsection Condition foot{number}", f"  set Boundary = {boundary}",
@@ -120,6 +121,8 @@ def main():
     parser.add_argument("--build-dir", default=ROOT / "build" / "release", type=pathlib.Path)
     parser.add_argument("--output", default=ROOT / "output" / "promises", type=pathlib.Path)
     parser.add_argument("--only", default="", help="part of the names of scenes")
+    parser.add_argument("--coupling", default="points",
+                        help="points, mortar or dual mortar")
     options = parser.parse_args()
     print("| scene | treatment | residual | | depth / cell | halvings | dropped | entered |\n"
           "|---|---|---|---|---|---|---|---|")
@@ -127,14 +130,19 @@ def main():
         if options.only not in name:
             continue
         for treatment in TREATMENTS:
-            folder = options.output / f"{name} {treatment}".replace(" ", "_")
+            folder = options.output / options.coupling / f"{name} {treatment}"
+            folder = pathlib.Path(str(folder).replace(" ", "_"))
             folder.mkdir(parents=True, exist_ok=True)
             file = folder / "scene.prm"
-            file.write_text(text.replace("{treatment}", treatment), encoding="utf-8")
+            file.write_text(
+                text.replace("{treatment}", treatment).replace("{coupling}", options.coupling),
+                encoding="utf-8")
             code = subprocess.run(
                 [str(options.build_dir / "ricochet"), str(file), "--output-dir",
                  str(folder / "run"), "--overwrite", "--quiet"],
                 capture_output=True, check=False).returncode
+            if code == 1:  # refused
+                continue
             if code not in (0, 4):
                 print(f"| {name} | {treatment} | exit code {code} | | | | | |", flush=True)
                 continue
