@@ -17,6 +17,7 @@ from . import site, text
 ORDER = (
     "run",
     "scenes",
+    "static",
     "law",
     "material",
     "scheme",
@@ -111,7 +112,7 @@ def make(made: site.Site) -> None:
     index = hand_written("how_to/index")
     made.page("how_to/index", "\n\n".join([index, text.toctree(names, hidden=False)]))
 
-    for page in ("benchmarks", "combinations"):
+    for page in ("benchmarks", "combinations", "verification"):
         made.page(page, text.with_headers(hand_written(page), page))
     library = text.with_includes(hand_written("library"), "library")
     made.page("library", text.with_headers(library, "library"))
@@ -122,7 +123,9 @@ def make(made: site.Site) -> None:
             [
                 text.with_includes(hand_written("index"), "index"),
                 text.toctree(("steps/index", *listed), "Learn"),
-                text.toctree(("gallery/index", "examples/index", "benchmarks"), "Look"),
+                text.toctree(
+                    ("gallery/index", "examples/index", "benchmarks", "verification"), "Look"
+                ),
                 text.toctree(
                     (
                         "methods/index",

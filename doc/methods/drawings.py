@@ -454,6 +454,40 @@ for _name in SCHEMES:
 
 
 @drawing
+def static():
+    """A nonlinear spring that is pulled in load steps, and a mass that falls onto a spring."""
+    figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 2.6))
+    force, stored = lambda u: u + 2. * u**3, lambda u: .5 * u**2 + .5 * u**4
+    u = np.linspace(0, 1, 200)
+    left.plot(u, force(u), color=GREY, label="equilibria")
+    for n, colour in ((2, RED), (4, BLUE)):
+        ends = np.linspace(0, 1, n + 1)
+        path = np.sum(.5 * np.diff(ends) * (force(ends[1:]) + force(ends[:-1]))) - stored(1.)
+        left.plot(ends, force(ends), "o-", ms=3, lw=1, color=colour,
+                  label=rf"{n} steps, path {path:.2f}")
+    left.set_xlabel("displacement")
+    left.set_ylabel("load")
+    left.legend()
+    left.set_title("works by the trapezoidal rule")
+    # Contact is a spring of stiffness 100 below 0; mass and weight are 1.
+    x, c, last, imbalances = 1., 10., 0., []
+    for _ in range(30):
+        new = x - 1. / c
+        if new < 0.:
+            new = (c * x - 1.) / (c + 100.)
+        imbalance, move, x = c * abs(new - x), abs(new - x), new
+        imbalances.append(imbalance)
+        if imbalance < 1e-11:
+            break
+        c *= np.clip(min(imbalance / last if last else 1., move / .25), .01, .5)
+        last = imbalance
+    right.semilogy(imbalances, "o-", ms=3, lw=1, color=BLUE)
+    right.set_xlabel("$k$")
+    right.set_title("imbalance of a mass that falls onto a spring")
+    save(figure, "static")
+
+
+@drawing
 def midpoint():
     """A stiff pendulum: a mass on a nonlinear spring in 2D."""
     figure, axes = plt.subplots(figsize=(5.4, 2.7))

@@ -6,8 +6,7 @@
 
 namespace Ricochet
 {
-  /// A load from outside that depends on where the body is, over the steps of the
-  /// midpoint scheme. All vectors are system vectors without ghost values; all functions
+  /// A load from outside that depends on where the body is, over a step or at an instant. All vectors are system vectors without ghost values; all functions
   /// are collective.
   class FollowerLoad
   {
@@ -23,9 +22,11 @@ namespace Ricochet
                const double  end,
                Vector       &force) const = 0;
 
-    /// @p tangent -= the derivative of step_force() with respect to the new solution.
+    /// @p tangent -= @p weight times the derivative of step_force() with respect to the
+    /// new solution. The force is symmetric in both ends.
     virtual void
-    subtract_step_tangent(const Vector &old_solution,
+    subtract_step_tangent(const double  weight,
+                          const Vector &old_solution,
                           const Vector &new_solution,
                           const double  begin,
                           const double  end,

@@ -164,7 +164,8 @@ namespace Ricochet
 
   template <int dim>
   void
-  FollowerPressure<dim>::subtract_step_tangent(const Vector &old_solution,
+  FollowerPressure<dim>::subtract_step_tangent(const double  weight,
+                                               const Vector &old_solution,
                                                const Vector &new_solution,
                                                const double  begin,
                                                const double  end,
@@ -174,7 +175,7 @@ namespace Ricochet
     ghosted_new.import(new_solution);
     for (const QuadraturePoint &point : points)
       {
-        const double pressure =
+        const double pressure = weight *
           pressures[point.pressure].pressure(.5 * (begin + end), point.place);
         const Tensor<2, dim> f0 = deformation_gradient(point, ghosted_old),
                              f1 = deformation_gradient(point, ghosted_new);

@@ -49,7 +49,8 @@ namespace Ricochet
                Vector       &force) const override;
 
     void
-    subtract_step_tangent(const Vector &old_solution,
+    subtract_step_tangent(const double  weight,
+                          const Vector &old_solution,
                           const Vector &new_solution,
                           const double  begin,
                           const double  end,

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <sstream>
 
 namespace Ricochet
@@ -21,7 +22,7 @@ namespace Ricochet
 
   namespace
   {
-    const std::string magic     = "Ricochet checkpoint, format 15\n";
+    const std::string magic     = "Ricochet checkpoint, format 16\n";
     const std::string file_name = "checkpoint.bin";
 
     /// The vectors of a checkpoint, in the order in which they are stored.
@@ -63,9 +64,13 @@ namespace Ricochet
     /// Contents of the file, apart from magic, size and checksum.
     struct Payload
     {
-      std::string           parameters;
-      std::uint64_t         mesh = 0;
-      unsigned int          step = 0;
+      std::string   parameters;
+      std::uint64_t mesh = 0;
+      /// CheckpointMesh::multipliers
+      std::vector<types::global_dof_index> multipliers;
+      /// Number of contact forces, which are the last values except for the tangent's.
+      unsigned int          n_shares = 0;
+      unsigned int          step     = 0;
       double                time = 0., step_before = 0.;
       std::vector<double>   sums;
       unsigned int          n_rows   = 0;
@@ -78,12 +83,169 @@ namespace Ricochet
       void
       serialize(Archive &archive, const unsigned int /*version*/)
       {
-        archive &parameters &mesh &step &time &step_before &sums &n_rows
-          &checksum &tangent &values;
+        archive &parameters &mesh &multipliers &n_shares &step &time
+          &step_before &sums &n_rows &checksum &tangent &values;
       }
     };
 
+    const std::string strange =
+      "is damaged: its content is none of a checkpoint";
+
+    /// All contents of a file. Every rank reads the whole file. @p fail (why) throws.
+    Payload
+    read_payload(const std::string                              &file,
+                 const std::function<void(const std::string &)> &fail)
+    {
+      std::string bytes;
+      try
+        {
+          bytes = read_file(file);
+        }
+      catch (const InputError &)
+        {
+          fail(std::filesystem::exists(file) ? "cannot be read"
+                                             : "does not exist");
+        }
+      std::uint64_t     size = 0;
+      std::uint32_t     crc  = 0;
+      const std::size_t head = magic.size() + sizeof(size) + sizeof(crc);
+      if (bytes.compare(0, magic.size(), magic) != 0 || bytes.size() < head)
+        fail("is no checkpoint of this version of Ricochet");
+      std::memcpy(&size, bytes.data() + magic.size(), sizeof(size));
+      std::memcpy(&crc,
+                  bytes.data() + magic.size() + sizeof(size),
+                  sizeof(crc));
+      bytes.erase(0, head);
+      if (bytes.size() != size)
+        fail("is truncated: it holds " + std::to_string(bytes.size()) + " of " +
+             std::to_string(size) + " bytes");
+      if (checksum(bytes) != crc)
+        fail("is damaged: its checksum is wrong");
+
+      Payload            payload;
+      std::istringstream data(bytes);
+      // The checksum would suffice for a file written by a run; this one may come
+      // from elsewhere.
+      try
+        {
+          boost::archive::binary_iarchive archive(data);
+          archive >> payload;
+        }
+      catch (const std::exception &)
+        {
+          fail(strange);
+        }
+      return payload;
+    }
   } // namespace
+
+
+
+  CheckpointMesh::CheckpointMesh(const SemiDiscreteSystem::Unknowns &unknowns,
+                                 const MPI_Comm communicator)
+    : positions(unknowns.canonical_positions())
+    , checksum(unknowns.mesh_checksum())
+  {
+    // The last unknowns of each rank.
+    const std::vector<types::global_dof_index> own(
+      positions.end() - unknowns.multipliers.n_elements(),
+      positions.end());
+    for (const auto &list : Utilities::MPI::all_gather(communicator, own))
+      multipliers.insert(multipliers.end(), list.begin(), list.end());
+    std::sort(multipliers.begin(), multipliers.end());
+  }
+
+
+
+  CheckpointMotion
+  CheckpointMotion::read(const std::string    &folder,
+                         const Vector         &layout,
+                         const CheckpointMesh &mesh)
+  {
+    const std::string file =
+      (std::filesystem::path(folder) / file_name).string();
+    const auto fail = [&](const std::string &why) {
+      throw InputError(
+        "Start/From: the checkpoint '" + file + "' " + why +
+        (std::filesystem::exists(file)
+           ? "."
+           : "; runs with Output/Checkpoint every = 1 or more have one."));
+    };
+    const Payload payload = read_payload(file, fail);
+    if (mesh.checksum != payload.mesh)
+      fail(
+        "belongs to other bodies: nodes, materials' numbers or boundaries are not those "
+        "of this scene");
+
+    CheckpointMotion motion;
+    motion.time = payload.time;
+    // Displacements have one order, whatever multipliers are between them.
+    const auto take = [&](const std::vector<double> &stored, Vector &vector) {
+      std::vector<double> displacements;
+      auto                next = payload.multipliers.begin();
+      for (types::global_dof_index k = 0; k < stored.size(); ++k)
+        if (next != payload.multipliers.end() && *next == k)
+          ++next;
+        else
+          displacements.push_back(stored[k]);
+      vector.reinit(layout);
+      if (displacements.size() + mesh.multipliers.size() != vector.size())
+        fail("has " + std::to_string(displacements.size()) +
+             " displacements, this scene has " +
+             std::to_string(vector.size() - mesh.multipliers.size()) +
+             ": it has another Mesh/Degree");
+      double *values = local_values(vector);
+      for (std::size_t k = 0; k < mesh.positions.size(); ++k)
+        {
+          const auto own = std::lower_bound(mesh.multipliers.begin(),
+                                            mesh.multipliers.end(),
+                                            mesh.positions[k]);
+          if (own == mesh.multipliers.end() || *own != mesh.positions[k])
+            values[k] = displacements[mesh.positions[k] -
+                                      (own - mesh.multipliers.begin())];
+        }
+    };
+    // With and without tangential ones: that along the normal is the first of a node.
+    const auto take_multipliers = [&](const std::vector<double> &stored,
+                                      Vector                    &vector) {
+      const std::size_t n_there    = payload.multipliers.size(),
+                        n_here     = mesh.multipliers.size();
+      const std::size_t more_there = n_here == 0 ? 0 : n_there / n_here,
+                        more_here  = n_there == 0 ? 0 : n_here / n_there;
+      if (n_there != more_there * n_here && n_here != more_here * n_there)
+        return;
+      double *values = local_values(vector);
+      for (std::size_t k = 0; k < mesh.positions.size(); ++k)
+        {
+          const auto own = std::lower_bound(mesh.multipliers.begin(),
+                                            mesh.multipliers.end(),
+                                            mesh.positions[k]);
+          if (own == mesh.multipliers.end() || *own != mesh.positions[k])
+            continue;
+          const std::size_t number = own - mesh.multipliers.begin();
+          if (more_there > 0)
+            values[k] = stored.at(payload.multipliers[number * more_there]);
+          else if (more_here > 0 && number % more_here == 0)
+            values[k] = stored.at(payload.multipliers[number / more_here]);
+        }
+    };
+    // In the order of for_each_vector().
+    const unsigned int of_force   = 3;
+    const unsigned int n_tangents = payload.tangent.n_steps > 0 ? 1 : 0;
+    if (payload.values.size() < std::size_t(6) + payload.n_shares + n_tangents)
+      fail(strange);
+    take(payload.values[0], motion.solution);
+    take_multipliers(payload.values[0], motion.solution);
+    take(payload.values[1], motion.velocity);
+    motion.contact_forces.resize(std::max(1U, payload.n_shares));
+    if (payload.n_shares == 0)
+      take(payload.values[of_force], motion.contact_forces[0]);
+    const std::size_t first =
+      payload.values.size() - payload.n_shares - n_tangents;
+    for (unsigned int k = 0; k < payload.n_shares; ++k)
+      take(payload.values[first + k], motion.contact_forces[k]);
+    return motion;
+  }
 
 
 
@@ -92,6 +254,8 @@ namespace Ricochet
   {
     Payload    payload{folder.parameters_that_matter,
                     mesh.checksum,
+                    mesh.multipliers,
+                    static_cast<unsigned int>(state.contact_shares.size()),
                     step,
                     state.time,
                     state.step_before,
@@ -137,52 +301,11 @@ namespace Ricochet
                    const State          &first_state,
                    const CheckpointMesh &mesh)
   {
-    const std::string file = folder.file(file_name);
-    const auto        fail = [&](const std::string &why) {
+    const auto fail = [file = folder.file(file_name)](const std::string &why) {
       throw InputError("The run cannot be resumed: the checkpoint '" + file +
                        "' " + why + ".");
     };
-
-    // Every rank reads the whole file and takes its part.
-    std::string bytes;
-    try
-      {
-        bytes = read_file(file);
-      }
-    catch (const InputError &)
-      {
-        fail(std::filesystem::exists(file) ? "cannot be read"
-                                           : "does not exist");
-      }
-    std::uint64_t     size = 0;
-    std::uint32_t     crc  = 0;
-    const std::size_t head = magic.size() + sizeof(size) + sizeof(crc);
-    if (bytes.compare(0, magic.size(), magic) != 0 || bytes.size() < head)
-      fail("is no checkpoint of this version of Ricochet");
-    std::memcpy(&size, bytes.data() + magic.size(), sizeof(size));
-    std::memcpy(&crc, bytes.data() + magic.size() + sizeof(size), sizeof(crc));
-    bytes.erase(0, head);
-    if (bytes.size() != size)
-      fail("is truncated: it holds " + std::to_string(bytes.size()) + " of " +
-           std::to_string(size) + " bytes");
-    if (checksum(bytes) != crc)
-      fail("is damaged: its checksum is wrong");
-
-    Payload            payload;
-    std::istringstream data(bytes);
-    // The checksum would suffice for a file written by a run; this one may come
-    // from elsewhere.
-    const std::string strange =
-      "is damaged: its content is none of a checkpoint";
-    try
-      {
-        boost::archive::binary_iarchive archive(data);
-        archive >> payload;
-      }
-    catch (const std::exception &)
-      {
-        fail(strange);
-      }
+    const Payload payload = read_payload(folder.file(file_name), fail);
     if (payload.parameters != folder.parameters_that_matter)
       {
         // Name the first line that differs.

@@ -13,14 +13,39 @@ namespace Ricochet
   {
     /// Body::canonical_positions()
     std::vector<dealii::types::global_dof_index> positions;
+    /// Positions of multipliers on all ranks, in ascending order.
+    std::vector<dealii::types::global_dof_index> multipliers;
     /// Body::mesh_checksum()
     std::uint64_t checksum = 0;
 
     /// Collective.
-    explicit CheckpointMesh(const SemiDiscreteSystem::Unknowns &unknowns)
-      : positions(unknowns.canonical_positions())
-      , checksum(unknowns.mesh_checksum())
-    {}
+    CheckpointMesh(const SemiDiscreteSystem::Unknowns &unknowns,
+                   const MPI_Comm                      communicator);
+  };
+
+  /// The motion at the last checkpoint of a run, in the displacements of another one.
+  struct CheckpointMotion
+  {
+    /// s
+    double time = 0.;
+    /// Displacements (m) and, where both runs have the same, multipliers (Pa).
+    Vector solution;
+    /// m/s
+    Vector velocity;
+    /// The force (N) of each contact.
+    std::vector<Vector> contact_forces;
+
+    /**
+     * Read it from the output folder @p folder of any run with the same bodies, whatever
+     * its treatments, conditions, loads and number of ranks.
+     *
+     * @param layout a system vector of this run.
+     * @throws InputError no checkpoint, truncated or damaged, or another mesh.
+     */
+    static CheckpointMotion
+    read(const std::string    &folder,
+         const Vector         &layout,
+         const CheckpointMesh &mesh);
   };
 
   /// All data that a run needs to continue as if it had not been stopped.

@@ -9,6 +9,7 @@
 #include <discretization/linear_bulk.h>
 #include <problems/clearance.h>
 #include <problems/impact.h>
+#include <problems/unheld_bodies.h>
 #include <time_integration/mass_redistribution.h>
 
 #include <deal.II/base/function.h>
@@ -155,6 +156,8 @@ namespace Ricochet
     bool
     is_moved(const ImpactSetup<dim> &setup)
     {
+      if (setup.starts_displaced)
+        return true;
       for (const auto &entry : setup.imposed)
         if (entry.second.value)
           return true;
@@ -528,13 +531,15 @@ namespace Ricochet
     {
       if (setup.pressures.empty())
         return nullptr;
-      if (!scheme_traits(scheme).contact_over_step)
+      if (scheme_traits(scheme).needs_potential)
         throw InputError(
           "A pressure that follows the surface cannot be combined with the time "
           "scheme '" +
           scheme +
-          "'.\nAllowed with it: midpoint, over whose steps its work is pressure "
-          "times the change of volume.");
+          "', which takes forces from a potential.\nAllowed with it: " +
+          names_of_schemes(
+            [](const SchemeTraits &s) { return !s.needs_potential; }) +
+          ".");
       if (bulk.is_linear())
         throw InputError(
           "A pressure that follows the surface is for large strains; a linear "
@@ -665,23 +670,36 @@ namespace Ricochet
               [this, step = 1e-3 * parameters.time.time_step](const double time,
                                                               Vector &vector) {
                 impose_rate(time, step, vector);
-              }},
+              },
+              scheme_traits(parameters.scheme.name).has_inertia
+                ? SemiDiscreteSystem::Unknowns::Unheld()
+                : find_unheld_bodies(body, setup)},
              make_load(body, consistent_mass, weight, setup),
              parameters.newton,
              parameters.linear_solver,
              follower.get())
     , scheme(make_time_scheme(parameters.scheme))
+    , has_inertia(scheme_traits(parameters.scheme.name).has_inertia)
   {
     const SchemeTraits traits = scheme_traits(parameters.scheme.name);
     for (const Contact &one : contacts)
       check_motions(traits, one.obstacles);
-    if (is_moved(setup) && !traits.contact_over_step)
+    // With inertia of nodes that follow a motion, the work of a reaction at instants is
+    // not known.
+    const auto knows_imposed_work = [](const SchemeTraits &one) {
+      return one.contact_over_step || !one.has_inertia;
+    };
+    const bool has_motion =
+      std::any_of(setup.imposed.begin(),
+                  setup.imposed.end(),
+                  [](const auto &entry) { return bool(entry.second.value); });
+    if (has_motion && !knows_imposed_work(traits))
       throw InputError(
         "An imposed displacement cannot be combined with the time "
         "scheme '" +
         parameters.scheme.name +
-        "'.\nAllowed with it: midpoint, which knows the work of "
-        "its reaction.");
+        "', which does not know the work of its reaction.\nAllowed with it: " +
+        names_of_schemes(knows_imposed_work) + ".");
   }
 
 
@@ -693,6 +711,8 @@ namespace Ricochet
     for (const Prescription &prescription : prescriptions)
       vector(prescription.unknown) = prescription.value
         ? prescription.value(time, prescription.place)[prescription.component]
+        : start_displacement.size() > 0
+        ? start_displacement(prescription.unknown)
         : 0.;
     vector.compress(VectorOperation::insert);
   }
@@ -747,7 +767,7 @@ namespace Ricochet
   {
     Vector start;
     body.interpolate(velocity, start);
-    return state_with(start);
+    return state_with(uniform(Tensor<1, dim>()), start);
   }
 
 
@@ -755,6 +775,46 @@ namespace Ricochet
   template <int dim>
   State
   Impact<dim>::state_of_parts()
+  {
+    return state_with(uniform(Tensor<1, dim>()), velocities_of_parts());
+  }
+
+
+
+  template <int dim>
+  State
+  Impact<dim>::state_from(const CheckpointMotion &motion)
+  {
+    start_displacement = motion.solution;
+    for (const Prescription &one : prescriptions)
+      if (one.value)
+        {
+          const double there = start_displacement(one.unknown),
+                       here  = one.value(0., one.place)[one.component];
+          if (std::abs(there - here) >
+              1e-6 * std::max(std::abs(there), std::abs(here)))
+            throw InputError(
+              "A displacement that a condition imposes is " + to_text(here) +
+              " at t = 0, and " + to_text(there) +
+              " in the state from which this run starts, in the direction " +
+              std::string(1, "xyz"[one.component]) +
+              ". Begin its Value with what is there.");
+        }
+    Vector velocity = velocities_of_parts();
+    velocity += motion.velocity;
+    // The force of a law follows from the displacement.
+    std::vector<Vector> forces = motion.contact_forces;
+    for (unsigned int k = 0; k < std::min(forces.size(), contacts.size()); ++k)
+      if (!is_constraint(contacts[k].parameters))
+        forces[k].clear();
+    return state_with(motion.solution, velocity, forces);
+  }
+
+
+
+  template <int dim>
+  Vector
+  Impact<dim>::velocities_of_parts() const
   {
     const std::vector<unsigned int> part_of =
       body.parts_of_unknowns(parts.size());
@@ -791,14 +851,16 @@ namespace Ricochet
                                     }),
                   start);
       }
-    return state_with(start);
+    return start;
   }
 
 
 
   template <int dim>
   State
-  Impact<dim>::state_with(const Vector &velocity)
+  Impact<dim>::state_with(const Vector              &displacement,
+                          const Vector              &velocity,
+                          const std::vector<Vector> &contact_forces)
   {
     for (const Contact &own : contacts)
       {
@@ -808,9 +870,23 @@ namespace Ricochet
                         /* only what may touch */ !own.name.empty());
         check_clearance(body, own.pairs);
       }
-    return system.initial_state(uniform(Tensor<1, dim>()),
-                                velocity,
-                                /* time */ 0.);
+    if (has_inertia)
+      return system.initial_state(displacement,
+                                  velocity,
+                                  /* time */ 0.,
+                                  contact_forces);
+    if (velocity.linfty_norm() > 0.)
+      throw InputError(
+        "A body with a velocity at the start cannot be combined with a "
+        "static analysis, in which nothing has inertia.");
+    State state         = system.initial_state(displacement,
+                                       velocity,
+                                       /* time */ 0.,
+                                       contact_forces);
+    state.velocity      = 0.;
+    state.acceleration  = 0.;
+    state.mean_velocity = 0.;
+    return state;
   }
 
 

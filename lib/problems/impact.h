@@ -7,6 +7,7 @@
 #include <discretization/bulk_operator.h>
 #include <discretization/follower_pressure.h>
 #include <materials/material.h>
+#include <output/checkpoint.h>
 #include <problems/impact_parameters.h>
 
 #include <memory>
@@ -99,6 +100,8 @@ namespace Ricochet
     std::map<dealii::types::boundary_id, VectorField<dim>> tractions = {};
     /// Pressures that follow the surface.
     std::vector<BoundaryPressure<dim>> pressures = {};
+    /// The bodies start with displacements, see Impact::state_from().
+    bool starts_displaced = false;
     /// Springs and dashpots on parts of the boundary.
     std::vector<BoundarySprings<dim>> springs = {};
     /// The geometry of curved cells (see curved_geometry.h), with degree 2; null for
@@ -149,6 +152,8 @@ namespace Ricochet
     const std::unique_ptr<FollowerLoad> follower;
     SemiDiscreteSystem                  system;
     const std::unique_ptr<TimeScheme>   scheme;
+    /// SchemeTraits::has_inertia
+    const bool has_inertia;
 
     /// Set the prescribed displacements in @p vector to those at @p time (s).
     void
@@ -167,7 +172,7 @@ namespace Ricochet
     ///
     /// @throws InputError when it overlaps with an obstacle, or parts of it with
     /// others, or an obstacle is inconsistent at the initial position of the
-    /// body.
+    /// body, and without inertia when there is a velocity.
     State
     state_in_flight(const dealii::Tensor<1, dim> &velocity);
 
@@ -179,9 +184,24 @@ namespace Ricochet
     State
     state_of_parts();
 
-  private:
+    /// The motion of another run, to which the velocities of the parts are added.
+    /// Displacements that conditions prescribe as zero stay what they are there.
+    /// @throws InputError when others begin elsewhere, and what state_in_flight() throws.
     State
-    state_with(const Vector &velocity);
+    state_from(const CheckpointMotion &motion);
+
+  private:
+    /// Velocities of all parts, with their spins (m/s).
+    Vector
+    velocities_of_parts() const;
+
+    /// Displacements with which the run starts (m); of size 0 for none.
+    Vector start_displacement;
+
+    State
+    state_with(const Vector              &displacement,
+               const Vector              &velocity,
+               const std::vector<Vector> &contact_forces = {});
   };
 
   /// The half space below x_dim = 0, as the obstacle of the boundary @p

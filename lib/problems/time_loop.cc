@@ -782,7 +782,7 @@ namespace Ricochet
                  const Sums        &sums_of_state)
   {
     if (!mesh)
-      mesh.emplace(system.unknowns);
+      mesh.emplace(system.unknowns, folder.communicator);
     Checkpoint{step,
                sums_of_state.to_list(),
                ledger.seal(),
@@ -826,7 +826,7 @@ namespace Ricochet
   {
     if (folder.resume)
       {
-        mesh.emplace(system.unknowns);
+        mesh.emplace(system.unknowns, folder.communicator);
         const Checkpoint   checkpoint = Checkpoint::read(folder, state, *mesh);
         const unsigned int step       = checkpoint.step;
         const double       time = state.time + step * parameters.time_step;

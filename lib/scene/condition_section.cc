@@ -74,10 +74,10 @@ namespace Ricochet
       "Kind",
       kind,
       "fixed: does not move. displacement: moves as Value says (m), with the "
-      "midpoint scheme. traction: is loaded by Value (Pa), a force per area of "
+      "midpoint scheme or static. traction: is loaded by Value (Pa), a force per area of "
       "the undeformed body that keeps its direction. pressure: is loaded by Value (Pa), "
-      "one expression, across the deformed surface, which it follows (with the midpoint "
-      "scheme, for hyperelastic bodies). springs: is held by springs "
+      "one expression, across the deformed surface, which it follows (for "
+      "hyperelastic bodies). springs: is held by springs "
       "and dashpots.",
       Patterns::Selection("fixed|displacement|traction|pressure|springs"));
     parameters.add_parameter(

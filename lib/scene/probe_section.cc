@@ -23,9 +23,9 @@ namespace Ricochet
       "What to write: displacement, velocity or acceleration (with the midpoint "
       "scheme its mean over the last step); the elastic Cauchy stress; the "
       "rotation of the whole body (rad, from -pi to pi; in 3D a vector along its "
-      "axis); or, with the midpoint scheme, the force of what holds or moves a "
-      "boundary (mean over the last step) or its impulse (force times time, since "
-      "the start).",
+      "axis); the force of what holds or moves a boundary, with the midpoint scheme "
+      "(mean over the last step) or static; or, with the midpoint scheme, its impulse "
+      "(force times time, since the start).",
       Patterns::Selection(
         "displacement|velocity|acceleration|stress|rotation|force|impulse"));
     parameters.add_parameter("Body",
@@ -70,9 +70,11 @@ namespace Ricochet
   ProbeSection<dim>::held_unknowns(const Impact<dim>  &impact,
                                    const SurfaceNames &surfaces) const
   {
-    if (!impact.scheme->contact_force_is_of_step())
+    if (!impact.scheme->contact_force_is_of_step() &&
+        (impact.has_inertia || quantity != "force"))
       throw InputError(name_of("Quantity") + ": the " + quantity +
-                       " is known with the midpoint scheme only.");
+                       " is known with the midpoint scheme" +
+                       (quantity == "force" ? " or static only." : " only."));
     std::array<IndexSet, dim> held;
     types::global_dof_index   n = 0;
     for (unsigned int c = 0; c < dim; ++c)
@@ -104,6 +106,21 @@ namespace Ricochet
       {
         const std::string name =
           section.column_name() + "_" + quantity + "_" + "xyz"[c];
+        if (!impact.has_inertia)
+          {
+            loop.add_column(
+              name,
+              "N",
+              [&impact, held = held[c], forces = Vector()](
+                const State &state) mutable {
+                impact.system.static_reactions(state, forces);
+                double sum = 0.;
+                for (const auto i : held)
+                  sum += forces(i);
+                return Utilities::MPI::sum(sum, impact.body.communicator);
+              });
+            continue;
+          }
         const auto impulse_of_step =
           [&impact, held = held[c]](const State &begin, const State &end) {
             const Vector &forces = impact.system.reaction_forces();

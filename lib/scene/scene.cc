@@ -112,6 +112,14 @@ namespace Ricochet
                              gravity,
                              "Acceleration of gravity (m/s^2).");
     parameters.add_parameter(
+      "From",
+      start_from,
+      "Output folder of another run of the same bodies, at whose last checkpoint this one "
+      "starts: with its displacements and velocities, to which those of the bodies are "
+      "added. Time begins at 0. What is fixed stays where it is there. Empty: "
+      "without displacement.",
+      Patterns::Anything());
+    parameters.add_parameter(
       "Advance",
       advance,
       "How long the bodies have flown already, each with its velocity alone (s): "
@@ -168,6 +176,39 @@ namespace Ricochet
   // ### The sections together
   template <int dim>
   void
+  Scene<dim>::check(const ContactSection &contact,
+                    const Touching       &touching,
+                    const bool            redistributed_mass) const
+  {
+    bool is_linear = true, is_viscous = false;
+    for (const PartOfScene &part : parts)
+      {
+        is_linear  = is_linear && part.material.is_linear();
+        is_viscous = is_viscous ||
+          (part.material.viscosity != "none" &&
+           part.material.viscosity_eta > 0.);
+      }
+    const SchemeTraits scheme = scheme_traits(impact.scheme.name);
+    check_combination(contact.parameters,
+                      scheme,
+                      redistributed_mass,
+                      is_linear,
+                      is_viscous,
+                      degree);
+    for (const unsigned int k : touching.obstacles)
+      check_motions(scheme,
+                    {{0, obstacles[k].second.make(impact.time.final_time)}});
+    if (touching.obstacles.empty())
+      check_pair_combination(
+        contact.parameters,
+        scheme,
+        {touching.is_self, dim, degree, is_linear, redistributed_mass});
+  }
+
+
+
+  template <int dim>
+  void
   Scene<dim>::validate()
   {
     if (bodies.empty() || bodies.front().section.where == "no file")
@@ -180,16 +221,17 @@ namespace Ricochet
       if (!body.acceleration.empty())
         parse_vector_field<dim>(body.acceleration,
                                 body.name_of("Acceleration"));
+    for (const BodySection<dim> &body : bodies)
+      if (!scheme_traits(impact.scheme.name).has_inertia &&
+          (body.velocity.norm() > 0. || body.spin.norm() > 0.))
+        throw InputError(
+          body.section.where + ": the body '" + body.section.name +
+          "' has a velocity at the start, which has no meaning with the "
+          "time scheme " +
+          impact.scheme.name + ", in which nothing has inertia.");
     make_meshes();
-    bool is_linear = true, is_viscous = false;
     for (const PartOfScene &part : parts)
-      {
-        const MaterialParameters &material = part.material;
-        material.validate(dim, impact.scheme.name);
-        is_linear  = is_linear && material.is_linear();
-        is_viscous = is_viscous ||
-          (material.viscosity != "none" && material.viscosity_eta > 0.);
-      }
+      part.material.validate(dim, impact.scheme.name);
 
     find_missing_values();
     for (const ContactSection &contact : contacts)
@@ -197,24 +239,7 @@ namespace Ricochet
         const Touching touching = find_touching(contact);
         try
           {
-            check_combination(contact.parameters,
-                              scheme_traits(impact.scheme.name),
-                              impact.redistributed_mass(),
-                              is_linear,
-                              is_viscous,
-                              degree);
-            for (const unsigned int k : touching.obstacles)
-              check_motions(
-                scheme_traits(impact.scheme.name),
-                {{0, obstacles[k].second.make(impact.time.final_time)}});
-            if (touching.obstacles.empty())
-              check_pair_combination(contact.parameters,
-                                     scheme_traits(impact.scheme.name),
-                                     {touching.is_self,
-                                      dim,
-                                      degree,
-                                      is_linear,
-                                      impact.redistributed_mass()});
+            check(contact, touching, impact.redistributed_mass());
           }
         catch (const InputError &error)
           {

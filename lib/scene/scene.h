@@ -95,6 +95,13 @@ namespace Ricochet
     void
     find_missing_values();
 
+    /// Refuse a combination of treatment, scheme, mass, material and what @p touching
+    /// names that has no meaning. @throws InputError
+    void
+    check(const ContactSection &contact,
+          const Touching       &touching,
+          const bool            redistributed_mass) const;
+
     /// The smallest gap at the start (m).
     double
     initial_gap(const ContactSection &contact) const;
@@ -120,7 +127,8 @@ namespace Ricochet
     ImpactParameters       impact;
     unsigned int           degree = 1;
     dealii::Tensor<1, dim> gravity;
-    double                 advance      = 0.;
+    double                 advance = 0.;
+    std::string            start_from;
     unsigned int           meshing_time = 600;
     std::string            units_text   = "m, kg, s";
 

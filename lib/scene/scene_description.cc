@@ -87,6 +87,35 @@ namespace Ricochet
             name + " (" + to_text(value) +
             " in the units of this file). Stick is exact with Signorini active "
             "set, persistent contact and Ayyad-Barboteu two-step.");
+    // Nodes that land are stopped within one step.
+    const bool is_stopped_in_a_step =
+      std::any_of(contacts.begin(),
+                  contacts.end(),
+                  [](const ContactSection &contact) {
+                    return is_constraint(contact.parameters);
+                  });
+    const auto may_be_redistributed = [&]() {
+      try
+        {
+          for (const ContactSection &contact : contacts)
+            check(contact, find_touching(contact), true);
+        }
+      catch (const InputError &)
+        {
+          return false;
+        }
+      return true;
+    };
+    if (is_stopped_in_a_step && !impact.redistributed_mass() &&
+        scheme_traits(impact.scheme.name).has_inertia)
+      lines.push_back(
+        std::string(
+          "note: conditions of contact stop nodes with inertia within "
+          "one step, so that the largest contact force depends on the "
+          "step; impulses and energy do not. ") +
+        (may_be_redistributed()
+           ? "With Time/Mass = redistributed it converges."
+           : "A law (normal compliance) does not stop them so."));
     return lines;
   }
 

@@ -35,8 +35,9 @@ namespace Ricochet
   Scene<dim>::make_setup() const
   {
     ImpactSetup<dim> setup{parts.front().material.template make<dim>()};
-    setup.degree  = degree;
-    setup.gravity = gravity;
+    setup.degree           = degree;
+    setup.starts_displaced = !start_from.empty();
+    setup.gravity          = gravity;
     for (const PartOfScene &own : parts)
       {
         const BodySection<dim> &body = bodies[own.body];
@@ -298,7 +299,20 @@ namespace Ricochet
                (contacts.size() == 1 ? " contact, " : " contacts, ") +
                impact.scheme.name);
 
-    const State initial_state = assembly.state_of_parts();
+    State initial_state;
+    if (start_from.empty())
+      initial_state = assembly.state_of_parts();
+    else
+      {
+        const auto motion =
+          CheckpointMotion::read(start_from,
+                                 assembly.body.make_vector(),
+                                 CheckpointMesh(assembly.system.unknowns,
+                                                folder.communicator));
+        initial_state = assembly.state_from(motion);
+        folder.log("starts from " + start_from +
+                   " at its t = " + Units(units_text).text(motion.time, "s"));
+      }
 
     // Boundaries of one contact have common columns.
     std::map<types::boundary_id, std::string> names;

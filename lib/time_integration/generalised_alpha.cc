@@ -220,6 +220,9 @@ namespace Ricochet
     system.external_load(old_state.time, old_part);
     system.external_load(new_state.time, new_part);
     report.external_work += .5 *
-      product(entries(old_part) + entries(new_part), increment, communicator);
+        product(entries(old_part) + entries(new_part),
+                increment,
+                communicator) +
+      system.trapezoidal_follower_work(old_state, new_state);
   }
 } // namespace Ricochet

@@ -23,6 +23,8 @@ namespace Ricochet
     /// The scheme gives its stages the velocity at their instant, on which friction and
     /// viscosity depend (Stage::rate_origin); needless where contact acts over a step.
     bool gives_rates = false;
+    /// Bodies have inertia: without, steps are those of a load.
+    bool has_inertia = true;
 
     /// A scheme whose contact acts at instants and which knows the velocity there.
     static SchemeTraits

@@ -4,6 +4,7 @@
 #include <time_integration/semi_discrete_system.h>
 #include <time_integration/stage_problem.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Ricochet
@@ -112,10 +113,10 @@ namespace Ricochet
   }
 
   void
-  SemiDiscreteSystem::total_force(const Vector &solution,
-                                  const Vector &contact_force,
-                                  const double  time,
-                                  Vector       &result) const
+  SemiDiscreteSystem::sum_of_forces(const Vector &solution,
+                                    const Vector &contact_force,
+                                    const double  time,
+                                    Vector       &result) const
   {
     bulk.force(solution, result);
     result += contact_force;
@@ -129,7 +130,31 @@ namespace Ricochet
         follower->step_force(solution, solution, time, time, work);
         result -= work;
       }
+  }
+
+  void
+  SemiDiscreteSystem::total_force(const Vector &solution,
+                                  const Vector &contact_force,
+                                  const double  time,
+                                  Vector       &result) const
+  {
+    sum_of_forces(solution, contact_force, time, result);
     set_clamped_to_zero(clamped, result);
+  }
+
+  void
+  SemiDiscreteSystem::static_reactions(const State &state, Vector &forces) const
+  {
+    forces.reinit(state.solution);
+    sum_of_forces(state.solution,
+                  state.contact_force,
+                  state.time,
+                  constant_part);
+    if (bulk.is_viscous())
+      constant_part += state.viscous_force;
+    for (const auto i : clamped)
+      forces(i) = constant_part(i);
+    forces.compress(VectorOperation::insert);
   }
 
   double
@@ -146,6 +171,27 @@ namespace Ricochet
     constant_part = new_state.solution;
     constant_part -= old_state.solution;
     return work * constant_part;
+  }
+
+  double
+  SemiDiscreteSystem::trapezoidal_follower_work(const State &old_state,
+                                                const State &new_state) const
+  {
+    if (!follower)
+      return 0.;
+    constant_part = new_state.solution;
+    constant_part -= old_state.solution;
+    double sum = 0.;
+    for (const State *state : {&old_state, &new_state})
+      {
+        follower->step_force(state->solution,
+                             state->solution,
+                             state->time,
+                             state->time,
+                             work);
+        sum += .5 * (work * constant_part);
+      }
+    return sum;
   }
 
   void
@@ -165,9 +211,10 @@ namespace Ricochet
   }
 
   State
-  SemiDiscreteSystem::initial_state(const Vector &displacement,
-                                    const Vector &velocity,
-                                    const double  time)
+  SemiDiscreteSystem::initial_state(const Vector              &displacement,
+                                    const Vector              &velocity,
+                                    const double               time,
+                                    const std::vector<Vector> &contact_forces)
   {
     frozen_tangent.forget();
     State state;
@@ -189,6 +236,18 @@ namespace Ricochet
     state.mean_velocity = state.velocity;
 
     set_contact_force(state);
+    if (state.contact_shares.empty() && contact_forces.size() == 1 &&
+        contact_forces[0].size() > 0)
+      copy_values(contact_forces[0], state.contact_force);
+    for (unsigned int k = 0;
+         k < std::min(contact_forces.size(), state.contact_shares.size());
+         ++k)
+      if (contact_forces[k].size() > 0)
+        {
+          state.contact_force -= state.contact_shares[k];
+          state.contact_force += contact_forces[k];
+          copy_values(contact_forces[k], state.contact_shares[k]);
+        }
     if (bulk.is_viscous())
       {
         // In one second the body comes from here.
@@ -383,7 +442,8 @@ namespace Ricochet
     // No second attempt in this stage after a failure, which would repeat
     // itself.
     bool condenses = linear_solver.condenses() &&
-      (bulk.is_linear() || quasi_newton.is_allowed());
+      (bulk.is_linear() ||
+       (stage.is_near_last_state && quasi_newton.is_allowed()));
     const auto solve_all_passes = [&]() {
       problem.forget_tangents();
       body_is_condensed         = false;

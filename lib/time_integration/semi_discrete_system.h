@@ -64,6 +64,15 @@ namespace Ricochet
       /// are zero.
       std::function<void(const double time, Vector &displacement)> impose  = {};
       std::function<void(const double time, Vector &velocity)> impose_rate = {};
+
+      /// Bodies that no support holds in all directions, by their names, and their
+      /// smallest cell (m): they have no inertia to hold them in a static analysis.
+      struct Unheld
+      {
+        std::vector<std::string> bodies;
+        double                   cell_size = 0.;
+      };
+      Unheld unheld = {};
     };
 
     /**
@@ -87,10 +96,14 @@ namespace Ricochet
     /// A state with @p displacement and @p velocity (system vectors) at time
     /// @p time, with the contact force and the acceleration M^{-1}(load - bulk
     /// - contact) that follow (paper C, section 4).
+    ///
+    /// @param contact_forces the force (N) of each contact where it does not follow from
+    /// the displacement, or vectors of size 0.
     State
-    initial_state(const Vector &displacement,
-                  const Vector &velocity,
-                  const double  time);
+    initial_state(const Vector              &displacement,
+                  const Vector              &velocity,
+                  const double               time,
+                  const std::vector<Vector> &contact_forces = {});
 
     /**
      * Solve @p stage. The solution of @p new_state is the initial guess on entry;
@@ -140,6 +153,11 @@ namespace Ricochet
     double
     imposed_work(const Vector &way) const;
 
+    /// Forces (N) on the body at prescribed displacements that keep it in equilibrium at
+    /// @p state without inertia, in their rows.
+    void
+    static_reactions(const State &state, Vector &forces) const;
+
     /// Reactions (N) on the body at prescribed displacements, in their rows: the
     /// residual of the equations of the last solve_stage(). With the midpoint scheme
     /// they are means over the step.
@@ -161,6 +179,11 @@ namespace Ricochet
     /// two states; 0 without.
     double
     follower_work(const State &old_state, const State &new_state) const;
+
+    /// The same by the trapezoidal rule, for schemes with forces of instants.
+    double
+    trapezoidal_follower_work(const State &old_state,
+                              const State &new_state) const;
 
     /// The external load at @p time, except for the one that depends on the
     /// displacement.
@@ -280,6 +303,13 @@ namespace Ricochet
     condense_body(StageProblem &problem,
                   const Stage  &stage,
                   const Vector &old_solution);
+
+    /// total_force() with the rows of prescribed displacements.
+    void
+    sum_of_forces(const Vector &solution,
+                  const Vector &contact_force,
+                  const double  time,
+                  Vector       &result) const;
 
     /// Take the contact forces from the operator's last evaluation.
     void

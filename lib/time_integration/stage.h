@@ -42,6 +42,10 @@ namespace Ricochet
     Vector rate_origin;
     double rate_time = 0.;
 
+    /// The solution is so near to the last state that a nonlinear body may be solved with
+    /// the tangent there; not so in a load step.
+    bool is_near_last_state = true;
+
     /// External load (N), already weighted.
     Vector load;
   };

@@ -30,6 +30,15 @@ namespace Ricochet
         constant_part.add(stage.bulk_weight_old, parts.force);
         if (parts.bulk.is_viscous())
           constant_part.add(stage.bulk_weight_old, old_state.viscous_force);
+        if (parts.follower)
+          {
+            parts.follower->step_force(old_state.solution,
+                                       old_state.solution,
+                                       old_state.time,
+                                       old_state.time,
+                                       parts.force);
+            constant_part.add(-stage.bulk_weight_old, parts.force);
+          }
       }
     if (stage.contact_weight_old != 0.)
       constant_part.add(stage.contact_weight_old, old_state.contact_force);
@@ -172,6 +181,16 @@ namespace Ricochet
             force_scale += l2_norm(parts.force);
             result.add(stage.bulk_weight_new, parts.force);
           }
+        if (parts.follower)
+          {
+            parts.follower->step_force(point,
+                                       point,
+                                       stage.end_time,
+                                       stage.end_time,
+                                       parts.force);
+            force_scale += l2_norm(parts.force);
+            result.add(-stage.bulk_weight_new, parts.force);
+          }
       }
     parts.contact.add_residual(point, result);
     contact_scale =
@@ -212,10 +231,19 @@ namespace Ricochet
         matrix.reinit(pattern);
       parts.mass.add_to(stage.inertia, matrix);
       add_bulk_tangent(point, matrix);
-      if (stage.bulk_step_force && parts.follower)
-        parts.follower->subtract_step_tangent(point.old_solution,
+      // At an instant both ends are the same state, and change alike.
+      if (parts.follower && stage.bulk_step_force)
+        parts.follower->subtract_step_tangent(1.,
+                                              point.old_solution,
                                               point.solution,
                                               point.begin,
+                                              point.end,
+                                              matrix);
+      else if (parts.follower)
+        parts.follower->subtract_step_tangent(2. * stage.bulk_weight_new,
+                                              point.solution,
+                                              point.solution,
+                                              point.end,
                                               point.end,
                                               matrix);
     };

@@ -5,6 +5,7 @@
 #include <time_integration/midpoint.h>
 #include <time_integration/newmark.h>
 #include <time_integration/scheme_traits.h>
+#include <time_integration/static_equilibrium.h>
 #include <time_integration/time_scheme_table.h>
 #include <time_integration/tr_bdf2.h>
 
@@ -30,7 +31,8 @@ namespace Ricochet
          time_scheme_entry<TRBDF2>(),
          time_scheme_entry<BDF2>(),
          time_scheme_entry<Midpoint>(),
-         time_scheme_entry<ARKode>()});
+         time_scheme_entry<ARKode>(),
+         time_scheme_entry<StaticEquilibrium>()});
       return schemes;
     }
   } // namespace

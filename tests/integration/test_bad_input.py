@@ -91,7 +91,7 @@ class BadInput(Refusal):
 
     def test_arkode_with_constraints(self):
         self.refuse("cannot be combined with the time scheme 'ARKODE'",
-                    "Crank-Nicolson, HHT, generalised-alpha, Newmark, TR-BDF2, BDF2, midpoint.",
+                    "Crank-Nicolson, HHT, generalised-alpha, Newmark, TR-BDF2, BDF2, midpoint, static.",
                     parameters=["Contact/Treatment=Signorini active set",
                                 "Time/Scheme=ARKODE"])
 

@@ -69,7 +69,8 @@ class Combinations(ProgramTest):
             self.skipTest("the same code as of the other bar")
         ledgers = self.check("bar_ss")
         # Each of them condensed to contact, which bars of this size are not by themselves.
-        condensed = [(name, program, parameters + ["Linear solver/Type=condensed"])
+        condensed = [(name, program, parameters + ["Linear solver/Type=condensed",
+                                                   "Time/Final time=3"])
                      for name, program, parameters in self.cases("bar_ss")]
         for name, ledger in self.run_many(condensed):
             with self.subTest(f"condensed: {name}"):

@@ -46,7 +46,7 @@ end
 subsection Time
   set Scheme     = {scheme}
   set Mass       = {mass}
-  set Time step  = 1e-3
+  set Time step  = {step}
   set Final time = {end}
 end
 subsection Output
@@ -70,8 +70,8 @@ end
 
 
 def clamp(path, dim, n):
-    """A mesh of a block with a slot, whose sides are 0.001 apart, as text of Gmsh's format, with
-    n cells across the arms, of unequal heights. Boundary 1 is both sides of the slot."""
+    """A mesh of a block with a slot, whose sides are 0.01 apart, as text of Gmsh's format, with
+    n cells across the arms, of unequal heights. Boundary 1 is both sides of the slot, 2 the foot."""
     numbers, cells, sides = {}, [], []
 
     def add(x, y, z):
@@ -87,10 +87,14 @@ def clamp(path, dim, n):
             cells.append([add(x, y, z) for z in levels for x, y in around])
             if side in (x0, x1):
                 corners = [add(side, y, z0) for y in (y0, y1)]
-                sides.append(corners if dim == 2 else
-                             corners + [add(side, y, z1) for y in (y1, y0)])
+                sides.append((1, corners if dim == 2 else
+                              corners + [add(side, y, z1) for y in (y1, y0)]))
+            if y0 == 0.:
+                corners = [add(x, y0, z0) for x in (x0, x1)]
+                sides.append((2, corners if dim == 2 else
+                              corners + [add(x, y0, z1) for x in (x1, x0)]))
 
-    left = [k / n * .4995 for k in range(n + 1)]
+    left = [k / n * .495 for k in range(n + 1)]
     right = [1. - x for x in reversed(left)]
     foot = 1. / n
     boxes(left + right, [0., foot])
@@ -100,25 +104,39 @@ def clamp(path, dim, n):
     lines += [f"{number} {x} {y} {z}" for (x, y, z), number in numbers.items()]
     lines += ["$EndNodes", "$Elements", str(len(cells) + len(sides))]
     elements = [(3 if dim == 2 else 5, 0, cell) for cell in cells]
-    elements += [(1 if dim == 2 else 3, 1, side) for side in sides]
+    elements += [(1 if dim == 2 else 3, tag, side) for tag, side in sides]
     lines += [f"{k} {kind} 2 {tag} {tag} " + " ".join(map(str, nodes))
               for k, (kind, tag, nodes) in enumerate(elements, 1)]
     path.write_text("\n".join(lines + ["$EndElements", ""]), encoding="utf-8")
 
 
+def condition(name, boundary, kind, dim, depth=0.):
+    value = "  set Value = " + "0; " * (dim - 1) + f"-{depth}*t\n"
+    return f"""subsection Condition {name}
+  set Boundary = {boundary}
+  set Kind     = {kind}
+{value * (kind == "displacement")}end
+"""
+
+
 def scene(folder, row):
-    """The text of a scene with the choices of a row of the list."""
+    """The text of a scene with the choices of a row of the list. Without inertia bodies are held and
+    pressed instead of thrown."""
     dim = int(row["dimension"])
+    is_static = row["scheme"] == "static"
+    speed = 0 if is_static else -1
     treatment, *choice = row["treatment"].split(", ")
     is_linear = row["material"] == "linear elastic"
     # With fewer than four cells across a body the mass cannot be redistributed.
     n = 4 if row["mass"] == "redistributed" else 2
     def at(height):
         return [0] * (dim - 1) + [height]
+    # A slot that closes by less than a quarter of itself in a step.
+    closes = row["contact"] == "itself" and not is_static
     coupling = ""
     if "obstacle" in row["contact"]:
         motion = "  set Translation = 0.1*t" + "; 0" * (dim - 1) + "\n"
-        bodies = block("upper", at(.001), at(-1), dim, n) + (
+        bodies = block("upper", at(.001), at(speed), dim, n) + (
             "subsection Obstacle floor\n  set Shape = half space\n" +
             motion * (row["contact"] == "moving obstacle") + "end\n")
         surface, against = "upper: lower", "floor"
@@ -126,17 +144,26 @@ def scene(folder, row):
         mesh = folder / f"clamp-{dim}-{n}.msh"
         if not mesh.exists():
             clamp(mesh, dim, n)
-        # Arms accelerated towards each other.
-        rate = "-900*(x-0.5)*y^2" + "; 0" * (dim - 1)
+        # Arms accelerated towards each other, or pressed.
+        load = "7500*t" if row["viscosity"] == "yes" else "6000*t"
+        rate = f"-{load if is_static else 900}*(x-0.5)*y^2" + "; 0" * (dim - 1)
         bodies = (f"subsection Body clamp\n  set File         = {mesh}\n"
                   f"  set Material     = rubber\n  set Acceleration = {rate}\nend\n")
         surface, against = "clamp: 1", "itself"
     else:
         gap = 0. if row["contact"] == "cut faces" else .001
         bodies = (block("lower", at(0), at(0), dim, n) +
-                  block("upper", at(1 + gap), at(-1), dim, n + 1))
+                  block("upper", at(1 + gap), at(speed), dim, n + 1))
         surface, against = "upper: lower", "lower: upper"
         coupling = f"set Coupling = {row['contact']}"
+    if is_static:
+        if row["contact"] == "itself":
+            bodies += condition("foot", "clamp: 2", "fixed", dim)
+        else:
+            # By 4 mm within five steps.
+            bodies += condition("press", "upper: upper", "displacement", dim, .8)
+        if "lower" in against:
+            bodies += condition("foot", "lower: lower", "fixed", dim)
     friction = {"none": "", "Coulomb": "set Friction coefficient = 0.3",
                 "slip-rate dependent": "set Static coefficient = 0.4\n"
                                        "  set Dynamic coefficient = 0.2\n"
@@ -150,7 +177,8 @@ def scene(folder, row):
         bodies=bodies, surface=surface, against=against, treatment=treatment,
         coupling=coupling, friction=friction,
         friction_law=row["friction"] if "slip" in row["friction"] else "Coulomb",
-        choice="set Nitsche " + choice[0] if choice else "", end=STEPS * 1e-3)
+        choice="set Nitsche " + choice[0] if choice else "", end=1e-2 if closes else STEPS * 1e-3,
+        step=5e-4 if closes else 1e-3)
 
 
 def covering_array(rows, strength):

@@ -9,10 +9,11 @@ import unittest
 import common
 from common import ROOT, ProgramTest, is_debug_build, main
 
-sys.path.insert(0, str(ROOT / "examples"))
+sys.path[:0] = [str(ROOT / "examples"), str(ROOT / "examples" / "verification")]
 
 try:
     import check
+    import verification
 except ImportError:
     check = None
 
@@ -31,7 +32,18 @@ class Examples(ProgramTest):
                 with self.subTest(f"{name}: {number.what}"):
                     self.assertTrue(check.is_good(number), msg=str(number))
 
+    def test_static_cases_of_other_codes(self):
+        """Numbers of smith, 4C and asimov-contact, of Hertz, Lame and Heyman, and by hand."""
+        if is_debug_build():
+            self.skipTest("the release build runs them")
+        for name in verification.QUICK:
+            for number in verification.compute(name, common.arguments.programs, self.folder):
+                with self.subTest(f"{name}: {number.what}"):
+                    self.assertTrue(verification.is_good(number), msg=str(number))
+
     def test_a_wrong_number_is_found(self):
+        self.assertFalse(verification.is_good(verification.Number("a", 1., .01, 1.02)))
+        self.assertTrue(verification.is_good(verification.Number("a", -1., .01, -1.009)))
         self.assertTrue(check.is_good(check.near("a", 1.001, 1., .01)))
         self.assertFalse(check.is_good(check.near("a", 1.02, 1., .01)))
         self.assertFalse(check.is_good(check.near("a", float("nan"), 1., .01)))
@@ -41,7 +53,10 @@ class Examples(ProgramTest):
     def test_all_files_are_valid(self):
         files = sorted((ROOT / "examples").glob("*.prm"))
         self.assertEqual([path.stem for path in files], sorted(check.EXAMPLES))
-        for path in files:
+        static = sorted((ROOT / "examples" / "verification").glob("*.prm"))
+        self.assertEqual([path.stem for path in static],
+                         sorted(set(verification.CASES) - set(verification.VARIANTS)))
+        for path in files + static:
             with self.subTest(path.stem):
                 code, _, error = self.attempt("ricochet", options=["--validate"],
                                               prm=path)

@@ -101,6 +101,24 @@ class Promises(ProgramTest):
                 self.assertLess(max(ledger["promise_residual"]), 1e-9)
                 self.assertGreater(max(ledger["contact_force_c1"]), 100.)
 
+    def test_a_stack_comes_to_rest(self):
+        """With viscosity what lies on a joint is its force: by hand 5000 N and 10000 N on two blocks
+        of 500 kg with 10 m/s2. With the consistent mass it alternates from step to step."""
+        bodies = [block(f"b{k}", f"0, {.5 * k}", size="1, 0.5", cells="8, 4").replace(
+            "set Velocity", "set Viscosity = Curnier\n  set Viscosity eta = 1e4\n  set Velocity")
+            for k in range(3)]
+        contacts = [self.contact("persistent contact", f"b{k}: lower", f"b{k - 1}: upper",
+                                 f"c{k}") for k in (1, 2)]
+        file = self.scene(bodies, contacts, FOOT.format(boundary="b0: lower") +
+                          GRAVITY.format(gravity="0, -10"), end=4., step=1e-2)
+        found, out, err = self.attempt("ricochet", ["Time/Mass=redistributed"], prm=file,
+                                       options=["--overwrite"])
+        self.assertEqual(found, 0, msg=out + err)
+        ledger = Ledger(self.folder / "run")
+        self.assertLess(max(ledger["promise_residual"]), 1e-9)
+        for number, weight in ((1, 1e4), (2, 5e3)):
+            self.assertLess(abs(ledger[f"contact_force_c{number}"][-1] / weight - 1.), 1e-6)
+
     def test_cubes_that_meet_face_to_face(self):
         """Nodes that meet nodes, and nodes that meet the diagonals of quadrilaterals: equal cubes
         went apart with 1097 of 1000 J, and with sharp edges 2e-6 of it still changed; against a

@@ -284,7 +284,7 @@ check_pressure(const dealii::Triangulation<dim> &mesh)
 
   Matrix tangent;
   tangent.reinit(body.sparsity_pattern());
-  load.subtract_step_tangent(begin, end, 0., 1., tangent);
+  load.subtract_step_tangent(1., begin, end, 0., 1., tangent);
   Vector product = body.make_vector(), moved(end), other = body.make_vector();
   tangent.vmult(product, way);
   const double h = 1e-5;

@@ -65,11 +65,15 @@ namespace Ricochet
         node.initial_reaction = -1. * evaluator.at_node(p, start.contact_force);
         node.candidate        = true;
         // The mean velocity leads away from a curved surface, and pressed nodes
-        // would be released.
+        // would be released; so would be nodes that rest on a plane with a gap of round-off.
         if (condition == Condition::persistent)
-          node.candidate = kinematics->predicted_gap(p) <= 0. ||
-            (!kinematics->has_constant_rows() &&
-             node.initial_reaction.norm_square() > 0.);
+          {
+            const double gap         = kinematics->predicted_gap(p);
+            const bool   was_pressed = node.initial_reaction.norm_square() > 0.;
+            const bool   is_near     = !kinematics->has_constant_rows() ||
+              gap <= 1e-12 * evaluator.contact_points()[p].cell_diameter;
+            node.candidate = gap <= 0. || (was_pressed && is_near);
+          }
       }
   }
 

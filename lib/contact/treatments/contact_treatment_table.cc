@@ -333,6 +333,7 @@ namespace Ricochet
     std::vector<std::string> schemes;
     for (const SchemeTraits &scheme : all_scheme_traits())
       if ((scheme.contact_over_step || !traits.is_two_point) &&
+          (scheme.has_inertia || !redistributed_mass) &&
           (is_function || !scheme.needs_potential))
         schemes.push_back(scheme.name);
     return schemes;
@@ -442,6 +443,12 @@ namespace Ricochet
         names_of([](const auto &t) { return !t.uses_stress; }) + ".");
     if (find(parameters).check)
       find(parameters).check(parameters.values);
+    if (redistributed_mass && !scheme.has_inertia)
+      throw InputError(
+        "The redistributed mass cannot be combined with the time scheme '" +
+        scheme.name + "', in which nothing has inertia.\nAllowed with it: " +
+        names_of_schemes([](const SchemeTraits &s) { return s.has_inertia; }) +
+        ".");
     if ((viscous || has_friction(parameters)) && redistributed_mass &&
         !scheme.contact_over_step)
       throw InputError(

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A strap around the upper half of a drum of radius 1: thickness 0.01, in 120 cells along it.
+t = 0.01;
+Point(1) = {0, 0, 0};
+Point(2) = {1, 0, 0};
+Point(3) = {0, 1, 0};
+Point(4) = {-1, 0, 0};
+Point(5) = {1 + t, 0, 0};
+Point(6) = {0, 1 + t, 0};
+Point(7) = {-1 - t, 0, 0};
+Circle(1) = {2, 1, 3};
+Circle(2) = {3, 1, 4};
+Circle(3) = {5, 1, 6};
+Circle(4) = {6, 1, 7};
+Line(5) = {2, 5};
+Line(6) = {3, 6};
+Line(7) = {4, 7};
+Curve Loop(1) = {1, 6, -3, -5};
+Curve Loop(2) = {2, 7, -4, -6};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Transfinite Curve {1:4} = 61;
+Transfinite Curve {5:7} = 3;
+Transfinite Surface {1, 2};
+Recombine Surface {1, 2};
+Physical Surface("strap") = {1, 2};
+Physical Curve("inside") = {1, 2};
+Physical Curve("outside") = {3, 4};
+Physical Curve("right") = {5};
+Physical Curve("left") = {7};
