@@ -649,15 +649,23 @@ EXAMPLES = {
 
 
 # Running and checking ------------------------------------------------------------------
-def run_example(name, programs, folder):
-    """Run it into the folder; returns seconds. Raises RuntimeError if it fails."""
+def run_file(file, programs, folder, settings=()):
+    """Run a parameter file into the folder, without a terminal's checks for root and with one
+    thread; returns what it has printed and its exit code."""
     for variable in ("OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM",
                      "OPENBLAS_NUM_THREADS"):
         os.environ.setdefault(variable, "1")
+    command = [str(pathlib.Path(programs) / "ricochet"), str(file), "--output-dir", str(folder),
+               "--overwrite"]
+    for setting in settings:
+        command += ["--set", setting]
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+def run_example(name, programs, folder):
+    """Run it into the folder; returns seconds. Raises RuntimeError if it fails."""
     begin = time.monotonic()
-    result = subprocess.run([str(pathlib.Path(programs) / "ricochet"),
-                             str(HERE / f"{name}.prm"), "--output-dir", str(folder),
-                             "--overwrite"], capture_output=True, text=True)
+    result = run_file(HERE / f"{name}.prm", programs, folder)
     # An open balance or promise is a number that is off, among the others.
     if result.returncode not in (0, 4):
         raise RuntimeError(f"{name} ended with exit code {result.returncode}:\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A quarter (x, y > 0) of the lower half of a ball of radius 1, fine at its lowest point: a sector
-// in the plane y = 0, turned by 90 degrees about z. Its arc has a cap that may touch.
+// in the plane y = 0, turned by 90 degrees about z. The cap of its arc is the contact surface.
 c = Sqrt(3) / 2;
 Point(1) = {0, 0, 0, 0.009};
 Point(2) = {c, 0, 0.5, 0.25};

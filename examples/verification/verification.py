@@ -11,9 +11,7 @@ Prints a table in Markdown; the exit code is 1 if a number is out of its bound o
 
 import argparse
 import math
-import os
 import pathlib
-import subprocess
 import sys
 from collections import namedtuple
 
@@ -21,8 +19,9 @@ import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path.insert(0, str(ROOT / "python"))
+sys.path[:0] = [str(ROOT / "python"), str(HERE.parent)]
 
+import check  # noqa: E402
 from ricochet import Run  # noqa: E402
 
 PAGE = ROOT / "doc" / "verification.md"
@@ -141,8 +140,6 @@ def stack(run):
 
 
 def arch(run):
-    sys.path.insert(0, str(HERE.parent))
-    import check
     weight = check.stone_weight(.18)
     smallest, largest = (9. * weight * part for part in check.thrusts(.18))
     middle = .5 * (smallest + largest)
@@ -185,16 +182,9 @@ QUICK = ("patch_equal", "beam", "hertz_4c", "hertz_ball", "lame", "slope", "stac
 
 def compute(name, programs, output):
     """Run a case. @return its numbers. Raises RuntimeError if the run fails."""
-    for variable in ("OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM",
-                     "OPENBLAS_NUM_THREADS"):
-        os.environ.setdefault(variable, "1")
     file, settings = VARIANTS.get(name, (f"{name}.prm", []))
     folder = pathlib.Path(output) / name
-    command = [str(pathlib.Path(programs) / "ricochet"), str(HERE / file), "--output-dir",
-               str(folder), "--overwrite", "--quiet"]
-    for setting in settings:
-        command += ["--set", setting]
-    result = subprocess.run(command, capture_output=True, text=True)
+    result = check.run_file(HERE / file, programs, folder, settings)
     if result.returncode != 0:
         raise RuntimeError(f"{name} ended with exit code {result.returncode}:\n{result.stderr}")
     return CASES[name][1](Run(folder))

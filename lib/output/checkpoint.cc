@@ -179,6 +179,21 @@ namespace Ricochet
 
     CheckpointMotion motion;
     motion.time = payload.time;
+    // For each own unknown k its number among all multipliers; none for displacements.
+    const auto for_each_unknown = [&](const auto &of_displacement,
+                                      const auto &of_multiplier) {
+      for (std::size_t k = 0; k < mesh.positions.size(); ++k)
+        {
+          const auto        own    = std::lower_bound(mesh.multipliers.begin(),
+                                            mesh.multipliers.end(),
+                                            mesh.positions[k]);
+          const std::size_t number = own - mesh.multipliers.begin();
+          if (own == mesh.multipliers.end() || *own != mesh.positions[k])
+            of_displacement(k, mesh.positions[k] - number);
+          else
+            of_multiplier(k, number);
+        }
+    };
     // Displacements have one order, whatever multipliers are between them.
     const auto take = [&](const std::vector<double> &stored, Vector &vector) {
       std::vector<double> displacements;
@@ -195,39 +210,31 @@ namespace Ricochet
              std::to_string(vector.size() - mesh.multipliers.size()) +
              ": it has another Mesh/Degree");
       double *values = local_values(vector);
-      for (std::size_t k = 0; k < mesh.positions.size(); ++k)
-        {
-          const auto own = std::lower_bound(mesh.multipliers.begin(),
-                                            mesh.multipliers.end(),
-                                            mesh.positions[k]);
-          if (own == mesh.multipliers.end() || *own != mesh.positions[k])
-            values[k] = displacements[mesh.positions[k] -
-                                      (own - mesh.multipliers.begin())];
-        }
+      for_each_unknown(
+        [&](const std::size_t k, const std::size_t number) {
+          values[k] = displacements[number];
+        },
+        [](const std::size_t, const std::size_t) {});
     };
     // With and without tangential ones: that along the normal is the first of a node.
-    const auto take_multipliers = [&](const std::vector<double> &stored,
-                                      Vector                    &vector) {
+    const auto take_multipliers = [&]() {
       const std::size_t n_there    = payload.multipliers.size(),
                         n_here     = mesh.multipliers.size();
       const std::size_t more_there = n_here == 0 ? 0 : n_there / n_here,
                         more_here  = n_there == 0 ? 0 : n_here / n_there;
       if (n_there != more_there * n_here && n_here != more_here * n_there)
         return;
-      double *values = local_values(vector);
-      for (std::size_t k = 0; k < mesh.positions.size(); ++k)
-        {
-          const auto own = std::lower_bound(mesh.multipliers.begin(),
-                                            mesh.multipliers.end(),
-                                            mesh.positions[k]);
-          if (own == mesh.multipliers.end() || *own != mesh.positions[k])
-            continue;
-          const std::size_t number = own - mesh.multipliers.begin();
-          if (more_there > 0)
-            values[k] = stored.at(payload.multipliers[number * more_there]);
-          else if (more_here > 0 && number % more_here == 0)
-            values[k] = stored.at(payload.multipliers[number / more_here]);
-        }
+      const std::vector<double> &stored = payload.values[0];
+      double                    *values = local_values(motion.solution);
+      for_each_unknown([](const std::size_t, const std::size_t) {},
+                       [&](const std::size_t k, const std::size_t number) {
+                         if (more_there > 0)
+                           values[k] = stored.at(
+                             payload.multipliers[number * more_there]);
+                         else if (more_here > 0 && number % more_here == 0)
+                           values[k] =
+                             stored.at(payload.multipliers[number / more_here]);
+                       });
     };
     // In the order of for_each_vector().
     const unsigned int of_force   = 3;
@@ -235,7 +242,7 @@ namespace Ricochet
     if (payload.values.size() < std::size_t(6) + payload.n_shares + n_tangents)
       fail(strange);
     take(payload.values[0], motion.solution);
-    take_multipliers(payload.values[0], motion.solution);
+    take_multipliers();
     take(payload.values[1], motion.velocity);
     motion.contact_forces.resize(std::max(1U, payload.n_shares));
     if (payload.n_shares == 0)

@@ -156,8 +156,6 @@ namespace Ricochet
     bool
     is_moved(const ImpactSetup<dim> &setup)
     {
-      if (setup.starts_displaced)
-        return true;
       for (const auto &entry : setup.imposed)
         if (entry.second.value)
           return true;
@@ -664,9 +662,10 @@ namespace Ricochet
                 // Where contact couples other unknowns in each step.
                 return body.coarse_space(contact->couplings() != nullptr);
               },
-              is_moved(setup) ? [this](const double time,
-                                       Vector &vector) { impose(time, vector); }
-                              : std::function<void(const double, Vector &)>(),
+              is_moved(setup) || setup.starts_displaced
+                ? [this](const double time,
+                         Vector      &vector) { impose(time, vector); }
+                : std::function<void(const double, Vector &)>(),
               [this, step = 1e-3 * parameters.time.time_step](const double time,
                                                               Vector &vector) {
                 impose_rate(time, step, vector);
@@ -689,11 +688,7 @@ namespace Ricochet
     const auto knows_imposed_work = [](const SchemeTraits &one) {
       return one.contact_over_step || !one.has_inertia;
     };
-    const bool has_motion =
-      std::any_of(setup.imposed.begin(),
-                  setup.imposed.end(),
-                  [](const auto &entry) { return bool(entry.second.value); });
-    if (has_motion && !knows_imposed_work(traits))
+    if (is_moved(setup) && !knows_imposed_work(traits))
       throw InputError(
         "An imposed displacement cannot be combined with the time "
         "scheme '" +
