@@ -6,8 +6,8 @@
 
 namespace Ricochet
 {
-  /// A load from outside that depends on where the body is, over a step or at an instant. All vectors are system vectors without ghost values; all functions
-  /// are collective.
+  /// A load from outside that depends on where the body is, over a step or at an instant.
+  /// All vectors are system vectors without ghost values; all functions are collective.
   class FollowerLoad
   {
   public:
@@ -31,6 +31,29 @@ namespace Ricochet
                           const double  begin,
                           const double  end,
                           Matrix       &tangent) const = 0;
+
+    /// The force (N) at an instant, @p time (s).
+    void
+    force_at(const Vector &solution, const double time, Vector &force) const
+    {
+      step_force(solution, solution, time, time, force);
+    }
+
+    /// @p tangent -= @p weight times the derivative of force_at(): both ends of the step
+    /// change alike.
+    void
+    subtract_tangent_at(const double  weight,
+                        const Vector &solution,
+                        const double  time,
+                        Matrix       &tangent) const
+    {
+      subtract_step_tangent(2. * weight,
+                            solution,
+                            solution,
+                            time,
+                            time,
+                            tangent);
+    }
   };
 } // namespace Ricochet
 

@@ -127,7 +127,7 @@ namespace Ricochet
       }
     if (follower)
       {
-        follower->step_force(solution, solution, time, time, work);
+        follower->force_at(solution, time, work);
         result -= work;
       }
   }
@@ -184,11 +184,7 @@ namespace Ricochet
     double sum = 0.;
     for (const State *state : {&old_state, &new_state})
       {
-        follower->step_force(state->solution,
-                             state->solution,
-                             state->time,
-                             state->time,
-                             work);
+        follower->force_at(state->solution, state->time, work);
         sum += .5 * (work * constant_part);
       }
     return sum;

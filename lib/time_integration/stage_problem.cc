@@ -32,11 +32,9 @@ namespace Ricochet
           constant_part.add(stage.bulk_weight_old, old_state.viscous_force);
         if (parts.follower)
           {
-            parts.follower->step_force(old_state.solution,
-                                       old_state.solution,
-                                       old_state.time,
-                                       old_state.time,
-                                       parts.force);
+            parts.follower->force_at(old_state.solution,
+                                     old_state.time,
+                                     parts.force);
             constant_part.add(-stage.bulk_weight_old, parts.force);
           }
       }
@@ -183,11 +181,7 @@ namespace Ricochet
           }
         if (parts.follower)
           {
-            parts.follower->step_force(point,
-                                       point,
-                                       stage.end_time,
-                                       stage.end_time,
-                                       parts.force);
+            parts.follower->force_at(point, stage.end_time, parts.force);
             force_scale += l2_norm(parts.force);
             result.add(-stage.bulk_weight_new, parts.force);
           }
@@ -231,7 +225,6 @@ namespace Ricochet
         matrix.reinit(pattern);
       parts.mass.add_to(stage.inertia, matrix);
       add_bulk_tangent(point, matrix);
-      // At an instant both ends are the same state, and change alike.
       if (parts.follower && stage.bulk_step_force)
         parts.follower->subtract_step_tangent(1.,
                                               point.old_solution,
@@ -240,12 +233,10 @@ namespace Ricochet
                                               point.end,
                                               matrix);
       else if (parts.follower)
-        parts.follower->subtract_step_tangent(2. * stage.bulk_weight_new,
-                                              point.solution,
-                                              point.solution,
-                                              point.end,
-                                              point.end,
-                                              matrix);
+        parts.follower->subtract_tangent_at(stage.bulk_weight_new,
+                                            point.solution,
+                                            point.end,
+                                            matrix);
     };
     tangent.row_scaling = &parts.contact.row_scaling();
     const Couplings *couplings =
