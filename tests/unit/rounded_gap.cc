@@ -202,28 +202,13 @@ BOOST_AUTO_TEST_CASE(coverage_by_hand)
 
 namespace
 {
-  /// A block with the boundary id 1, on a block with 0; nodes meet nodes, or not.
-  struct Blocks
+  /// Two bodies: points of the second one, whose boundary id is 1, in front of the first one,
+  /// with 0.
+  struct TwoBodies
   {
-    explicit Blocks(const bool matching)
+    explicit TwoBodies(const Triangulation<3> (&parts)[2])
       : triangulation(MPI_COMM_WORLD)
     {
-      Triangulation<3> parts[2];
-      for (unsigned int p = 0; p < 2; ++p)
-        {
-          const double shift = matching || p == 0 ? 0. : .07;
-          dealii::GridGenerator::subdivided_hyper_rectangle(
-            parts[p],
-            {4, 4, 1},
-            p == 0 ? Point<3>(0., 0., -.3) : Point<3>(shift, shift, .0),
-            p == 0 ? Point<3>(1., 1., 0.)
-                   : Point<3>(1. - shift, 1. - shift, .3));
-          for (const auto &cell : parts[p].active_cell_iterators())
-            for (const auto &face : cell->face_iterators())
-              if (face->at_boundary())
-                face->set_boundary_id(std::abs(face->center()[2]) < 1e-10 ? p
-                                                                          : 2);
-        }
       join_parts<3>({&parts[0], &parts[1]}, triangulation);
       body = std::make_unique<Body<3>>(triangulation,
                                        1,
@@ -233,7 +218,7 @@ namespace
                                        MPI_COMM_WORLD);
       pair = std::make_unique<PointsBeforeTriangles>(
         *body,
-        ContactPair{"blocks", {1}, {0}},
+        ContactPair{"pair", {1}, {0}},
         PointsBeforeTriangles::PointsIn::nodes,
         /* has_coverage */ true);
       std::map<dealii::types::global_dof_index, Point<3>> positions;
@@ -253,13 +238,13 @@ namespace
     }
 
     Vector
-    displacements(const double noise, const Tensor<1, 3> &of_upper)
+    displacements(const double noise, const Tensor<1, 3> &of_second)
     {
       const auto parts  = body->parts_of_unknowns(2);
       Vector     result = body->make_vector();
       for (const auto &[i, x] : reference)
         result(i) = random_number(noise) +
-          (parts[i] == 1 ? of_upper[component.at(i)] : 0.);
+          (parts[i] == 1 ? of_second[component.at(i)] : 0.);
       result.compress(dealii::VectorOperation::insert);
       return result;
     }
@@ -270,6 +255,28 @@ namespace
     std::map<dealii::types::global_dof_index, Point<3>>     reference;
     std::map<dealii::types::global_dof_index, unsigned int> component;
   };
+
+  /// A block on a block; nodes meet nodes, or not.
+  TwoBodies
+  make_blocks(const bool matching)
+  {
+    Triangulation<3> parts[2];
+    for (unsigned int p = 0; p < 2; ++p)
+      {
+        const double shift = matching || p == 0 ? 0. : .07;
+        dealii::GridGenerator::subdivided_hyper_rectangle(
+          parts[p],
+          {4, 4, 1},
+          p == 0 ? Point<3>(0., 0., -.3) : Point<3>(shift, shift, .0),
+          p == 0 ? Point<3>(1., 1., 0.) : Point<3>(1. - shift, 1. - shift, .3));
+        for (const auto &cell : parts[p].active_cell_iterators())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary())
+              face->set_boundary_id(std::abs(face->center()[2]) < 1e-10 ? p
+                                                                        : 2);
+      }
+    return TwoBodies(parts);
+  }
 } // namespace
 
 
@@ -286,9 +293,9 @@ BOOST_AUTO_TEST_CASE(rows_on_surfaces)
   for (const bool matching : {true, false})
     for (unsigned int k = 0; k < n_states; ++k)
       {
-        Blocks       blocks(matching);
-        auto        &pair = *blocks.pair;
-        const Vector zero = blocks.body->make_vector();
+        TwoBodies    blocks = make_blocks(matching);
+        auto        &pair   = *blocks.pair;
+        const Vector zero   = blocks.body->make_vector();
         // The first steps begin where the mesh was made.
         const double noise = k < 4 ? 0. : .02;
         const double slide = k % 2 == 0 ? .01 : .2;
@@ -412,6 +419,59 @@ BOOST_AUTO_TEST_CASE(rows_on_surfaces)
   BOOST_CHECK_GT(n_points, 200);
   BOOST_CHECK_GT(n_near_edges, 100);
   BOOST_CHECK_GT(n_over_ends, 20);
+}
+
+
+
+// Deep behind a fold of 72 degrees facets that are no neighbours may both be in front of a
+// point: the gap at the beginning of the step stays that of the facets there, wherever
+// the iterate at the end is, and the increment stays exact.
+BOOST_AUTO_TEST_CASE(gap_of_the_beginning_behind_sharp_folds)
+{
+  Triangulation<3> parts[2];
+  dealii::GridGenerator::torus(parts[0], 1., .25, 12);
+  dealii::GridGenerator::hyper_cube(parts[1], -.02, .02);
+  for (unsigned int p = 0; p < 2; ++p)
+    for (const auto &cell : parts[p].active_cell_iterators())
+      for (const auto &face : cell->face_iterators())
+        if (face->at_boundary())
+          face->set_boundary_id(p);
+  TwoBodies    bodies(parts);
+  auto        &pair     = *bodies.pair;
+  const Vector zero     = bodies.body->make_vector();
+  unsigned int n_points = 0;
+  for (unsigned int k = 0; k < 300; ++k)
+    {
+      // The cube near the surface of the torus at the beginning and the end.
+      const double phi = random_number(dealii::numbers::PI),
+                   psi = random_number(dealii::numbers::PI),
+                   r   = .2 + random_number(.06);
+      const Tensor<1, 3> place({(1. + r * std::cos(psi)) * std::cos(phi),
+                                r * std::sin(psi),
+                                (1. + r * std::cos(psi)) * std::sin(phi)});
+      const Tensor<1, 3> change(
+        {random_number(.06), random_number(.06), random_number(.06)});
+      const Vector begin = bodies.displacements(0., place);
+      const Vector end   = bodies.displacements(.01, place + change);
+      pair.begin_step({begin, zero, zero, 1., 1.});
+      std::map<unsigned int, double> known;
+      for (unsigned int p = 0; p < pair.points().size(); ++p)
+        if (pair.is_before_facet(p))
+          known[p] = pair.old_gap(p);
+      pair.evaluate(end);
+      for (const auto &[p, old_gap] : known)
+        {
+          ++n_points;
+          BOOST_CHECK_SMALL(pair.old_gap(p) - old_gap, 1e-9);
+          double      change_of_gap = 0.;
+          const auto &rows          = pair.rows(p);
+          for (unsigned int i = 0; i < rows.unknowns.size(); ++i)
+            change_of_gap += rows.normal[i] *
+              (end(rows.unknowns[i]) - begin(rows.unknowns[i]));
+          BOOST_CHECK_SMALL(change_of_gap - (pair.new_gap(p) - old_gap), 1e-9);
+        }
+    }
+  BOOST_CHECK_GT(n_points, 500);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

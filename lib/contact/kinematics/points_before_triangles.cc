@@ -18,6 +18,8 @@ namespace Ricochet
 {
   using namespace dealii;
 
+  using NearAt = RoundedPatches::NearAt;
+
   namespace
   {
     /// Distance of the first of @p x from the triangle between the others.
@@ -402,15 +404,16 @@ namespace Ricochet
 
 
   bool
-  PointsBeforeTriangles::find_rounded_gap(const unsigned int p,
-                                          const unsigned int f,
-                                          const Positions   &begin,
-                                          const Positions   &end)
+  PointsBeforeTriangles::find_rounded_gap(const unsigned int           p,
+                                          const unsigned int           f,
+                                          const Positions             &end,
+                                          const RoundedPatches::NearAt near_at)
   {
     Step &step = steps[p];
     return rounded_patches.find(f,
-                                instant(p, begin),
+                                instant(p, old_positions),
                                 instant(p, end),
+                                near_at,
                                 own_points[p].largest_overhang,
                                 step.patch,
                                 step.rounded_gap) &&
@@ -435,10 +438,23 @@ namespace Ricochet
         step.patch.open_edges.clear();
         return true;
       }
-    if (!find_rounded_gap(p, step.old_facet, old_positions, new_positions))
-      return false;
     // Values at the beginning are known from there, except for a point that was then beyond
-    // an open edge by more than its largest overhang.
+    // an open edge by more than its largest overhang. Deep behind a sharp fold there is no
+    // nearest facet, and a facet that the point only comes near later would have a weight at
+    // the beginning, too. Energy would be made by that, and Newton's method has no limit:
+    // the facets of the beginning stay.
+    const double length = std::sqrt(master.facets[step.old_facet].measure);
+    const auto   begins_as_is = [&]() {
+      const auto &rounded = step.rounded_gap;
+      return std::abs(rounded.old_coverage - gaps[p].old_coverage) < 1e-9 &&
+        (rounded.old_coverage == 0. ||
+         std::abs(rounded.old_gap - gaps[p].old_gap) < 1e-9 * length);
+    };
+    const auto find = [&](const NearAt near_at) {
+      return find_rounded_gap(p, step.old_facet, new_positions, near_at);
+    };
+    if (!(find(NearAt::begin_or_end) && begins_as_is()) && !find(NearAt::begin))
+      return false;
     gaps[p].old_gap      = step.rounded_gap.old_gap;
     gaps[p].new_gap      = step.rounded_gap.new_gap;
     gaps[p].old_coverage = step.rounded_gap.old_coverage;
@@ -519,7 +535,7 @@ namespace Ricochet
     if (!f)
       return;
     // A point that is behind the surface can only come to face it from the side.
-    if (!is_self && find_rounded_gap(p, *f, old_positions, old_positions))
+    if (!is_self && find_rounded_gap(p, *f, old_positions, NearAt::begin))
       {
         const auto &rounded = steps[p].rounded_gap;
         if (rounded.old_gap > 0. || rounded.old_coverage == 0.)
@@ -541,7 +557,7 @@ namespace Ricochet
           {
             begin_before(p, old_facet, gap, old_facet == first);
             if (!is_self && old_facet == first &&
-                find_rounded_gap(p, first, old_positions, old_positions))
+                find_rounded_gap(p, first, old_positions, NearAt::begin))
               begin_rounded(p);
             return;
           }
@@ -592,7 +608,7 @@ namespace Ricochet
                              corners(p, *f, old_positions)),
                            true);
               if (!is_self &&
-                  find_rounded_gap(p, *f, old_positions, old_positions))
+                  find_rounded_gap(p, *f, old_positions, NearAt::begin))
                 begin_rounded(p);
             }
           if (has_length &&

@@ -135,13 +135,13 @@ namespace Ricochet
       return {position_of(own_points[p], positions.slave), positions.master};
     }
 
-    /// Find Step::patch and Step::rounded_gap between two instants for a point that faces facet @p f.
-    /// @return whether it has them.
+    /// Find Step::patch and Step::rounded_gap from the beginning of the step to @p end for a point
+    /// that faces facet @p f. @return whether it has them.
     bool
-    find_rounded_gap(const unsigned int p,
-                     const unsigned int f,
-                     const Positions   &begin,
-                     const Positions   &end);
+    find_rounded_gap(const unsigned int           p,
+                     const unsigned int           f,
+                     const Positions             &end,
+                     const RoundedPatches::NearAt near_at);
 
     /// Whether the point is in contact with more than one facet, or beyond an open edge.
     static bool

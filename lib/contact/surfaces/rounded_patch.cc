@@ -132,10 +132,12 @@ namespace Ricochet
   RoundedPatches::collect(const unsigned int f,
                           const Instant     &begin,
                           const Instant     &end,
+                          const NearAt       near_at,
                           const double       largest_overhang,
                           Candidates        &candidates) const
   {
     constexpr std::size_t most = 64;
+    const unsigned int    last = near_at == NearAt::begin ? 0 : 1;
     candidates.facets.clear();
     candidates.distances.clear();
     add(f, begin, end, candidates);
@@ -144,7 +146,8 @@ namespace Ricochet
       {
         const unsigned int             own   = facets[i];
         const auto                    &facet = surface.facets[own];
-        const std::array<Distances, 2> its   = candidates.distances[i];
+        const std::array<Distances, 2> its{
+          {candidates.distances[i][0], candidates.distances[i][last]}};
         // Beyond an open edge the lines of inner edges diverge, so that a point there may
         // have weights of several facets along the border.
         bool is_beyond = false;
@@ -182,7 +185,7 @@ namespace Ricochet
                 continue;
               const Edge edge{i, n, e, number_of_edge(other, own), 0.};
               if (std::max(coordinate(candidates, edge, 0),
-                           coordinate(candidates, edge, 1)) <=
+                           coordinate(candidates, edge, last)) <=
                   -width(own, other))
                 {
                   facets.pop_back();
@@ -224,13 +227,14 @@ namespace Ricochet
   RoundedPatches::find(const unsigned int  f,
                        const Instant      &begin,
                        const Instant      &end,
+                       const NearAt        near_at,
                        const double        largest_overhang,
                        RoundedPatch       &patch,
                        RoundedGap<double> &gap) const
   {
     static thread_local Candidates        candidates;
     static thread_local std::vector<Edge> edges;
-    if (!collect(f, begin, end, largest_overhang, candidates))
+    if (!collect(f, begin, end, near_at, largest_overhang, candidates))
       return false;
     collect_edges(candidates, edges);
 

@@ -73,6 +73,14 @@ namespace Ricochet
       const std::vector<Position> &nodes;
     };
 
+    /// Whether facets belong to a patch that the point is near at the beginning of the step
+    /// only, or at one of its ends.
+    enum class NearAt
+    {
+      begin,
+      begin_or_end
+    };
+
     /// Largest number of facets and edges, also open ones, of a patch.
     static constexpr unsigned int most_scalars = 96;
 
@@ -94,6 +102,7 @@ namespace Ricochet
     find(const unsigned int  f,
          const Instant      &begin,
          const Instant      &end,
+         const NearAt        near_at,
          const double        largest_overhang,
          RoundedPatch       &patch,
          RoundedGap<double> &gap) const;
@@ -149,6 +158,7 @@ namespace Ricochet
     collect(const unsigned int f,
             const Instant     &begin,
             const Instant     &end,
+            const NearAt       near_at,
             const double       largest_overhang,
             Candidates        &candidates) const;
 
