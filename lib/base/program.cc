@@ -307,19 +307,21 @@ namespace Ricochet
           (command_line.parameter_file.empty()
              ? "without_file"
              : fs::path(command_line.parameter_file).stem().string());
+      const std::string version = std::string("Ricochet ") + RICOCHET_VERSION +
+        " (" + RICOCHET_BUILD_TYPE + "), deal.II " + DEAL_II_PACKAGE_VERSION;
       const RunFolder::Options options{output_dir,
                                        program.name,
                                        command_line.parameter_file,
                                        command_line.resume,
                                        command_line.overwrite,
-                                       command_line.quiet};
+                                       command_line.quiet,
+                                       version,
+                                       {argv, argv + argc}};
       const auto               run = [&](const std::string &note_of_ranks) {
         RunFolder folder(options, OneRank::communicator());
         folder.all_parameters = all_parameters.str();
         folder.parameters_that_matter = parameters_that_matter(parameters);
-        folder.log(program.name + ", Ricochet " + RICOCHET_VERSION + " (" +
-                   RICOCHET_BUILD_TYPE + "), deal.II " +
-                   DEAL_II_PACKAGE_VERSION + ", " +
+        folder.log(program.name + ", " + version + ", " +
                    std::to_string(dealii::Utilities::MPI::n_mpi_processes(
                      folder.communicator)) +
                    " MPI rank(s)" + note_of_ranks);

@@ -28,6 +28,7 @@ namespace Ricochet
                                                       lists_of_fields[0],
                                                       lists_of_fields[1],
                                                       "log.txt",
+                                                      "summary.json",
                                                       all_values,
                                                       all_values_of_resumed};
 

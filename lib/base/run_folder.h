@@ -33,6 +33,9 @@ namespace Ricochet
       bool        resume    = false;
       bool        overwrite = false;
       bool        quiet     = false;
+      /// For the summary: that of Ricochet and deal.II, and how the program was called.
+      std::string              version      = "";
+      std::vector<std::string> command_line = {};
     };
 
     /**
@@ -80,6 +83,7 @@ namespace Ricochet
     const MPI_Comm communicator;
     const bool     is_root;
     const bool     resume;
+    const Options  options;
 
     /// All parameters that change the results of a step, as text: a run can be
     /// resumed only with the same. Output, final time and the settings of the
@@ -109,8 +113,7 @@ namespace Ricochet
     void
     write_identity(const std::string &state) const;
 
-    const Options options;
-    FolderLock    lock;
+    FolderLock lock;
     // The identity of this run in run.txt: its program and parameter file.
     std::string identity;
     bool        begun = false;

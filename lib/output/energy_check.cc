@@ -171,6 +171,20 @@ namespace Ricochet
 
 
 
+  EnergyCheck::Result
+  EnergyCheck::result() const
+  {
+    const bool is_promised = promise.kind != EnergyPromise::Kind::none;
+    return {std::abs(worst_balance),
+            balance_closes,
+            is_promised ? promise.verb() : "nothing, as " + promise.reason,
+            worst_promise,
+            is_promised,
+            promise_is_broken};
+  }
+
+
+
   std::vector<std::string>
   EnergyCheck::verdict() const
   {

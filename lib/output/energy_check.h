@@ -84,6 +84,22 @@ namespace Ricochet
     const Contact *
     worst_contact() const;
 
+    /// The result of all rows.
+    struct Result
+    {
+      /// The largest relative residual of the balance, and whether it is within #bound.
+      double balance        = 0.;
+      bool   balance_closes = true;
+      /// The promise in words, or why there is none; the largest relative deviation from it,
+      /// or rise; and whether it is broken.
+      std::string promise;
+      double      deviation   = 0.;
+      bool        is_promised = false, is_broken = false;
+    };
+
+    Result
+    result() const;
+
     /// The last lines of a run: the result for balance and promise.
     std::vector<std::string>
     verdict() const;

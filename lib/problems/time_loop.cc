@@ -3,6 +3,7 @@
 #include <base/last_meeting.h>
 #include <base/parameter_file.h>
 #include <base/stop_request.h>
+#include <output/run_summary.h>
 #include <problems/time_loop.h>
 
 #include <deal.II/base/timer.h>
@@ -797,7 +798,8 @@ namespace Ricochet
   TimeLoop::save_what_there_is(const State       &state,
                                const unsigned int step,
                                const Sums        &sums_of_state,
-                               const std::string &known_problem)
+                               const std::string &known_problem,
+                               const double       wall_seconds)
   {
     // The checkpoint first: the rest can be made again from it.
     std::string problems;
@@ -814,6 +816,7 @@ namespace Ricochet
     };
     careful([&]() { save(state, step, sums_of_state); });
     careful([&]() { ledger.write_hdf5(); });
+    careful([&]() { write_summary("failed", known_problem, wall_seconds); });
     if (write_fields && parameters.fields_every > 0)
       careful([&]() { write_fields(state, step); });
     return problems;
@@ -930,16 +933,48 @@ namespace Ricochet
 
 
 
-  void
-  TimeLoop::log_solver()
+  std::string
+  TimeLoop::how_solved() const
   {
     // The first row is that of the initial state.
     std::vector<unsigned int> steps;
     const unsigned int        column = ledger.column_number("solver");
     for (std::size_t k = 1; k < ledger.rows().size(); ++k)
       steps.push_back(static_cast<unsigned int>(ledger.rows()[k][column]));
-    if (const std::string text = SolverReport::summary(steps); !text.empty())
-      folder.log("steps by how they were solved: " + text);
+    return SolverReport::summary(steps);
+  }
+
+
+
+  void
+  TimeLoop::write_summary(const std::string &state,
+                          const std::string &reason,
+                          const double       wall_seconds)
+  {
+    std::vector<std::string> names;
+    for (const auto &entry : contact_names)
+      names.push_back(entry.first);
+    const std::uint64_t mesh_checksum = system.unknowns.mesh_checksum();
+    char                text[24];
+    std::snprintf(text,
+                  sizeof(text),
+                  "%016llx",
+                  static_cast<unsigned long long>(mesh_checksum));
+    const std::string json =
+      RunSummary(ledger, names, check, units)
+        .json({state,
+               reason,
+               parameters.final_time,
+               parameters.time_step,
+               wall_seconds,
+               Utilities::MPI::n_mpi_processes(folder.communicator),
+               text,
+               system.linear_solver_description(),
+               how_solved()},
+              folder);
+    on_first_rank(folder.communicator, [&]() {
+      write_atomically(folder.file("summary.json"), json);
+    });
   }
 
 
@@ -962,7 +997,14 @@ namespace Ricochet
               ledger.rows().back()[i] > 0.)
             folder.log("contact " + name + ": " +
                        to_text(ledger.rows().back()[i]) + " " + text);
-    log_solver();
+    std::vector<std::string> names;
+    for (const auto &entry : contact_names)
+      names.push_back(entry.first);
+    for (const std::string &line :
+         RunSummary(ledger, names, check, units).lines())
+      folder.log(line);
+    if (const std::string text = how_solved(); !text.empty())
+      folder.log("steps by how they were solved: " + text);
     if (const unsigned int n = system.n_multigrid_failures())
       folder.log("note: multigrid did not converge for " + std::to_string(n) +
                  " linear systems, which were factored instead");
@@ -1099,27 +1141,38 @@ namespace Ricochet
           throw;
         // A step that was not completed leaves no trace.
         const std::string text = failure.what();
-        throw ComputationError(
-          text + save_what_there_is(state, step, complete_sums, text));
+        throw ComputationError(text +
+                               save_what_there_is(state,
+                                                  step,
+                                                  complete_sums,
+                                                  text,
+                                                  stopwatch.wall_time()));
       }
     catch (const std::exception &failure)
       {
         // Out of memory, or an error in a library: perhaps on this rank only,
         // so that a collective save is impossible. The last checkpoint remains.
         if (Utilities::MPI::n_mpi_processes(folder.communicator) == 1)
-          save_what_there_is(state, step, complete_sums, failure.what());
+          save_what_there_is(state,
+                             step,
+                             complete_sums,
+                             failure.what(),
+                             stopwatch.wall_time());
         throw;
       }
     ledger.write_hdf5();
     conclude(timer, timing_table);
+    std::string reason;
     if (step < n_steps)
-      throw StoppedBySignal(signal,
-                            StopRequest::name_of(signal) + " came in step " +
-                              std::to_string(step) + " of " +
-                              std::to_string(n_steps) +
-                              ", which is complete: t = " +
-                              units.text(state.time, "s") +
-                              ". With --resume the run goes on from there.");
+      reason = StopRequest::name_of(signal) + " came in step " +
+        std::to_string(step) + " of " + std::to_string(n_steps) +
+        ", which is complete: t = " + units.text(state.time, "s") +
+        ". With --resume the run goes on from there.";
+    write_summary(reason.empty() ? "complete" : "stopped",
+                  reason,
+                  stopwatch.wall_time());
+    if (!reason.empty())
+      throw StoppedBySignal(signal, reason);
     return state;
   }
 } // namespace Ricochet

@@ -222,9 +222,16 @@ namespace Ricochet
     void
     account(const State &new_state, const StepReport &report, double &energy);
 
-    /// Say in the log how the steps were solved.
+    /// Write summary.json, see RunSummary. @param state "complete", "stopped" or "failed", and
+    /// the @p reason. @throws ComputationError Collective.
     void
-    log_solver();
+    write_summary(const std::string &state,
+                  const std::string &reason,
+                  const double       wall_seconds);
+
+    /// How the steps were solved, in words; empty where nothing is to say.
+    std::string
+    how_solved() const;
 
     /// Summary at the end: the balance, and the timings.
     void
@@ -288,7 +295,8 @@ namespace Ricochet
     save_what_there_is(const State       &state,
                        const unsigned int step,
                        const Sums        &sums_of_state,
-                       const std::string &known_problem);
+                       const std::string &known_problem,
+                       const double       wall_seconds);
 
     // For checkpoints, known when first needed.
     std::optional<CheckpointMesh> mesh;

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import functools
+import json
 import numbers
 import os
 import pathlib
@@ -115,6 +116,24 @@ class Run:
             # A table alone has a summary too.
             turns = True
         return measures.summarise(self.table, self.log, turns)
+
+    @functools.cached_property
+    def result(self) -> dict[str, Any]:
+        """summary.json: losses, contacts, checks and the extremes of all columns.
+
+        The program writes it at its end, also when it was stopped or has failed; a run that is
+        still at work has none.
+        """
+        path = self.folder / "summary.json"
+        try:
+            data = json.loads(path.read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            raise NotARun(f"There is no '{path}': the run has not come to an end.") from None
+        except (OSError, ValueError, RecursionError) as error:
+            raise NotARun(f"The summary '{path}' cannot be read: {error}.") from None
+        if not isinstance(data, dict) or data.get("format") != 1:
+            raise NotARun(f"The file '{path}' is no summary of this version of Ricochet.")
+        return data
 
     # Parameters ---------------------------------------------------------------
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The files of a run: all there, readable, and consistent with each other."""
 
+import json
 import xml.etree.ElementTree as ElementTree
 
 from common import *
@@ -24,6 +25,60 @@ class Output(ProgramTest):
         again = self.run_program("bar_sd", prm=run / "parameters.prm",
                                  folder=self.folder / "again")
         self.assertEqual(ledger.columns, again.columns)
+
+    def test_summary_for_scripts(self):
+        """The numbers of summary.json are those of the table, computed here once more; a run
+        that fails leaves the summary of its steps."""
+        parameters = BALL + NO_FIELDS + ["Contact/Treatment=improved normal compliance",
+                                         "Contact/Friction coefficient=0.2"]
+        ledger = self.run_program("elastic_ball", parameters, options=["--quiet"])
+        summary = json.loads((self.folder / "run" / "summary.json").read_text())
+        self.assertEqual(summary["program"], "elastic_ball")
+        self.assertEqual(summary["run"]["state"], "complete")
+        self.assertIn("--quiet", summary["command_line"])
+        self.assertIn("Contact/Friction coefficient=0.2", summary["command_line"])
+        steps = summary["steps"]
+        self.assertEqual(steps["number"], len(ledger["time"]) - 1)
+        self.assertEqual(steps["end"], ledger["time"][-1])
+        self.assertEqual(steps["newton_iterations_at_most"], max(ledger["newton_iterations"]))
+        energy = summary["energy"]
+        stored = [m - e for m, e in zip(ledger["modified_energy"], ledger["energy"])]
+        self.assertAlmostEqual(energy["lost"]["contact"],
+                               ledger["contact_work"][-1] - stored[-1] + stored[0], places=12)
+        self.assertGreater(energy["lost"]["friction"], 0.)
+        # Losses and the rest add up to the energy of the start.
+        lost = sum(energy["lost"].values())
+        self.assertAlmostEqual(
+            (energy["at_end"]["all"] + lost) / energy["at_start"]["all"], 1., places=9)
+        (contact,) = summary["contacts"].values()
+        (name,) = summary["contacts"]
+        force = ledger["contact_force_" + name]
+        self.assertEqual(contact["largest_force"]["value"], max(force))
+        self.assertEqual(contact["largest_force"]["time"],
+                         ledger["time"][force.index(max(force))])
+        touching = [t for t, f in zip(ledger["time"], force) if f > 0.]
+        self.assertEqual(contact["first_touch"], touching[0])
+        self.assertEqual(contact["last_touch"], touching[-1])
+        self.assertEqual(set(summary["columns"]), set(ledger.names))
+        for column, unit in zip(ledger.names, ledger.units):
+            found = summary["columns"][column]
+            values = [v for v in ledger[column] if v == v]
+            self.assertEqual(found["unit"], unit)
+            for which, value in (("least", min(values, default=None)),
+                                 ("largest", max(values, default=None))):
+                self.assertEqual(found[which]["value"], value, msg=column)
+        self.assertTrue(summary["checks"]["balance"]["closes"])
+        self.assertTrue(summary["checks"]["total_energy"]["kept"])
+        log = (self.folder / "run" / "log.txt").read_text()
+        self.assertIn("; lost to contact ", log)
+        self.assertIn(f"contact {name}: largest force ", log)
+
+        self.attempt("bar_sd", ["Newton/Maximum iterations=1", "Time/Maximum halvings=0"],
+                     folder=self.folder / "failed")
+        summary = json.loads((self.folder / "failed" / "summary.json").read_text())
+        self.assertEqual(summary["run"]["state"], "failed")
+        self.assertIn("after 0 halvings", summary["run"]["reason"])
+        self.assertGreater(summary["steps"]["number"], 15)
 
     def test_fields(self):
         self.run_program("bar_ss", ["Time/Final time=1", "Output/Fields every=4"])

@@ -89,6 +89,18 @@ class PythonPackage(ProgramTest):
         momentum = ledger["momentum_y"]
         self.assertAlmostEqual(summary.restitution, -momentum[-1] / momentum[0], places=12)
         self.assertIn(" N at ", str(summary))
+        found = self.ball.result
+        self.assertEqual(found["contacts"]["foundation"]["largest_force"]["value"], max(force))
+        self.assertEqual(found["columns"]["energy"]["last"], energy[-1])
+        for text in ("[" * 100000, "{}", '{"format": 2}', "\0"):
+            other = self.folder / "other"
+            other.mkdir(exist_ok=True)
+            (other / "parameters.prm").write_text("")
+            with self.assertRaises(ricochet.NotARun):
+                ricochet.Run(other).result
+            (other / "summary.json").write_text(text)
+            with self.assertRaises(ricochet.NotARun):
+                ricochet.Run(other).result
         self.assertGreater(self.ball.wall_seconds, 0)
         self.assertGreater(self.ball.seconds_in_steps, 0)
 

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/files.h>
+#include <base/json_writer.h>
+#include <output/run_summary.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <limits>
+
+namespace Ricochet
+{
+  namespace
+  {
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+    std::string
+    hexadecimal(const std::uint32_t number)
+    {
+      char text[16];
+      std::snprintf(text, sizeof(text), "%08x", number);
+      return text;
+    }
+
+    /// Now, in the form of ISO 8601.
+    std::string
+    now()
+    {
+      const std::time_t time = std::time(nullptr);
+      std::tm           parts{};
+      char              text[32];
+      ::gmtime_r(&time, &parts);
+      std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &parts);
+      return text;
+    }
+  } // namespace
+
+
+
+  bool
+  RunSummary::has_column(const std::string &name) const
+  {
+    const auto &columns = ledger.columns();
+    return std::any_of(columns.begin(), columns.end(), [&](const auto &column) {
+      return column.name == name;
+    });
+  }
+
+
+
+  double
+  RunSummary::first(const std::string &name) const
+  {
+    return has_column(name) ? ledger.rows().front()[ledger.column_number(name)]
+                            : 0.;
+  }
+
+
+
+  double
+  RunSummary::last(const std::string &name) const
+  {
+    return has_column(name) ? ledger.rows().back()[ledger.column_number(name)]
+                            : 0.;
+  }
+
+
+
+  RunSummary::At
+  RunSummary::largest(const unsigned int number, const double sign) const
+  {
+    const unsigned int time = ledger.column_number("time");
+    At                 result{nothing, nothing};
+    for (const auto &row : ledger.rows())
+      if (std::isfinite(row[number]) &&
+          !(sign * row[number] <= sign * result.value))
+        result = {row[number], row[time]};
+    return result;
+  }
+
+
+
+  RunSummary::OfContact
+  RunSummary::of_contact(const std::string &name) const
+  {
+    const unsigned int time  = ledger.column_number("time"),
+                       force = ledger.column_number("contact_force_" + name);
+    OfContact result{largest(force),
+                     largest(ledger.column_number("penetration_" + name)),
+                     nothing,
+                     nothing,
+                     0.,
+                     {}};
+    double    before = nothing;
+    for (const auto &row : ledger.rows())
+      {
+        if (row[force] > 0.)
+          {
+            if (std::isnan(result.first_touch))
+              result.first_touch = row[time];
+            result.last_touch = row[time];
+            if (!std::isnan(before))
+              result.touching += row[time] - before;
+          }
+        before = row[time];
+      }
+    for (const char *component : {"x", "y", "z"})
+      if (const auto column = std::string("impulse_") + component + "_" + name;
+          has_column(column))
+        result.impulse.push_back(last(column));
+    return result;
+  }
+
+
+
+  double
+  RunSummary::lost_in_contact() const
+  {
+    // A method without a potential stores nothing that it could give back.
+    const auto stored = [](const double modified, const double energy) {
+      return std::isfinite(modified) ? modified - energy : 0.;
+    };
+    return last("contact_work") + last("obstacle_work") -
+      (stored(last("modified_energy"), last("energy")) -
+       stored(first("modified_energy"), first("energy")));
+  }
+
+
+
+  std::vector<std::string>
+  RunSummary::lines() const
+  {
+    // Less than the checks can see is round-off.
+    double scale = 0.;
+    for (const double value : {largest(ledger.column_number("energy")).value,
+                               last("contact_work"),
+                               last("friction_work"),
+                               last("external_work")})
+      scale = std::max(scale, std::abs(value));
+    const auto energy = [&](const double value) {
+      return units.text(std::abs(value) < EnergyCheck::bound * scale ? 0.
+                                                                     : value,
+                        "J");
+    };
+    std::vector<std::string> lines;
+    std::string              lost;
+    for (const auto &[name, value] :
+         {std::pair<std::string, double>{"contact", lost_in_contact()},
+          {"friction", last("friction_work")},
+          {"viscosity", last("viscous_dissipation")},
+          {"the time scheme", last("numerical_dissipation")}})
+      lost += (lost.empty() ? "" : ", ") + name + " " + energy(value);
+    lines.push_back("energy " + energy(first("energy")) + " -> " +
+                    energy(last("energy")) + "; lost to " + lost);
+    for (const std::string &name : contacts)
+      {
+        const OfContact contact = of_contact(name);
+        if (std::isnan(contact.first_touch))
+          continue;
+        lines.push_back("contact " + name + ": largest force " +
+                        units.text(contact.force.value, "N") +
+                        " at t = " + units.text(contact.force.time, "s") +
+                        ", touches for " + units.text(contact.touching, "s") +
+                        " from t = " + units.text(contact.first_touch, "s") +
+                        " to " + units.text(contact.last_touch, "s") +
+                        ", deepest penetration " +
+                        units.text(contact.depth.value, "m"));
+      }
+    return lines;
+  }
+
+
+
+  std::string
+  RunSummary::json(const Circumstances &circumstances,
+                   const RunFolder     &folder) const
+  {
+    JsonWriter                json;
+    const RunFolder::Options &options = folder.options;
+    json.add("format", 1U);
+    json.add("program", options.program);
+    json.add("version", options.version);
+    json.add("command_line", options.command_line);
+    json.begin_object("input");
+    json.add("parameter_file", options.parameter_file);
+    json.add("checksum_of_parameters",
+             hexadecimal(checksum(folder.all_parameters)));
+    json.add("checksum_of_mesh", circumstances.mesh_checksum);
+    json.end_object();
+
+    json.begin_object("run");
+    json.add("state", circumstances.state);
+    if (!circumstances.reason.empty())
+      json.add("reason", circumstances.reason);
+    json.add("finished", now());
+    json.add("wall_seconds", circumstances.wall_seconds);
+    json.add("ranks", circumstances.n_ranks);
+    json.add("linear_solver", circumstances.linear_solver);
+    json.end_object();
+
+    const auto &rows = ledger.rows();
+    json.begin_object("steps");
+    json.add("number", static_cast<unsigned int>(rows.size() - 1));
+    json.add("length", circumstances.time_step);
+    json.add("begin", first("time"));
+    json.add("end", last("time"));
+    json.add("asked_end", circumstances.final_time);
+    json.add("unit", units.name("s"));
+    json.add("halvings", last("step_halvings"));
+    json.add("passing_halvings", last("passing_halvings"));
+    const unsigned int newton = ledger.column_number("newton_iterations");
+    double             sum    = 0.;
+    for (unsigned int k = 1; k < rows.size(); ++k)
+      sum += rows[k][newton];
+    json.add("newton_iterations_in_the_mean",
+             rows.size() > 1 ? sum / (rows.size() - 1) : nothing);
+    json.add("newton_iterations_at_most", largest(newton).value);
+    json.add("solved_by", circumstances.solved_by);
+    json.end_object();
+
+    json.begin_object("energy");
+    json.add("unit", units.name("J"));
+    for (const auto &[when, row] :
+         {std::pair<std::string,
+                    double (RunSummary::*)(const std::string &) const>{
+            "at_start",
+            &RunSummary::first},
+          {"at_end", &RunSummary::last}})
+      {
+        json.begin_object(when);
+        json.add("kinetic", (this->*row)("kinetic_energy"));
+        json.add("elastic", (this->*row)("elastic_energy"));
+        json.add("all", (this->*row)("energy"));
+        json.end_object();
+      }
+    json.begin_object("work_from_outside");
+    json.add("loads", last("external_work"));
+    json.add("imposed_displacements", last("imposed_work"));
+    json.add("obstacles", last("obstacle_work"));
+    json.end_object();
+    json.begin_object("lost");
+    json.add("contact", lost_in_contact());
+    json.add("friction", last("friction_work"));
+    json.add("viscosity", last("viscous_dissipation"));
+    json.add("time_scheme", last("numerical_dissipation"));
+    json.end_object();
+    json.end_object();
+
+    const EnergyCheck::Result result = check.result();
+    json.begin_object("checks");
+    json.add("bound", EnergyCheck::bound);
+    json.begin_object("balance");
+    json.add("largest", result.balance);
+    json.add("closes", result.balance_closes);
+    json.end_object();
+    json.begin_object("total_energy");
+    json.add("promise", result.promise);
+    json.add("largest_deviation", result.deviation);
+    if (result.is_promised)
+      json.add("kept", !result.is_broken);
+    json.end_object();
+    json.end_object();
+
+    json.begin_object("contacts");
+    for (const std::string &name : contacts)
+      {
+        const OfContact contact = of_contact(name);
+        json.begin_object(name);
+        const auto add =
+          [&](const std::string &what, const At &at, const std::string &unit) {
+            json.begin_object(what);
+            json.add("value", at.value);
+            json.add("unit", units.name(unit));
+            json.add("time", at.time);
+            json.end_object();
+          };
+        add("largest_force", contact.force, "N");
+        add("deepest_penetration", contact.depth, "m");
+        json.add("first_touch", contact.first_touch);
+        json.add("last_touch", contact.last_touch);
+        json.add("time_in_touch", contact.touching);
+        if (!contact.impulse.empty())
+          {
+            json.begin_object("impulse");
+            for (unsigned int c = 0; c < contact.impulse.size(); ++c)
+              json.add(std::string(1, "xyz"[c]), contact.impulse[c]);
+            json.add("unit", units.name("N s"));
+            json.end_object();
+          }
+        for (const std::string what : {"contact_gain",
+                                       "passed_points",
+                                       "dropped_points",
+                                       "entered_points"})
+          if (has_column(what + "_" + name))
+            json.add(what, last(what + "_" + name));
+        json.end_object();
+      }
+    json.end_object();
+
+    json.begin_object("columns");
+    for (unsigned int k = 0; k < ledger.columns().size(); ++k)
+      {
+        const EnergyLedger::Column &column = ledger.columns()[k];
+        json.begin_object(column.name);
+        json.add("unit", column.unit);
+        json.add("first", rows.front()[k]);
+        json.add("last", rows.back()[k]);
+        for (const auto &[what, sign] :
+             {std::pair<std::string, double>{"least", -1.}, {"largest", 1.}})
+          {
+            const At at = largest(k, sign);
+            json.begin_object(what);
+            json.add("value", at.value);
+            json.add("time", at.time);
+            json.end_object();
+          }
+        json.end_object();
+      }
+    json.end_object();
+    return json.finished();
+  }
+} // namespace Ricochet
