@@ -102,6 +102,14 @@ namespace Ricochet
       return promise;
     }
 
+    /// For contacts that eliminate rows: tell this one of another one that is evaluated
+    /// @p before it. @return whether both act on a node. Not collective.
+    virtual bool
+    share_nodes(ContactOperator & /*before*/)
+    {
+      return false;
+    }
+
     // ### A stage
 
     /// Begin the solution of one stage; @p weight is the factor of the new

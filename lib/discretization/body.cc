@@ -112,26 +112,28 @@ namespace Ricochet
   } // namespace
 
   template <int dim>
-  Body<dim>::Body(const Triangulation<dim> &triangulation,
-                  const unsigned int        degree,
-                  const BoundaryIds        &clamped_ids,
-                  const BoundaryIds        &contact_ids,
-                  const MultiplierSpace     multipliers,
-                  const MPI_Comm            communicator,
-                  const HeldComponents     &held,
-                  const Mapping<dim>       *curved,
-                  const BoundaryIds        &with_multipliers)
+  Body<dim>::Body(const Triangulation<dim>       &triangulation,
+                  const unsigned int              degree,
+                  const BoundaryIds              &clamped_ids,
+                  const BoundaryIds              &contact_ids,
+                  const MultiplierSpace           multipliers,
+                  const MPI_Comm                  communicator,
+                  const HeldComponents           &held,
+                  const Mapping<dim>             *curved,
+                  const std::vector<BoundaryIds> &multiplier_sets)
     : communicator(communicator)
     , displacement_dofs(triangulation)
     , multiplier_dofs(triangulation)
     , multipliers(multipliers)
     , clamped_ids(clamped_ids)
     , contact_ids(contact_ids)
-    , multiplier_ids(with_multipliers.empty() ? contact_ids : with_multipliers)
+    , multiplier_ids(multiplier_sets.empty()
+                       ? std::vector<BoundaryIds>{contact_ids}
+                       : multiplier_sets)
     , curved_geometry(curved != nullptr)
   {
     const unsigned int n_multipliers =
-      multipliers == MultiplierSpace::nodal_vector ? dim : 1;
+      n_multiplier_sets() * n_multipliers_per_node();
     const unsigned int degree_of_multipliers =
       multipliers == MultiplierSpace::nodal ||
         multipliers == MultiplierSpace::nodal_vector
@@ -272,14 +274,22 @@ namespace Ricochet
     std::vector<types::global_dof_index> my_multipliers;
     IndexSet                             contact_dofs;
     IndexSet                             relevant_multipliers;
-    AssertThrow(!has_multipliers() || !multiplier_ids.empty(),
-                ExcMessage("Multipliers need a contact boundary."));
     if (has_multipliers())
       {
         multiplier_dofs.distribute_dofs(*multiplier_element);
-        contact_dofs = DoFTools::extract_boundary_dofs(multiplier_dofs,
-                                                       ComponentMask(),
-                                                       multiplier_ids);
+        contact_dofs.set_size(multiplier_dofs.n_dofs());
+        for (unsigned int set = 0; set < n_multiplier_sets(); ++set)
+          {
+            AssertThrow(!multiplier_ids[set].empty(),
+                        ExcMessage("Multipliers need a contact boundary."));
+            ComponentMask of_set(multiplier_element->n_components(), false);
+            for (unsigned int c = 0; c < n_multipliers_per_node(); ++c)
+              of_set.set(multiplier_component(set, c), true);
+            contact_dofs.add_indices(
+              DoFTools::extract_boundary_dofs(multiplier_dofs,
+                                              of_set,
+                                              multiplier_ids[set]));
+          }
         relevant_multipliers =
           DoFTools::extract_locally_relevant_dofs(multiplier_dofs);
         for (const types::global_dof_index i :

@@ -19,6 +19,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <vector>
 
 namespace Ricochet
 {
@@ -66,8 +67,8 @@ namespace Ricochet
      * prescribed.
      * @param curved the geometry of its cells (see curved_geometry.h), for a
      * displacement of degree 2; null for cells with straight edges.
-     * @param with_multipliers those of the boundary ids @p contact that have the
-     * multipliers; all of them if empty.
+     * @param multiplier_sets the boundary ids with multipliers: a node that several
+     * contacts hold has those of several sets. One set with all ids of @p contact if empty.
      */
     Body(const dealii::Triangulation<dim> &triangulation,
          const unsigned int                degree,
@@ -75,9 +76,9 @@ namespace Ricochet
          const BoundaryIds                &contact,
          const MultiplierSpace             multipliers,
          const MPI_Comm                    communicator,
-         const HeldComponents             &held             = {},
-         const dealii::Mapping<dim>       *curved           = nullptr,
-         const BoundaryIds                &with_multipliers = {});
+         const HeldComponents             &held            = {},
+         const dealii::Mapping<dim>       *curved          = nullptr,
+         const std::vector<BoundaryIds>   &multiplier_sets = {});
 
     /// System index of displacement DoF @p i of the DoFHandler.
     dealii::types::global_dof_index
@@ -185,6 +186,26 @@ namespace Ricochet
       return multipliers != MultiplierSpace::none;
     }
 
+    unsigned int
+    n_multiplier_sets() const
+    {
+      return multiplier_ids.size();
+    }
+
+    /// The number of multipliers that a node has in each set.
+    unsigned int
+    n_multipliers_per_node() const
+    {
+      return multipliers == MultiplierSpace::nodal_vector ? dim : 1;
+    }
+
+    /// The component of multiplier_dof_handler() of multiplier @p c of a node in @p set.
+    unsigned int
+    multiplier_component(const unsigned int set, const unsigned int c) const
+    {
+      return set * n_multipliers_per_node() + c;
+    }
+
     const dealii::Mapping<dim> &
     mapping() const
     {
@@ -274,8 +295,9 @@ namespace Ricochet
     dealii::DoFHandler<dim>                      displacement_dofs;
     dealii::DoFHandler<dim>                      multiplier_dofs;
     const MultiplierSpace                        multipliers;
-    const BoundaryIds clamped_ids, contact_ids, multiplier_ids;
-    const bool        curved_geometry;
+    const BoundaryIds                            clamped_ids, contact_ids;
+    const std::vector<BoundaryIds>               multiplier_ids;
+    const bool                                   curved_geometry;
 
     // First displacement DoF of each rank, and by how much the multipliers of
     // lower ranks shift it.

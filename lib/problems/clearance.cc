@@ -242,16 +242,49 @@ namespace Ricochet
       places[dim + 1] = middle - depth * facet.cell_height * facet.normal;
       return places;
     }
+
+
+
+    /// How far a facet of the surface may be off the arc whose chord it is: its length
+    /// times an eighth of the angle to its neighbours, where it is not a sharp edge (m).
+    template <int dim>
+    double
+    rise_of_arc(const ContactSurface<dim>                 &surface,
+                const typename ContactSurface<dim>::Facet &facet)
+    {
+      constexpr double sharp = 40. * numbers::PI / 180.;
+      double           angle = 0., length = 0.;
+      const auto       turn_to = [&](const std::optional<unsigned int> &other) {
+        if (!other)
+          return;
+        const double cosine = facet.normal * surface.facets[*other].normal;
+        const double turn   = std::acos(std::clamp(cosine, -1., 1.));
+        if (turn < sharp)
+          angle = std::max(angle, turn);
+      };
+      turn_to(facet.previous);
+      turn_to(facet.next);
+      for (const auto &neighbour : facet.neighbours)
+        turn_to(neighbour);
+      for (const unsigned int a : facet.nodes)
+        for (const unsigned int b : facet.nodes)
+          length = std::max(length,
+                            surface.nodes[a].reference_position.distance(
+                              surface.nodes[b].reference_position));
+      return length * angle / 8.;
+    }
   } // namespace
 
 
 
   template <int dim>
-  void
-  check_clearance(const Body<dim> &body, const std::vector<ContactPair> &pairs)
+  std::string
+  find_overlaps(const Body<dim>          &body,
+                std::vector<ContactPair> &pairs,
+                const bool                takes_overlaps)
   {
     if (pairs.empty())
-      return;
+      return "";
     std::set<types::boundary_id> all_boundaries;
     for (const auto &list : Utilities::MPI::all_gather(
            body.communicator,
@@ -272,43 +305,58 @@ namespace Ricochet
     for (const auto &[part, nodes] : nodes_of_part)
       box_of_part.emplace(part, BoundingBox<dim>(nodes));
 
-    for (const ContactPair &pair : pairs)
-      for (const Facet &facet : surface.facets)
-        if (pair.slave.count(facet.boundary_id) > 0 ||
-            pair.master.count(facet.boundary_id) > 0)
-          for (const Point<dim> &x : places_of(surface, facet))
-            for (const auto &[part, boundary] : boundary_of_part)
-              {
-                if (part == facet.part || !box_of_part.at(part).point_inside(x))
-                  continue;
-                // Surfaces may touch; a little is round-off.
-                const double depth = depth_inside(x, surface, boundary);
-                if (!(depth > 1e-6 * facet.cell_diameter))
-                  continue;
-                std::string text;
-                for (unsigned int c = 0; c < dim; ++c)
-                  text += (c == 0 ? "" : ", ") + to_text(x[c]);
-                // Facets of two circles of one radius overlap by less.
-                const bool may_be_a_fit = depth < .1 * facet.cell_diameter;
-                throw InputError(
-                  "At the start bodies overlap: the point (" + text +
-                  ") of the contact '" + pair.name +
-                  "' is inside another one, " + to_text(depth) +
-                  " behind its surface. Move one of them away" +
-                  (may_be_a_fit
-                     ? ", or, where one curved surface fits into another, leave so much "
-                       "of a gap: facets are chords of an arc."
-                     : "."));
-              }
+    for (ContactPair &pair : pairs)
+      {
+        const auto takes_part = [&](const Facet &facet) {
+          return pair.slave.count(facet.boundary_id) > 0 ||
+            pair.master.count(facet.boundary_id) > 0;
+        };
+        double largest_rise = 0.;
+        for (const Facet &facet : surface.facets)
+          if (takes_part(facet))
+            largest_rise = std::max(largest_rise, rise_of_arc(surface, facet));
+        for (const Facet &facet : surface.facets)
+          if (takes_part(facet))
+            for (const Point<dim> &x : places_of(surface, facet))
+              for (const auto &[part, boundary] : boundary_of_part)
+                {
+                  if (part == facet.part ||
+                      !box_of_part.at(part).point_inside(x))
+                    continue;
+                  // Surfaces may touch; a little is round-off.
+                  const double depth = depth_inside(x, surface, boundary);
+                  if (!(depth > 1e-6 * facet.cell_diameter))
+                    continue;
+                  // A margin for arcs whose facets differ in length.
+                  const bool is_fit =
+                    !pair.is_self && depth < 1.5 * largest_rise;
+                  if (is_fit && takes_overlaps)
+                    {
+                      pair.overlap = std::max(pair.overlap, depth);
+                      continue;
+                    }
+                  std::string text;
+                  for (unsigned int c = 0; c < dim; ++c)
+                    text += (c == 0 ? "" : ", ") + to_text(x[c]);
+                  return "At the start bodies overlap: the point (" + text +
+                    ") of the contact '" + pair.name +
+                    "' is inside another one, " + to_text(depth) +
+                    " behind its surface. Move one of them away" +
+                    (is_fit ? ", or take Contact/Coupling = points, where gaps "
+                              "are counted from what chords of an arc overlap."
+                            : ".");
+                }
+      }
+    return "";
   }
 
 
-  template void
-  check_clearance(const Body<1> &, const std::vector<ContactPair> &);
-  template void
-  check_clearance(const Body<2> &, const std::vector<ContactPair> &);
-  template void
-  check_clearance(const Body<3> &, const std::vector<ContactPair> &);
+  template std::string
+  find_overlaps(const Body<1> &, std::vector<ContactPair> &, const bool);
+  template std::string
+  find_overlaps(const Body<2> &, std::vector<ContactPair> &, const bool);
+  template std::string
+  find_overlaps(const Body<3> &, std::vector<ContactPair> &, const bool);
   template void
   check_clearance(const Body<1> &,
                   const Obstacles &,

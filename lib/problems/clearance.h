@@ -35,13 +35,17 @@ namespace Ricochet
   /**
    * No facet of a surface of the @p pairs has a node or its middle within another
    * body, or a cell behind it: parts do not overlap before any displacement; they may
-   * touch.
+   * touch, and overlap by what facets that are chords of an arc are off it. This is set
+   * in the pairs.
    *
-   * @throws InputError. Collective.
+   * @param takes_overlaps whether such an overlap is allowed.
+   * @return what is wrong; empty if all is well. Collective.
    */
   template <int dim>
-  void
-  check_clearance(const Body<dim> &body, const std::vector<ContactPair> &pairs);
+  std::string
+  find_overlaps(const Body<dim>          &body,
+                std::vector<ContactPair> &pairs,
+                const bool                takes_overlaps);
 } // namespace Ricochet
 
 #endif

@@ -99,14 +99,87 @@ namespace Ricochet
       return all;
     }
 
-    BoundaryIds
-    ids_with_multipliers(const std::vector<Contact> &contacts)
+    /// The contacts of a set-up with the sets of their multipliers, see Body: the first one
+    /// for obstacles, and for contacts between bodies the first one that no other contact
+    /// has on the same nodes.
+    template <int dim>
+    std::vector<Contact>
+    contacts_with_sets(const ContactParameters  &parameters,
+                       const ImpactSetup<dim>   &setup,
+                       const Triangulation<dim> &triangulation,
+                       const MPI_Comm            communicator)
     {
-      std::vector<Contact> some;
+      std::vector<Contact> contacts = contacts_of(parameters, setup);
+      std::vector<std::set<unsigned int>> vertices;
+      for (const Contact &contact : contacts)
+        {
+          const BoundaryIds       ids = contact_ids(contact);
+          std::set<unsigned int> &own = vertices.emplace_back();
+          for (const auto &cell : triangulation.active_cell_iterators())
+            if (!cell->is_artificial())
+              for (const auto &face : cell->face_iterators())
+                if (face->at_boundary() && ids.count(face->boundary_id()) > 0)
+                  for (const unsigned int v : face->vertex_indices())
+                    own.insert(face->vertex_index(v));
+        }
+      const auto share_nodes = [&](const unsigned int i, const unsigned int j) {
+        const bool some = std::any_of(vertices[i].begin(),
+                                      vertices[i].end(),
+                                      [&](const unsigned int v) {
+                                        return vertices[j].count(v) > 0;
+                                      });
+        return Utilities::MPI::max(some ? 1 : 0, communicator) == 1;
+      };
+      for (unsigned int j = 0; j < contacts.size(); ++j)
+        {
+          if (!contacts[j].is_between_bodies() ||
+              multipliers_of(contacts[j]) == MultiplierSpace::none)
+            continue;
+          std::set<unsigned int> taken;
+          for (unsigned int i = 0; i < contacts.size(); ++i)
+            if ((i < j || !contacts[i].is_between_bodies()) &&
+                multipliers_of(contacts[i]) != MultiplierSpace::none &&
+                share_nodes(i, j))
+              taken.insert(contacts[i].multiplier_set());
+          unsigned int set = 0;
+          while (taken.count(set) > 0)
+            ++set;
+          for (ContactPair &pair : contacts[j].pairs)
+            pair.multiplier_set = set;
+        }
+      return contacts;
+    }
+
+    /// The @p contacts with the overlaps of curved surfaces that fit into each other. Other
+    /// overlaps are a @p problem of runs that begin without displacements.
+    template <int dim>
+    std::vector<Contact>
+    with_overlaps(const Body<dim>     &body,
+                  std::vector<Contact> contacts,
+                  std::string         &problem)
+    {
+      for (Contact &contact : contacts)
+        if (problem.empty())
+          problem = find_overlaps(body,
+                                  contact.pairs,
+                                  contact.parameters.coupling == "points");
+      return contacts;
+    }
+
+    /// The boundary ids of each set.
+    std::vector<BoundaryIds>
+    multiplier_sets(const std::vector<Contact> &contacts)
+    {
+      std::vector<BoundaryIds> sets;
       for (const Contact &contact : contacts)
         if (multipliers_of(contact) != MultiplierSpace::none)
-          some.push_back(contact);
-      return contact_ids(some);
+          {
+            const unsigned int set = contact.multiplier_set();
+            sets.resize(std::max<std::size_t>(sets.size(), set + 1));
+            const BoundaryIds ids = contact_ids(contact);
+            sets[set].insert(ids.begin(), ids.end());
+          }
+      return sets;
     }
 
     /// The obstacles of all contacts, for output.
@@ -450,8 +523,8 @@ namespace Ricochet
                           contact.obstacles);
     }
 
-    /// A node can be held by one constraint against obstacles and by one between
-    /// bodies. @throws InputError
+    /// A node can be held by one constraint of mortar, and by one with multipliers against
+    /// obstacles, or with friction in 3D. @throws InputError
     template <int dim>
     void
     check_shared_nodes(const Body<dim>            &body,
@@ -467,19 +540,30 @@ namespace Ricochet
         for (unsigned int i = 0; i < j; ++i)
           {
             const Contact &a = contacts[i], &b = contacts[j];
+            const bool     are_points = a.parameters.coupling == "points" &&
+              b.parameters.coupling == "points";
             if (a.is_between_bodies() != b.is_between_bodies() ||
+                (a.is_between_bodies() && are_points) ||
                 !is_constraint(a.parameters) || !is_constraint(b.parameters))
               continue;
             const bool shared = (nodes_of(a) & nodes_of(b)).n_elements() > 0;
-            if (Utilities::MPI::max(shared ? 1 : 0, body.communicator) == 1)
+            if (Utilities::MPI::max(shared ? 1 : 0, body.communicator) == 0)
+              continue;
+            const auto is_simple = [](const Contact &contact) {
+              return multipliers_of(contact) == MultiplierSpace::none &&
+                (dim < 3 || !has_friction(contact.parameters));
+            };
+            if (a.is_between_bodies() || !is_simple(a) || !is_simple(b))
               throw InputError(
                 "The contacts '" + a.name + "' and '" + b.name +
-                "' are constraints on the same nodes, which can follow one of "
-                "them only. " +
+                "' are constraints on the same nodes. " +
                 (a.is_between_bodies()
-                   ? "Name all surfaces in one contact, make another surface "
-                     "the first one of it, or take a law for one of them: "
-                   : "Take a law for one of them: ") +
+                   ? "Take Contact/Coupling = points, name all surfaces in one "
+                     "contact, make another surface the first one of it, or take "
+                     "a law for one of them: "
+                   : "Several obstacles can hold a node by active sets, in 3D "
+                     "without friction. Make one of them a held body, or take a "
+                     "law for one of them: ") +
                 names_of_laws() + ".");
           }
     }
@@ -620,7 +704,10 @@ namespace Ricochet
            communicator,
            held_components(setup),
            setup.geometry.get(),
-           ids_with_multipliers(contacts_of(parameters.contact, setup)))
+           multiplier_sets(contacts_with_sets(parameters.contact,
+                                              setup,
+                                              triangulation,
+                                              communicator)))
     , bulk(make_bulk(body,
                      setup,
                      parameters.scheme.name,
@@ -636,7 +723,12 @@ namespace Ricochet
           ? std::make_unique<BodyMatrix>(
               redistribute_mass(body, *consistent_mass.entries()))
           : nullptr)
-    , contacts(contacts_of(parameters.contact, setup))
+    , contacts(with_overlaps(body,
+                             contacts_with_sets(parameters.contact,
+                                                setup,
+                                                triangulation,
+                                                communicator),
+                             overlap_problem))
     , obstacles(obstacles_of(contacts))
     , parts(setup.parts)
     , contact(make_any_contact(parameters, body, setup, contacts))
@@ -857,13 +949,14 @@ namespace Ricochet
                           const Vector              &velocity,
                           const std::vector<Vector> &contact_forces)
   {
+    if (!overlap_problem.empty())
+      throw InputError(overlap_problem);
     for (const Contact &own : contacts)
       {
         check_clearance(body,
                         own.obstacles,
                         own.name,
                         /* only what may touch */ !own.name.empty());
-        check_clearance(body, own.pairs);
       }
     if (has_inertia)
       return system.initial_state(displacement,

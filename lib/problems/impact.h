@@ -67,6 +67,13 @@ namespace Ricochet
     {
       return !pairs.empty();
     }
+
+    /// The set of its multipliers, see Body.
+    unsigned int
+    multiplier_set() const
+    {
+      return is_between_bodies() ? pairs.front().multiplier_set : 0;
+    }
   };
 
   /// Set-up of an impact: bodies, contacts, conditions and loads.
@@ -131,6 +138,9 @@ namespace Ricochet
     /// Null with the consistent mass.
     const std::unique_ptr<const BodyMatrix> redistributed_mass;
     /// All contacts, in the order of ContactSum.
+    /// What is wrong with the positions of the bodies, for a run that begins without
+    /// displacements; empty if all is well.
+    std::string                overlap_problem;
     const std::vector<Contact> contacts;
     /// The obstacles of all of them; of several contacts by ContactSum::id_of().
     const Obstacles                        obstacles;

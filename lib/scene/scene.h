@@ -73,6 +73,10 @@ namespace Ricochet
     std::vector<std::string>
     notes() const;
 
+    /// Contacts of an Impact whose gaps begin with an overlap, see ContactPair.
+    std::vector<std::string>
+    notes_on_fits(const std::vector<Contact> &assembled) const;
+
     Touching
     find_touching(const ContactSection &contact) const;
 

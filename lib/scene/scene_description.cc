@@ -121,6 +121,24 @@ namespace Ricochet
 
 
 
+  template <int dim>
+  std::vector<std::string>
+  Scene<dim>::notes_on_fits(const std::vector<Contact> &assembled) const
+  {
+    std::vector<std::string> lines;
+    for (const Contact &contact : assembled)
+      for (const ContactPair &pair : contact.pairs)
+        if (pair.overlap > 0.)
+          lines.push_back("note: contact " + contact.name +
+                          ": at the start the surfaces overlap by up to " +
+                          Units(units_text).text(pair.overlap, "m") +
+                          ", as facets are chords of arcs. Gaps are counted "
+                          "from there, so that the fit begins without force.");
+    return lines;
+  }
+
+
+
   namespace
   {
     /// Faces of a mesh, and a search for the closest one.
@@ -438,8 +456,9 @@ namespace Ricochet
           obstacle_surfaces.vtu(GridTools::compute_bounding_box(whole), flags));
       });
     text << assembly.body.owned_indices().size() << " unknowns\n";
-    for (const std::string &line : notes())
-      text << line << '\n';
+    for (const auto &lines : {notes(), notes_on_fits(assembly.contacts)})
+      for (const std::string &line : lines)
+        text << line << '\n';
     if (!folder.empty())
       on_first_rank(MPI_COMM_WORLD, [&]() {
         // The same text beside the picture.

@@ -298,6 +298,8 @@ namespace Ricochet
                std::to_string(contacts.size()) +
                (contacts.size() == 1 ? " contact, " : " contacts, ") +
                impact.scheme.name);
+    for (const std::string &line : notes_on_fits(assembly.contacts))
+      folder.log(line);
 
     State initial_state;
     if (start_from.empty())

@@ -522,6 +522,154 @@ end
         self.assertIn("The contact 'joint' can do nothing: all nodes of its surfaces are held",
                       err)
 
+    def test_a_node_in_several_contacts(self):
+        """A block slides over the seam between two floors, each a contact with its own friction,
+        and stops where a rigid block does by hand, whose pressure leans forward; a block is
+        thrown into a corner of two or three walls, each with its own contact, with friction."""
+        def stop(v, cm, length, first, second):
+            """Displacement of the block until it stops; its front is 0.2 m away from the seam."""
+            x, dx = 0., 1e-5
+            while v > 0.:
+                front = min(max(x - .2, 0.), length)
+                share = front / length
+                # The part of the force on the second floor grows with the moment of friction.
+                lean = 6. * cm * front * (length - front) / length**3
+                mean = first + (second - first) * share
+                mu = mean / (1. - (second - first) * lean)
+                v2 = v * v - 2. * 9.81 * mu * dx
+                x, v = x + dx, math.sqrt(v2) if v2 > 0. else 0.
+            return x
+
+        soft = "  set Viscosity     = Curnier\n  set Viscosity eta = 5e3\nend"
+        bodies = [block("block", "-.4, 0", "1.5, 0", "0.2, 0.05", "12, 3", "1e7"),
+                  block("ice", "-.6, -.1", size="0.6, 0.1", cells="25, 4", young="1e7"),
+                  block("tar", "0, -.1", size="0.6, 0.1", cells="25, 4", young="1e7")]
+        bodies = [body.replace("\nend", "\n" + soft) for body in bodies]
+        for treatment in ("persistent contact", "Signorini active set"):
+            with self.subTest(treatment):
+                joints = [self.contact(treatment, "block: lower", f"{floor}: upper", name=floor)
+                          .replace("\nend", f"\n  set Friction coefficient = {mu}\nend")
+                          for floor, mu in (("ice", .1), ("tar", .4))]
+                probe = "subsection Probe block\n  set Body = block\nend\n"
+                file = self.scene(bodies, joints, FOOT.format(boundary="ice; tar") + probe +
+                                  GRAVITY.format(gravity="0, -9.81"), end=.8, step=2e-3)
+                ledger, _ = self.run_scene(file)
+                self.assertLess(max(ledger["promise_residual"]), 1e-10)
+                self.assertAlmostEqual(ledger["block_displacement_x"][-1],
+                                       stop(1.5, .025, .2, .1, .4), delta=2e-3)
+
+        for dim, treatment in ((2, "Signorini active set"), (2, "Ayyad-Barboteu two-step"),
+                               (3, "persistent contact")):
+            with self.subTest(dim=dim, treatment=treatment):
+                def sized(numbers, dim=dim):
+                    return ", ".join(numbers[:dim])
+
+                bodies = [block("block", sized((".01", ".005", ".007")),
+                                sized(("-1", "-.7", "-.8")), sized(("0.1", "0.1", "0.1")),
+                                sized("333"))]
+                joints = []
+                sides = [("left", "right"), ("front", "back"), ("lower", "upper")]
+                if dim == 2:
+                    del sides[1]
+                for c, (first, second) in enumerate(sides):
+                    size, cells, place = ["0.4"] * 3, ["6"] * 3, ["0"] * 3
+                    size[c], cells[c], place[c] = "0.1", "2", "-0.1"
+                    bodies.append(block(f"wall_{c}", sized(place), sized("000"), sized(size),
+                                        sized(cells)))
+                    joints.append(self.contact(treatment, f"block: {first}",
+                                               f"wall_{c}: {second}", name=f"on_{c}")
+                                  .replace("\nend", "\n  set Friction coefficient = 0.3\nend"))
+                walls = "; ".join(f"wall_{c}" for c in range(dim))
+                file = self.scene(bodies, joints, FOOT.format(boundary=walls), dim=dim, end=.04,
+                                  step=1e-3)
+                ledger, _ = self.run_scene(file)
+                self.assertLess(max(ledger["promise_residual"]), 1e-10)
+                self.assertEqual(ledger["step_halvings"][-1], 0)
+                for c in range(dim):
+                    self.assertGreater(max(ledger[f"contact_force_on_{c}"]), 10.)
+                    self.assertGreater(ledger[f"momentum_{'xyz'[c]}_block"][-1], 0.)
+
+    def test_a_block_in_a_corner_of_obstacles(self):
+        """A node between two rigid obstacles, whose rows both replace, like that between two held
+        bodies, which have multipliers; walls at an angle, that are round, that move, and three in
+        3D: Newton's method needs no more than elsewhere."""
+        def thrown(dim, joints, more):
+            return self.scene(
+                [block("block", ", ".join((".0075", ".005", ".007")[:dim]),
+                       ", ".join(("-1", "-.7", "-.8")[:dim]), ", ".join(["0.1"] * dim),
+                       "6, 6" if dim == 2 else "3, 3, 3")], joints, more, dim=dim, end=.06, step=5e-4)
+
+        def joint(treatment, side, wall, friction):
+            return self.contact(treatment, f"block: {side}", wall, name=wall.split(":")[0]).replace(
+                "\nend", f"\n  set Friction coefficient = {friction}\nend")
+
+        def obstacle(name, *lines):
+            return "\n".join([f"subsection Obstacle {name}", *lines, "end\n"])
+
+        plane = obstacle("floor", "  set Shape = half space")
+        walls = {
+            "upright": ("  set Shape = half space", "  set Direction = 1, 0"),
+            "leaning": ("  set Shape = half space", "  set Direction = 1, 0.5"),
+            "round": ("  set Shape = circle", "  set Radius = 0.5", "  set Centre = -0.5, 0.05"),
+            "moving": ("  set Shape = half space", "  set Direction = 1, 0",
+                       "  set Translation = 0.3*t; 0")}
+        for treatment, name, friction in (("Signorini active set", "upright", 0.),
+                                          ("persistent contact", "leaning", 0.),
+                                          ("Ayyad-Barboteu two-step", "round", .2),
+                                          ("persistent contact", "moving", .2)):
+            with self.subTest(wall=name, treatment=treatment):
+                joints = [joint(treatment, side, wall, friction)
+                          for side, wall in (("lower", "floor"), ("left", "wall"))]
+                ledger, _ = self.run_scene(thrown(2, joints, plane + obstacle("wall",
+                                                                              *walls[name])))
+                self.assertLess(max(ledger["promise_residual"]), 1e-11)
+                # Two-step contact has two passes.
+                self.assertLessEqual(max(ledger["newton_iterations"]), 16)
+                self.assertEqual(ledger["step_halvings"][-1], 0)
+                for wall in ("floor", "wall"):
+                    self.assertGreater(max(ledger[f"contact_force_{wall}"]), 100.)
+                # The forces are those that stop the block, each along its own normal.
+                for c in "xy":
+                    momentum = ledger[f"momentum_{c}"]
+                    self.assertAlmostEqual(
+                        sum(ledger[f"impulse_{c}_{wall}"][-1] for wall in ("floor", "wall")),
+                        momentum[-1] - momentum[0], places=9)
+                if friction == 0. and name == "leaning":
+                    self.assertAlmostEqual(
+                        ledger["impulse_y_wall"][-1] / ledger["impulse_x_wall"][-1], .5,
+                        places=9)
+                    self.assertAlmostEqual(ledger["impulse_x_floor"][-1], 0., places=9)
+                if name != "upright":
+                    continue
+                held = [block("floor", "0, -.1", size="0.6, 0.1", cells="25, 4"),
+                        block("wall", "-.1, 0", size="0.1, 0.5", cells="4, 21")]
+                joints = [joint(treatment, side, wall, friction).replace(
+                    "\nend", "\n  set Corners = false\nend") for side, wall in
+                    (("lower", "floor: upper"), ("left", "wall: right"))]
+                file = self.scene([block("block", ".0075, .005", "-1, -.7", "0.1, 0.1", "6, 6")] +
+                                  held, joints, FOOT.format(boundary="floor; wall"), end=.06,
+                                  step=5e-4)
+                bodies, _ = self.run_scene(file)
+                self.assertLess(max(abs(a - b) for a, b in zip(ledger["kinetic_energy"],
+                                                               bodies["kinetic_energy"])), 1e-8)
+        three = "".join(obstacle(name, "  set Shape = half space", f"  set Direction = {n}")
+                        for name, n in (("a", "1, 0, 0"), ("b", "0.2, 1, 0"), ("c", "0, 0, 1")))
+        for friction, code in ((0., 0), (.2, 1)):
+            joints = [joint("Signorini active set", "left", "a; b; c", friction)
+                      .replace("block: left", "block").replace("a; b; c\nsub", "a\nsub")]
+            joints[0] = joints[0].replace("Contact a; b; c", "Contact walls")
+            file = thrown(3, joints, three.replace("0.2, 1, 0", "0.2, 1, 0\n  set Centre = "
+                                                   "0.02, 0, 0"))
+            if code:
+                found, _, err = self.attempt("ricochet", prm=file, options=["--overwrite"])
+                self.assertEqual(found, 1)
+                self.assertIn("in 3D without friction", err)
+                continue
+            ledger, _ = self.run_scene(file)
+            self.assertLess(max(ledger["promise_residual"]), 1e-11)
+            self.assertLess(max(ledger["penetration_walls"]), 1e-15)
+            self.assertGreater(max(ledger["contact_force_walls"]), 100.)
+
     def test_a_wrong_stored_energy_is_noticed(self):
         """With schemes of instants the work of the body's forces is integrated by itself:
         the balance closes only if the stored energy belongs to them."""

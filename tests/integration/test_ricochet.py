@@ -803,8 +803,10 @@ subsection Contact both
   set Against = floor; wall
 end
 """
-        self.refuse("are constraints on the same nodes", "penalty",
-                    program="ricochet", prm=self.write(corner))
+        self.refuse("are constraints on the same nodes", "penalty", program="ricochet",
+                    prm=self.write(corner.replace(
+                        "floor; wall\n",
+                        "floor; wall\n  set Treatment = Signorini multipliers\n")))
         law = corner.replace("floor; wall\n",
                              "floor; wall\n  set Treatment = penalty\n")
         law = law.replace("  set Law ", "  set Velocity = -1, -1\n  set Law ")
@@ -1002,6 +1004,41 @@ end
                 result = self.validate(self.two_rectangles(sizes, places, cells))
                 self.assertEqual(result.returncode, 1, msg=result.stdout)
                 self.assertIn("At the start bodies overlap", result.stderr)
+
+    def test_a_shaft_in_a_bore_of_its_size(self):
+        """Facets of two circles of one radius overlap by what chords are off their arc, at most
+        R (1 - cos(pi/n)): such a fit was refused. It begins without force and turns in its
+        play, whatever the treatment; a larger overlap, and mortar, are refused."""
+        def fit(radius, rest):
+            text = "set Program = ricochet\nset Dimension = 2\n"
+            for name, outer, inner, nodes in (("shaft", radius, .01, 48), ("hub", .03, .02, 40)):
+                text += (f"subsection Body {name}\n  set Shape = ring\n"
+                         f"  set Radius = {outer}\n  set Inner radius = {inner}\n"
+                         f"  set Nodes around = {nodes}\n  set Nodes across = 4\n"
+                         "  set Young modulus = 1e9\n  set Density = 1000\n"
+                         + ("  set Spin = 200\n" if name == "shaft" else "") + "end\n")
+            return self.write(
+                text + "subsection Contact seat\n  set Surface = shaft: outer\n"
+                f"  set Against = hub: inner\n{rest}end\n"
+                "subsection Condition held\n  set Boundary = hub: outer\nend\n"
+                "subsection Time\n  set Final time = 2e-3\n  set Time step = 4e-5\nend\n")
+
+        for treatment in ("persistent contact", "penalty", "improved normal compliance"):
+            with self.subTest(treatment=treatment):
+                ledger = self.run_program("ricochet", NO_FIELDS, prm=fit(
+                    .02, f"  set Treatment = {treatment}\n"))
+                self.assertEqual(ledger["contact_force_seat"][1], 0.)
+                self.assertLess(max(ledger["promise_residual"]), 1e-9)
+                spin = ledger["angular_momentum_shaft"]
+                self.assertAlmostEqual(spin[-1] / spin[0], 1., places=2)
+        note = self.validate(fit(.02, "")).stdout
+        self.assertIn("the surfaces overlap by up to", note)
+        depth = float(note.split("overlap by up to ")[1].split()[0])
+        self.assertLessEqual(depth, .02 * (1. - math.cos(math.pi / 40.)) * (1. + 1e-6))
+        for radius, rest in ((.0202, ""), (.02, "  set Coupling = mortar\n")):
+            result = self.validate(fit(radius, rest))
+            self.assertEqual(result.returncode, 1, msg=result.stdout)
+            self.assertIn("At the start bodies overlap", result.stderr)
 
     def test_gap_and_notes_at_the_start(self):
         """The gap is that of facets, whose nodes are 1 m apart; cells that lock and a linear

@@ -10,6 +10,7 @@
 
 #include <base/exceptions.h>
 #include <contact/treatments/active_set_signature.h>
+#include <contact/treatments/contact_sum.h>
 #include <contact/treatments/contact_treatment.h>
 #include <contact/treatments/nitsche_bound.h>
 #include <contact/obstacles/cylinder_shape.h>
@@ -39,13 +40,13 @@ namespace
 
   template <int dim>
   void
-  check(const std::string &treatment,
-        const std::string &scheme,
-        const double       theta,
-        const bool         simplices,
-        const unsigned int degree,
-        const double       friction  = 0.,
-        const Obstacles   &obstacles = {})
+  check(const std::string            &treatment,
+        const std::string            &scheme,
+        const double                  theta,
+        const bool                    simplices,
+        const unsigned int            degree,
+        const double                  friction     = 0.,
+        const std::vector<Obstacles> &obstacles_of = {})
   {
     const CubeAbovePlane<dim> cube(simplices);
     ContactParameters         parameters;
@@ -58,27 +59,36 @@ namespace
     parameters.values["Tangential compliance"]  = .5;
     // A light augmentation: active nodes are then pressed, as at a solution.
     parameters.values["Augmentation"] = .5;
-    const Body<dim> body(cube.triangulation,
+    const Body<dim>                               body(cube.triangulation,
                          degree,
                          {},
                          {1},
                          multiplier_space(parameters),
                          MPI_COMM_WORLD);
-    const auto      contact =
-      make_contact(parameters,
-                   scheme_traits(scheme),
-                   body,
-                   material,
-                   obstacles.empty() ? cube.plane(.02) : obstacles);
+    std::vector<std::unique_ptr<ContactOperator>> contacts;
+    for (const Obstacles &obstacles : obstacles_of.empty()
+           ? std::vector<Obstacles>{cube.plane(.02)}
+           : obstacles_of)
+      contacts.push_back(make_contact(parameters,
+                                      scheme_traits(scheme),
+                                      body,
+                                      material,
+                                      obstacles));
+    const unsigned int n_contacts = contacts.size();
+    const auto         contact    = n_contacts == 1
+                 ? std::move(contacts[0])
+                 : std::make_unique<ContactSum>(std::move(contacts));
 
     Vector zero = body.make_vector(), residual(zero), perturbed_residual(zero);
     Vector solution(zero), old_solution(zero), direction(zero);
     Vector old_force(zero), difference(zero), product(zero);
     Vector mean_velocity(zero), rate_origin(zero);
-    ContactStart start{old_solution,
+    ContactStart        start{old_solution,
                        old_force,
                        mean_velocity,
                        scheme == "midpoint" ? .1 : 0.};
+    std::vector<Vector> shares;
+    start.shares = &shares;
     // Friction of an instant, with a velocity that is not that of a step.
     if (scheme != "midpoint" && friction > 0.)
       {
@@ -99,6 +109,7 @@ namespace
           mean_velocity = -10.;
           // And a reaction from the plane, from which active sets start.
           old_force = -.2;
+          shares.assign(n_contacts, old_force);
 
           // A small weight of the contact force and a residual and a tangent
           // that are not empty before: contact must only add its part (or take
@@ -231,11 +242,17 @@ namespace
                                         "Signorini multipliers",
                                         "Signorini active set"})
       for (const double friction : {0., .3})
-        check<dim>(treatment, "HHT", 1., true, 1, friction, obstacles);
+        check<dim>(treatment, "HHT", 1., true, 1, friction, {obstacles});
     for (const double theta : {1., 0.})
       {
-        check<dim>("Nitsche", "HHT", theta, true, 1, 0., obstacles);
-        check<dim>("Nitsche-hybrid", "midpoint", theta, true, 1, 0., obstacles);
+        check<dim>("Nitsche", "HHT", theta, true, 1, 0., {obstacles});
+        check<dim>("Nitsche-hybrid",
+                   "midpoint",
+                   theta,
+                   true,
+                   1,
+                   0.,
+                   {obstacles});
       }
     for (const std::string treatment : {"penalty",
                                         "Hauret-Le Tallec",
@@ -246,7 +263,35 @@ namespace
                                         "persistent contact",
                                         "Ayyad-Barboteu two-step"})
       for (const double friction : {0., .3})
-        check<dim>(treatment, "midpoint", 1., true, 1, friction, obstacles);
+        check<dim>(treatment, "midpoint", 1., true, 1, friction, {obstacles});
+  }
+
+  /// As above with several obstacles that hold the same nodes.
+  template <int dim>
+  void
+  check_corner(const std::vector<Obstacles> &obstacles)
+  {
+    for (const double friction : {0., .3})
+      if (dim == 2 || friction == 0.)
+        {
+          check<dim>("Signorini active set",
+                     "HHT",
+                     1.,
+                     true,
+                     1,
+                     friction,
+                     obstacles);
+          for (const std::string treatment : {"Signorini active set",
+                                              "persistent contact",
+                                              "Ayyad-Barboteu two-step"})
+            check<dim>(treatment, "midpoint", 1., true, 1, friction, obstacles);
+        }
+  }
+
+  Obstacles
+  at_rest(const std::shared_ptr<const ObstacleShape> &shape)
+  {
+    return {{1, std::make_shared<RigidObstacle>(shape)}};
   }
 
   Obstacles
@@ -265,11 +310,33 @@ namespace
 BOOST_AUTO_TEST_CASE(before_a_disk)
 {
   check_obstacle<2>(
-    {{1,
-      std::make_shared<RigidObstacle>(
-        std::make_shared<SphereShape>(dealii::Tensor<1, 3>({.5, -2., 0.}),
-                                      1.99,
-                                      false))}});
+    at_rest(std::make_shared<SphereShape>(dealii::Tensor<1, 3>({.5, -2., 0.}),
+                                          1.99,
+                                          false)));
+}
+
+BOOST_AUTO_TEST_CASE(in_a_corner)
+{
+  const Obstacles disk =
+    at_rest(std::make_shared<SphereShape>(dealii::Tensor<1, 3>({.5, -2., 0.}),
+                                          1.99,
+                                          false));
+  const Obstacles beside =
+    at_rest(std::make_shared<SphereShape>(dealii::Tensor<1, 3>({-1.5, -1., 0.}),
+                                          2.2,
+                                          false));
+  check_corner<2>({disk, beside});
+  check_corner<2>({CubeAbovePlane<2>(true).plane(.02), beside});
+  check_corner<3>(
+    {CubeAbovePlane<3>(true).plane(.02),
+     at_rest(
+       std::make_shared<SphereShape>(dealii::Tensor<1, 3>({-1.5, .5, -1.}),
+                                     2.4,
+                                     false)),
+     at_rest(
+       std::make_shared<SphereShape>(dealii::Tensor<1, 3>({.5, -1.5, -1.}),
+                                     2.4,
+                                     false))});
 }
 
 BOOST_AUTO_TEST_CASE(before_a_moving_wave)

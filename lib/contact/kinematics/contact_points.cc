@@ -138,8 +138,12 @@ namespace Ricochet
                     const double value = multiplier_values->shape_value(i, q);
 
                     // Multipliers exist on the contact boundary only, and the
-                    // shape functions of the others sum up to 1 on it.
-                    if (index == numbers::invalid_dof_index || value == 0.)
+                    // shape functions of the others sum up to 1 on it. Other sets
+                    // than the first one are those of contacts between bodies.
+                    if (index == numbers::invalid_dof_index || value == 0. ||
+                        multiplier_values->get_fe()
+                            .system_to_component_index(i)
+                            .first > 0)
                       continue;
                     points.add_multiplier(index, value);
                   }
@@ -244,8 +248,10 @@ namespace Ricochet
                   info.index[c] = body.system_index(
                     indices[element.component_to_system_index(c, node)]);
                 if (with_multipliers)
-                  info.index[dim] =
-                    body.multiplier_system_index(multiplier_indices[node]);
+                  info.index[dim] = body.multiplier_system_index(
+                    multiplier_indices[body.multiplier_dof_handler()
+                                         .get_fe()
+                                         .component_to_system_index(0, node)]);
 
                 set_obstacle(obstacles,
                              face->boundary_id(),

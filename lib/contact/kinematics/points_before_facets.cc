@@ -25,7 +25,7 @@ namespace Ricochet
     else if (points_in == PointsIn::corners)
       this->make_corner_points(body);
     else
-      this->make_nodal_points(body);
+      this->make_nodal_points(body, is_smooth);
     n_first_sides = own_points.size();
     if (points_in == PointsIn::nodes_and_valleys && dim > 1)
       make_other_sides();
@@ -357,6 +357,28 @@ namespace Ricochet
     place.facet = facing->facet;
     place.chain = std::move(facing->chain);
     return place;
+  }
+
+
+
+  template <int dim>
+  double
+  PointsBeforeFacets<dim>::overhang(const unsigned int p) const
+  {
+    if constexpr (dim == 1)
+      return 0.;
+    else
+      {
+        const Step     &step = steps[p];
+        const auto     &x    = gather_all(p, step.chain, old_positions);
+        const Position &y = x[0], &a = x[step.old_facet + 1],
+                       &b   = x[step.old_facet + 2];
+        const double length = std::hypot(b[0] - a[0], b[1] - a[1]),
+                     along  = ((y[0] - a[0]) * (b[0] - a[0]) +
+                              (y[1] - a[1]) * (b[1] - a[1])) /
+          length;
+        return std::max({0., -along, along - length});
+      }
   }
 
 

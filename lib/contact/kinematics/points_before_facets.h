@@ -96,6 +96,9 @@ namespace Ricochet
     }
 
     double
+    overhang(const unsigned int p) const override;
+
+    double
     softness(const unsigned int p) const override
     {
       return steps[p].is_double ? this->softness_of_doubles : 0.;

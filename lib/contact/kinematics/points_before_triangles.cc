@@ -48,7 +48,7 @@ namespace Ricochet
     else if (points_in == PointsIn::corners)
       make_corner_points(body);
     else
-      make_nodal_points(body);
+      make_nodal_points(body, has_coverage);
     gaps.resize(own_points.size());
     steps.resize(own_points.size());
 
@@ -173,6 +173,16 @@ namespace Ricochet
           if (b.nodes[v] != a.nodes[e] && b.nodes[v] != a.nodes[(e + 1) % 3])
             return SharedEdge{e, v};
     return {};
+  }
+
+
+
+  double
+  PointsBeforeTriangles::overhang(const unsigned int p) const
+  {
+    const Corners<double> x = corners(p, steps[p].old_facet, old_positions);
+    const double away = distance(x), gap = PointBeforeTriangle<double>::gap(x);
+    return std::sqrt(std::max(0., away * away - gap * gap));
   }
 
 

@@ -81,6 +81,9 @@ namespace Ricochet
     passage(const unsigned int p) const override;
 
     double
+    overhang(const unsigned int p) const override;
+
+    double
     softness(const unsigned int p) const override
     {
       return steps[p].is_double ? softness_of_doubles : 0.;

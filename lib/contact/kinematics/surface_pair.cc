@@ -19,8 +19,9 @@ namespace Ricochet
   template <int dim>
   SurfacePair<dim>::SurfacePair(const Body<dim> &body, const ContactPair &pair)
     : is_self(pair.is_self)
-    , slave(body, pair.slave)
-    , master(body, pair.master)
+    , overlap(pair.overlap)
+    , slave(body, pair.slave, pair.multiplier_set)
+    , master(body, pair.master, pair.multiplier_set)
     , communicator(body.communicator)
     , owned(body.owned_indices())
     , patches(master, body.communicator)
@@ -171,6 +172,7 @@ namespace Ricochet
             all[n].largest_overhang += half_length(f) / all[n].facets.size();
           all[n].nodes       = {{n, 1.}};
           all[n].multipliers = slave.nodes[n].multipliers;
+          all[n].is_shared   = slave.nodes[n].has_several_sets;
         }
     return all;
   }
@@ -179,11 +181,17 @@ namespace Ricochet
 
   template <int dim>
   void
-  SurfacePair<dim>::make_nodal_points(const Body<dim> &body)
+  SurfacePair<dim>::make_nodal_points(const Body<dim> &body,
+                                      const bool       has_coverage)
   {
     for (const Point &point : points_of_nodes())
       if (!point.nodes.empty() && is_mine(body, point.nodes.front().first))
-        own_points.push_back(point);
+        {
+          own_points.push_back(point);
+          // At an instant nothing else decides which contact has a node at a seam.
+          if (has_coverage && point.is_shared)
+            own_points.back().largest_overhang *= 1e-6;
+        }
   }
 
 

@@ -44,6 +44,8 @@ namespace Ricochet
   public:
     /// softness() of a point that is a node on another one.
     static constexpr double softness_of_doubles = 1e-9;
+    /// That of the tractions of a node that sticks and is held by another contact, too.
+    static constexpr double softness_of_stuck = 1e-7;
 
     using Index    = dealii::types::global_dof_index;
     using Position = std::array<double, dim>;
@@ -71,6 +73,8 @@ namespace Ricochet
       dealii::types::boundary_id boundary_id      = 0;
       /// Multipliers of the node; invalid ones in quadrature points.
       std::array<Index, dim> multipliers;
+      /// Other contacts may hold the node, too.
+      bool is_shared = false;
     };
 
     /// Rows of a point over a step, at the state of the last evaluate().
@@ -216,6 +220,14 @@ namespace Ricochet
       return known[patches.patch_of(f)];
     }
 
+    /// System index of the first displacement of the node that the point @p p is, or of the
+    /// first of its nodes.
+    Index
+    first_unknown(const unsigned int p) const
+    {
+      return slave.nodes[own_points[p].nodes[0].first].unknowns[0];
+    }
+
     const ContactSurface<dim> &
     master_surface() const
     {
@@ -230,18 +242,18 @@ namespace Ricochet
       return gaps[p].is_before_facet;
     }
 
-    /// m
+    /// Gap at the beginning of the step, plus ContactPair::overlap (m).
     double
     old_gap(const unsigned int p) const
     {
-      return gaps[p].old_gap;
+      return gaps[p].old_gap + overlap;
     }
 
-    /// m
+    /// The same at the state of the last evaluate() (m).
     double
     new_gap(const unsigned int p) const
     {
-      return gaps[p].new_gap;
+      return gaps[p].new_gap + overlap;
     }
 
     /// The coverage, see above; 1 for classes without.
@@ -262,7 +274,7 @@ namespace Ricochet
     double
     predicted_gap(const unsigned int p) const
     {
-      return gaps[p].predicted_gap;
+      return gaps[p].predicted_gap + overlap;
     }
 
     /// The multipliers of a node at the last begin_step() or evaluate() (Pa).
@@ -287,6 +299,15 @@ namespace Ricochet
     other_side(const unsigned int /*p*/) const
     {
       return {};
+    }
+
+    /// How far the point @p p is beside the facet that it faces, at the beginning of the step
+    /// (m): that decides which of two contacts holds a node at a seam between their
+    /// masters.
+    virtual double
+    overhang(const unsigned int /*p*/) const
+    {
+      return 0.;
     }
 
     /// Compliance of the constraint of the point, as a part of h / r_0 (see
@@ -405,7 +426,7 @@ namespace Ricochet
 
     /// One point for each node of the slave that this rank owns.
     void
-    make_nodal_points(const Body<dim> &body);
+    make_nodal_points(const Body<dim> &body, const bool has_coverage = false);
 
     /// Points without multipliers for nodes on features of the slave, and in 3D for three points
     /// between the nodes of each of its edges that are features, but not on planes of symmetry.
@@ -463,6 +484,8 @@ namespace Ricochet
     may_touch(const Point &point) const;
 
     const bool is_self;
+    /// ContactPair::overlap (m).
+    const double overlap;
     /// See leave_out_slip().
     bool needs_slip = true;
     /// See keep_facets().

@@ -26,6 +26,13 @@ namespace Ricochet
 
     /// One of several pairs of a contact, whose surfaces need not face each other.
     bool is_part = false;
+
+    /// Gaps are counted from this depth on: by so much facets that are chords of arcs overlap
+    /// before any displacement where one surface fits into the other (m).
+    double overlap = 0.;
+
+    /// The set of multipliers of the slave's nodes, see Body.
+    unsigned int multiplier_set = 0;
   };
 
   /// The surface of the boundary @p ids that may touch itself.

@@ -25,13 +25,14 @@ namespace Ricochet
       {
         std::array<double, dim>                  position;
         std::array<types::global_dof_index, dim> unknowns, multipliers;
+        bool                                     has_several_sets = false;
 
         template <class Archive>
         void
         serialize(Archive &archive, const unsigned int /*version*/)
         {
           // clang-format off
-          archive & position & unknowns & multipliers;
+          archive & position & unknowns & multipliers & has_several_sets;
           // clang-format on
         }
       };
@@ -103,8 +104,9 @@ namespace Ricochet
     template <int dim>
     struct NodesOfCell
     {
-      explicit NodesOfCell(const Body<dim> &body)
+      NodesOfCell(const Body<dim> &body, const unsigned int multiplier_set)
         : body(body)
+        , multiplier_set(multiplier_set)
         , element(body.dof_handler().get_fe())
         , points(element.base_element(0).get_unit_support_points())
         , dofs(element.n_dofs_per_cell())
@@ -158,16 +160,29 @@ namespace Ricochet
         if (body.has_multipliers())
           {
             const auto &multipliers = body.multiplier_dof_handler().get_fe();
+            const auto  multiplier  = [&](const unsigned int set,
+                                        const unsigned int c) {
+              return body.multiplier_system_index(
+                multiplier_dofs[multipliers.component_to_system_index(
+                  body.multiplier_component(set, c),
+                  node)]);
+            };
             if (node < multipliers.base_element(0).n_dofs_per_cell())
-              for (unsigned int c = 0; c < multipliers.n_components(); ++c)
-                result.multipliers[c] = body.multiplier_system_index(
-                  multiplier_dofs[multipliers.component_to_system_index(c,
-                                                                        node)]);
+              {
+                unsigned int n_sets = 0;
+                for (unsigned int set = 0; set < body.n_multiplier_sets();
+                     ++set)
+                  n_sets += multiplier(set, 0) != numbers::invalid_dof_index;
+                result.has_several_sets = n_sets > 1;
+                for (unsigned int c = 0; c < body.n_multipliers_per_node(); ++c)
+                  result.multipliers[c] = multiplier(multiplier_set, c);
+              }
           }
         return result;
       }
 
       const Body<dim>                     &body;
+      const unsigned int                   multiplier_set;
       const FiniteElement<dim>            &element;
       const std::vector<Point<dim>>       &points;
       std::vector<types::global_dof_index> dofs, multiplier_dofs;
@@ -228,14 +243,15 @@ namespace Ricochet
     template <int dim>
     std::vector<Message<dim>>
     own_facets(const Body<dim>                    &body,
-               const std::set<types::boundary_id> &boundaries)
+               const std::set<types::boundary_id> &boundaries,
+               const unsigned int                  multiplier_set)
     {
       const FiniteElement<dim> &element = body.dof_handler().get_fe();
       FEFaceValues<dim>         face_values(body.mapping(),
                                     element,
                                     body.face_quadrature(),
                                     update_normal_vectors | update_JxW_values);
-      NodesOfCell<dim>          nodes(body);
+      NodesOfCell<dim>          nodes(body, multiplier_set);
       std::vector<Message<dim>> messages;
       for (const auto &cell : body.dof_handler().active_cell_iterators())
         if (cell->is_locally_owned())
@@ -299,7 +315,8 @@ namespace Ricochet
   template <int dim>
   ContactSurface<dim>::ContactSurface(
     const Body<dim>                    &body,
-    const std::set<types::boundary_id> &boundaries)
+    const std::set<types::boundary_id> &boundaries,
+    const unsigned int                  multiplier_set)
   {
     if (body.dof_handler().get_fe().degree > 2)
       throw InputError(
@@ -309,7 +326,7 @@ namespace Ricochet
     std::vector<Message<dim>> messages;
     const auto                messages_of_rank =
       Utilities::MPI::all_gather(body.communicator,
-                                 own_facets(body, boundaries));
+                                 own_facets(body, boundaries, multiplier_set));
     for (unsigned int rank = 0; rank < messages_of_rank.size(); ++rank)
       for (Message<dim> message : messages_of_rank[rank])
         {
@@ -337,8 +354,9 @@ namespace Ricochet
             Node node;
             for (unsigned int c = 0; c < dim; ++c)
               node.reference_position[c] = end.position[c];
-            node.unknowns    = end.unknowns;
-            node.multipliers = end.multipliers;
+            node.unknowns         = end.unknowns;
+            node.multipliers      = end.multipliers;
+            node.has_several_sets = end.has_several_sets;
             node.is_held =
               std::all_of(end.unknowns.begin(),
                           end.unknowns.end(),

@@ -41,6 +41,8 @@ namespace Ricochet
       /// System indices of the multipliers, the normal one first; invalid ones
       /// without.
       std::array<dealii::types::global_dof_index, dim> multipliers;
+      /// The node has multipliers of more than one set: several contacts may hold it.
+      bool has_several_sets = false;
       /// All of the node's displacement is prescribed.
       bool is_held = false;
       /// Not a node, but the mean of these; it has no unknowns of its own.
@@ -72,10 +74,12 @@ namespace Ricochet
       std::array<std::optional<unsigned int>, 3> neighbours;
     };
 
+    /// @param multiplier_set that of the multipliers of the nodes, see Body.
     /// @throws InputError when the boundaries have no facet, for a degree beyond
     /// 2, and where more than two facets meet. Collective.
     ContactSurface(const Body<dim>                            &body,
-                   const std::set<dealii::types::boundary_id> &boundaries);
+                   const std::set<dealii::types::boundary_id> &boundaries,
+                   const unsigned int multiplier_set = 0);
 
     /// Means come after all nodes.
     std::vector<Node>  nodes;

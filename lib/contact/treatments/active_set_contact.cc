@@ -7,11 +7,20 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 namespace Ricochet
 {
   using dealii::Tensor;
   using dealii::VectorOperation;
+
+  namespace
+  {
+    /// Angle (rad) between two obstacles below which they are one surface for a node.
+    constexpr double smallest_angle = .05;
+  } // namespace
+
+
 
   double
   ActiveSetContact::constraint_scale(const unsigned int p) const
@@ -46,6 +55,130 @@ namespace Ricochet
         default:
           return kinematics->geometry(p).gap_increment;
       }
+  }
+
+
+
+  bool
+  ActiveSetContact::share_nodes(ContactOperator &before)
+  {
+    auto *const other = dynamic_cast<ActiveSetContact *>(&before);
+    if (!other)
+      return false;
+    const auto first_unknown = [](const ActiveSetContact &contact,
+                                  const unsigned int      p) {
+      const ContactPoints &points = contact.evaluator.coefficients();
+      return points.index[points.points[p].begin];
+    };
+    std::map<dealii::types::global_dof_index, unsigned int> node_of;
+    for (unsigned int q = 0; q < other->nodes.size(); ++q)
+      node_of[first_unknown(*other, q)] = q;
+    bool some = false;
+    for (unsigned int p = 0; p < nodes.size(); ++p)
+      if (const auto known = node_of.find(first_unknown(*this, p));
+          known != node_of.end())
+        {
+          some = true;
+          holders.resize(nodes.size());
+          other->holders.resize(other->nodes.size());
+          holders[p].push_back({other, known->second, true});
+          other->holders[known->second].push_back({this, p, false});
+        }
+    return some;
+  }
+
+
+
+  bool
+  ActiveSetContact::is_held_before(const unsigned int p) const
+  {
+    return !holders.empty() &&
+      std::any_of(holders[p].begin(),
+                  holders[p].end(),
+                  [](const Holder &holder) {
+                    return holder.is_before &&
+                      holder.contact->is_active(holder.node);
+                  });
+  }
+
+
+
+  bool
+  ActiveSetContact::is_held_elsewhere(const unsigned int p) const
+  {
+    return !holders.empty() &&
+      std::any_of(holders[p].begin(),
+                  holders[p].end(),
+                  [](const Holder &holder) {
+                    return holder.contact->nodes[holder.node].accepted_status !=
+                      Status::open;
+                  });
+  }
+
+
+
+  ActiveSetContact::Direction
+  ActiveSetContact::direction(const unsigned int p) const
+  {
+    const PointGeometry &geometry = kinematics->geometry(p);
+    Direction            result{geometry.normal, geometry.normal_derivative()};
+    for (const Holder &holder : holders[p])
+      {
+        if (!holder.is_before || !holder.contact->is_active(holder.node))
+          continue;
+        const Direction    other = holder.contact->direction(holder.node);
+        const double       along = result.vector * other.vector;
+        const Tensor<1, 3> of_along =
+          other.vector * result.derivative + result.vector * other.derivative;
+        result.derivative -=
+          outer_product(other.vector, of_along) + along * other.derivative;
+        result.vector -= along * other.vector;
+      }
+    result.length = result.vector.norm();
+    result.vector /= result.length;
+    result.derivative =
+      tangent_plane(result.vector) * result.derivative / result.length;
+    return result;
+  }
+
+
+
+  Tensor<1, 3>
+  ActiveSetContact::own_reaction(const unsigned int p) const
+  {
+    // The residual without any contact is that of the first one.
+    const Node  *first      = &nodes[p];
+    Tensor<1, 3> normals[3] = {kinematics->geometry(p).normal};
+    unsigned int n          = 1;
+    for (auto holder = holders[p].rbegin(); holder != holders[p].rend();
+         ++holder)
+      {
+        const Node &node = holder->contact->nodes[holder->node];
+        if (holder->is_before)
+          first = &node;
+        if (node.accepted_status != Status::open && n < 3)
+          normals[n++] =
+            holder->contact->kinematics->geometry(holder->node).normal;
+      }
+    // The part of the own normal that is perpendicular to the others.
+    Tensor<1, 3> others[2], own = normals[0];
+    for (unsigned int i = 1; i < n; ++i)
+      {
+        Tensor<1, 3> &other = others[i - 1];
+        other               = normals[i];
+        for (unsigned int j = 0; j + 1 < i; ++j)
+          other -= (other * others[j]) * others[j];
+        if (other.norm() < smallest_angle)
+          {
+            other = 0.;
+            continue;
+          }
+        other /= other.norm();
+        own -= (own * other) * other;
+      }
+    if (own.norm() < smallest_angle)
+      return Tensor<1, 3>();
+    return first->excess * own / own.norm_square() / weight * normals[0];
   }
 
 
@@ -190,21 +323,37 @@ namespace Ricochet
     // The reaction of the last iterate: the residual of the equation of motion
     // in the nodes that were active. In the first iteration it is the reaction
     // of the last step.
+    const bool is_before    = is_held_before(p),
+               is_elsewhere = is_held_elsewhere(p);
     if (first_in_stage)
       node.reaction = node.initial_reaction;
     else if (node.accepted_status == Status::open)
       node.reaction = 0.;
     else
-      node.reaction = node.excess / weight;
+      node.reaction = is_elsewhere ? own_reaction(p) : node.excess / weight;
+    const double friction =
+      is_before || is_elsewhere ? 0. : friction_coefficient;
     const double normal_reaction = normal * node.reaction;
-    if (friction_coefficient == 0.)
+    if (friction == 0.)
       node.reaction = normal_reaction * normal;
 
     node.constraint.choose(constraint_state(p, node.reaction),
                            constraint_scale(p),
-                           friction_coefficient);
+                           friction);
     if (!is_active(p))
       return;
+    if (is_before)
+      {
+        const Direction along = direction(p);
+        // Two obstacles there are one surface.
+        if (along.length < smallest_angle)
+          return node.constraint.set_status(Status::open);
+        const double equation =
+          node.constraint.equations(constraint_state(p, node.reaction)).normal;
+        node.exchange =
+          (weight * equation - along.vector * node.excess) * along.vector;
+        return;
+      }
 
     // The reaction is the residual of the equation of motion: together with it, the
     // equations of the constraint replace the rows of the node.
@@ -242,7 +391,7 @@ namespace Ricochet
     for (unsigned int p = 0; p < nodes.size(); ++p)
       {
         Node &node = nodes[p];
-        if (node.candidate)
+        if (node.candidate || (!holders.empty() && !holders[p].empty()))
           {
             look_at_geometry(p);
             node.excess = evaluator.at_node(p, residual);
@@ -280,6 +429,17 @@ namespace Ricochet
     const Tensor<2, 3>   one(dealii::unit_symmetric_tensor<3>()),
       plane                  = tangent_plane(normal);
     const auto of_constraint = node.constraint.derivatives();
+    if (is_held_before(p))
+      {
+        const Direction along = direction(p);
+        return {-outer_product(along.vector, along.vector),
+                weight * of_constraint.normal_with_closing *
+                    (outer_product(closing_derivative() * along.vector,
+                                   geometry.gap_gradient) +
+                     node.closing * along.derivative) -
+                  (along.vector * node.excess) * along.derivative -
+                  outer_product(along.vector, node.excess * along.derivative)};
+      }
     // Derivatives by pressure n.e and traction -P e of the residual without
     // contact e (excess), over the weight.
     ExchangeDerivatives derivatives;

@@ -28,6 +28,12 @@ namespace Ricochet
    * reaction is mu times the normal one, against the slip. Stick or slip is
    * found from tangential reaction - r slip in the same way (B (5.7), in the
    * form of Hüeber, Stadler and Wohlmuth).
+   *
+   * Several contacts may act on a node, as in a corner: each of them replaces one component,
+   * along its normal less the parts along the normals before it (Gram and Schmidt), and the
+   * reactions are the coefficients of the residual of the equation of motion along the normals.
+   * A node that is held by two of them does not slip across the line that both leave free, so that
+   * it has no friction; in 2D that obeys Coulomb's law except in the step in which the second one is met.
    */
   class ActiveSetContact : public ContactOperator
   {
@@ -62,6 +68,9 @@ namespace Ricochet
       make_rows();
       find_held(body.constraints());
     }
+
+    bool
+    share_nodes(ContactOperator &before) override;
 
     void
     begin_stage(const ContactStart &start, const double weight) override;
@@ -155,6 +164,43 @@ namespace Ricochet
       dealii::Tensor<1, 3> initial_reaction;
     };
 
+    /// A node in another contact.
+    struct Holder
+    {
+      const ActiveSetContact *contact;
+      unsigned int            node;
+      /// It is evaluated before this contact.
+      bool is_before;
+    };
+
+    /// The component of a node's equation that a contact replaces: along a unit vector, with
+    /// its derivative with respect to the displacement of the node (1/m).
+    struct Direction
+    {
+      dealii::Tensor<1, 3> vector;
+      dealii::Tensor<2, 3> derivative;
+      /// Length of the normal less its parts along the normals before it; 1 if there are none.
+      double length = 1.;
+    };
+
+    /// That of node @p p, with the contacts before this one that hold the node now.
+    Direction
+    direction(const unsigned int p) const;
+
+    /// Whether a contact before this one holds node @p p now, so that direction() is not the
+    /// normal.
+    bool
+    is_held_before(const unsigned int p) const;
+
+    /// Whether another contact held node @p p at the last accepted iterate.
+    bool
+    is_held_elsewhere(const unsigned int p) const;
+
+    /// The normal reaction (N) in node @p p, times the normal, if the residual of its equation of
+    /// motion is that of the contacts that held it at the last accepted iterate.
+    dealii::Tensor<1, 3>
+    own_reaction(const unsigned int p) const;
+
     /// Whether node @p p is active.
     bool
     is_active(const unsigned int p) const
@@ -247,6 +293,8 @@ namespace Ricochet
     std::vector<ContactPointState<>> state, old_state;
     std::vector<PointVector>         stress_observables;
     std::vector<Node>                nodes;
+    /// Other contacts that act on each node; empty if there are none at all.
+    std::vector<std::vector<Holder>> holders;
     // Observables at the last add_residual() and at the state of
     // evaluate_at_increment().
     bool                     looks_at_change = false;

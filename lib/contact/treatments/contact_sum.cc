@@ -63,10 +63,15 @@ namespace Ricochet
         rows.push_back(row);
     own_structure.rows = rows;
 
-    if (!have_functionals)
-      return;
     const MPI_Comm communicator = force.get_mpi_communicator();
-    const bool     are_apart    = keeps_rows_apart(structures, communicator);
+    bool           some_share   = false;
+    for (unsigned int k = 0; k < in_order.size(); ++k)
+      for (unsigned int before = 0; before < k; ++before)
+        some_share = in_order[k]->share_nodes(*in_order[before]) || some_share;
+    some_share = Utilities::MPI::max(some_share ? 1 : 0, communicator) == 1;
+    if (!have_functionals || some_share)
+      return;
+    const bool are_apart = keeps_rows_apart(structures, communicator);
     if (!are_apart && Utilities::MPI::n_mpi_processes(communicator) > 1)
       return;
     ContactStructure::ActsThrough &all = own_structure.functionals.emplace();

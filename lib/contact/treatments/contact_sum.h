@@ -18,8 +18,8 @@ namespace Ricochet
    * Active sets against obstacles eliminate rows of the equations of motion, with
    * all forces in them; so the other contacts come first.
    *
-   * A boundary may take part in several of them; but only in one that eliminates
-   * rows, and in one that has multipliers. Summaries are under id_of() of a contact
+   * A boundary may take part in several of them. Those that eliminate rows of the same node
+   * know of each other, see ContactOperator::share_nodes(). Summaries are under id_of() of a contact
    * and its boundary ids. The state keeps the force of each (State::contact_shares),
    * from which a contact finds the points that were pressed in the step before.
    */
@@ -133,8 +133,8 @@ namespace Ricochet
 
     /// The structure and the properties of all contacts. The rows of the contact
     /// Jacobian (functionals) are those of all, one contact after the other; there are
-    /// none if one of them has none, or, on several ranks, if one eliminates rows in
-    /// which another acts.
+    /// none if one of them has none, if two eliminate rows of the same node, or, on several
+    /// ranks, if one eliminates rows in which another acts.
     void
     set_structure();
 

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace Ricochet
 {
@@ -97,7 +98,11 @@ namespace Ricochet
       std::vector<ContactPair> parts;
       for (const auto &group :
            ContactSurface<dim>(body, pair.master).connected_boundaries())
-        parts.push_back({pair.name, pair.slave, group, false, true});
+        {
+          ContactPair &part = parts.emplace_back(pair);
+          part.master       = group;
+          part.is_part      = true;
+        }
       if (parts.size() == 1)
         return {pair};
       return parts;
@@ -158,9 +163,12 @@ namespace Ricochet
       }
     n_own_pairs = pairs.size();
     for (const ContactPair &pair : pair_list)
-      if (dim > 1 && method.corners && !pair.is_self)
-        for (const ContactPair &part :
-             parts_of(body, ContactPair{pair.name, pair.master, pair.slave}))
+      {
+        if (dim == 1 || !method.corners || pair.is_self)
+          continue;
+        ContactPair of_master = pair;
+        std::swap(of_master.slave, of_master.master);
+        for (const ContactPair &part : parts_of(body, of_master))
           {
             auto corners = make_corner_pair(body, part);
             corners->report_as(*pair.slave.begin());
@@ -169,6 +177,7 @@ namespace Ricochet
                                     communicator) > 0)
               pairs.push_back(std::move(corners));
           }
+      }
     for (unsigned int k = 0; k < pairs.size(); ++k)
       {
         if (!has_friction)
@@ -306,6 +315,68 @@ namespace Ricochet
                    });
     if (Utilities::MPI::max(changed ? 1 : 0, communicator) == 1)
       ++all_couplings.version;
+    choose_holders();
+  }
+
+
+
+  template <int dim>
+  bool
+  PairContact<dim>::share_nodes(ContactOperator &before)
+  {
+    auto *const other = dynamic_cast<PairContact *>(&before);
+    if (!other)
+      return false;
+    const auto unknown = [](const PairContact &contact,
+                            const PointState  &state) {
+      return contact.pair_of(state).first_unknown(state.point);
+    };
+    std::map<types::global_dof_index, unsigned int> state_of;
+    for (unsigned int s = 0; s < other->states.size(); ++s)
+      if (other->point_of(other->states[s]).is_shared &&
+          !other->pair_of(other->states[s])
+             .is_other_side(other->states[s].point))
+        state_of[unknown(*other, other->states[s])] = s;
+    for (unsigned int s = 0; s < states.size(); ++s)
+      if (point_of(states[s]).is_shared &&
+          !pair_of(states[s]).is_other_side(states[s].point))
+        if (const auto known = state_of.find(unknown(*this, states[s]));
+            known != state_of.end())
+          {
+            doubles.push_back({s, other, known->second});
+            states[s].doubles.push_back(&other->states[known->second]);
+            other->states[known->second].doubles.push_back(&states[s]);
+          }
+    // Both have multipliers of their own.
+    return false;
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::choose_holders()
+  {
+    // Angle (as cosine) between two masters below which they are one surface for a node.
+    constexpr double small_angle = .995;
+    for (const Double &one : doubles)
+      {
+        PointState &own   = states[one.state],
+                   &other = one.before->states[one.other];
+        if (!own.candidate || !other.candidate)
+          continue;
+        const Pair &pair       = pair_of(own),
+                   &other_pair = one.before->pair_of(other);
+        const auto &n          = pair.rows(own.point).direction;
+        const auto &other_n    = other_pair.rows(other.point).direction;
+        if (std::inner_product(n.begin(), n.end(), other_n.begin(), 0.) <
+            small_angle)
+          continue;
+        const bool is_ours =
+          pair.overhang(own.point) < other_pair.overhang(other.point);
+        (is_ours ? other : own).candidate       = false;
+        (is_ours ? other : own).accepted_status = Status::open;
+      }
   }
 
 
@@ -853,7 +924,7 @@ namespace Ricochet
             -(c == 0 ? equations.normal : equations.tangential[c - 1]) /
             stiffness(state);
           if (is_soft(state, c))
-            equation -= softness(state) * pair.multipliers(p)[c];
+            equation -= softness(state, c) * pair.multipliers(p)[c];
           force(point.multipliers[c]) += point.weight * equation;
         }
   }
@@ -1204,7 +1275,7 @@ namespace Ricochet
             if (is_soft(state, c))
               add_entry(multipliers[c],
                         multipliers[c],
-                        -weight * point.weight * softness(state));
+                        -weight * point.weight * softness(state, c));
             if (c == 0)
               add_entry(multipliers[0],
                         multipliers[0],

@@ -86,6 +86,9 @@ namespace Ricochet
                 const std::vector<ContactPair> &pairs,
                 PairMethod                      method);
 
+    bool
+    share_nodes(ContactOperator &before) override;
+
     void
     begin_stage(const ContactStart &start, const double weight) override;
 
@@ -202,6 +205,8 @@ namespace Ricochet
       /// changed.
       int          accepted_passage   = 0;
       unsigned int n_passages_changed = 0;
+      /// The same node in other contacts.
+      std::vector<const PointState *> doubles;
       /// Unknowns coupled by the contact sparsity, sorted.
       std::vector<dealii::types::global_dof_index> coupled;
     };
@@ -315,25 +320,45 @@ namespace Ricochet
       return method.acts_over_step ? 1. : 2.;
     }
 
-    /// Compliance of a closed point (m/Pa), see SurfacePair::softness(). At an instant nodes
-    /// of a surface against itself come to lie on each other in any iterate.
+    /// Compliance (m/Pa) in the equation of multiplier @p c of a closed point, see
+    /// SurfacePair::softness(). At an instant nodes of a surface against itself come to lie on
+    /// each other in any iterate. What sticks to two walls is held more often than it can
+    /// move: the walls carry it by their pressures, rather than each other's by friction.
     double
-    softness(const PointState &state) const
+    softness(const PointState &state, const unsigned int c) const
     {
-      const Pair  &pair = pair_of(state);
-      const double part = method.acts_over_step || !pair.touches_itself()
-        ? pair.softness(state.point)
-        : Pair::softness_of_doubles;
+      const Pair &pair = pair_of(state);
+      double      part = pair.softness(state.point);
+      if (pair.touches_itself() && !method.acts_over_step)
+        part = Pair::softness_of_doubles;
+      else if (c > 0 && is_held_elsewhere(state))
+        part = Pair::softness_of_stuck;
       return part / stiffness(state);
+    }
+
+    /// Whether another contact held the node at the last accepted iterate.
+    static bool
+    is_held_elsewhere(const PointState &state)
+    {
+      return std::any_of(state.doubles.begin(),
+                         state.doubles.end(),
+                         [](const PointState *other) {
+                           return other->accepted_status != Status::open;
+                         });
     }
 
     /// Whether the equation of multiplier @p c of a point has the softness().
     bool
     is_soft(const PointState &state, const unsigned int c) const
     {
-      return softness(state) > 0. &&
+      return softness(state, c) > 0. &&
         (c == 0 ? state.status != Status::open : state.status == Status::stick);
     }
+
+    /// Where two contacts would hold a node in the same direction, leave it to that whose
+    /// master it is in front of: at a seam, a node goes over from one to the other.
+    void
+    choose_holders();
 
     /// The quantity that the condition keeps at zero in the current pass (m).
     double
@@ -516,9 +541,18 @@ namespace Ricochet
     /// unconnected parts.
     std::vector<unsigned int> first_part;
     std::vector<PointState>   states;
-    const unsigned int        n_displacements_owned;
-    double                    weight    = 1.;
-    double                    time_step = 0.;
+    /// A point that is the same node in another contact, whose stages begin before.
+    struct Double
+    {
+      unsigned int state;
+      PairContact *before;
+      /// Its number there.
+      unsigned int other;
+    };
+    std::vector<Double> doubles;
+    const unsigned int  n_displacements_owned;
+    double              weight    = 1.;
+    double              time_step = 0.;
     /// Time of the instant (s), and the origin of slip (m).
     double       end_time = 0.;
     Vector       rate_origin, increments;
