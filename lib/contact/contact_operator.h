@@ -102,8 +102,9 @@ namespace Ricochet
       return promise;
     }
 
-    /// For contacts that eliminate rows: tell this one of another one that is evaluated
-    /// @p before it. @return whether both act on a node. Not collective.
+    /// Tell this contact of another one, whose stages begin and which is evaluated @p before
+    /// it: both may hold the same nodes. @return whether both eliminate rows of a node. Not
+    /// collective.
     virtual bool
     share_nodes(ContactOperator & /*before*/)
     {

@@ -85,13 +85,23 @@ namespace Ricochet
                            const bool         may_be_empty)
   {
     AssertThrow(row_list.empty(), ExcMessage("Columns come before rows."));
-    for (const Column &column : column_list)
-      if (column.name == name)
-        throw InputError("The energy table would have two columns '" + name +
-                         "'. Give the body, contact or probe that it is of "
-                         "another name.");
+    if (find_column(name))
+      throw InputError("The energy table would have two columns '" + name +
+                       "'. Give the body, contact or probe that it is of "
+                       "another name.");
     column_list.push_back({name, unit, may_be_empty});
     return column_list.size() - 1;
+  }
+
+
+
+  std::optional<unsigned int>
+  EnergyLedger::find_column(const std::string &name) const
+  {
+    for (unsigned int i = 0; i < column_list.size(); ++i)
+      if (column_list[i].name == name)
+        return i;
+    return {};
   }
 
 
@@ -99,11 +109,19 @@ namespace Ricochet
   unsigned int
   EnergyLedger::column_number(const std::string &name) const
   {
-    for (unsigned int i = 0; i < column_list.size(); ++i)
-      if (column_list[i].name == name)
-        return i;
-    AssertThrow(false, ExcMessage("The ledger has no column " + name));
-    return 0;
+    const auto number = find_column(name);
+    AssertThrow(number, ExcMessage("The ledger has no column " + name));
+    return *number;
+  }
+
+
+
+  double
+  EnergyLedger::value(const std::vector<double> &row,
+                      const std::string         &name) const
+  {
+    const auto number = find_column(name);
+    return number ? row[*number] : 0.;
   }
 
 

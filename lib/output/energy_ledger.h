@@ -5,6 +5,7 @@
 #include <base/run_folder.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -88,9 +89,17 @@ namespace Ricochet
       return row_list;
     }
 
-    /// Number of the column called @p name.
+    /// Number of the column called @p name, if there is one.
+    std::optional<unsigned int>
+    find_column(const std::string &name) const;
+
+    /// Number of a column that is there.
     unsigned int
     column_number(const std::string &name) const;
+
+    /// The value of the column called @p name in a @p row; 0 without that column.
+    double
+    value(const std::vector<double> &row, const std::string &name) const;
 
   private:
     std::string

@@ -38,22 +38,10 @@ namespace Ricochet
 
 
 
-  bool
-  RunSummary::has_column(const std::string &name) const
-  {
-    const auto &columns = ledger.columns();
-    return std::any_of(columns.begin(), columns.end(), [&](const auto &column) {
-      return column.name == name;
-    });
-  }
-
-
-
   double
   RunSummary::first(const std::string &name) const
   {
-    return has_column(name) ? ledger.rows().front()[ledger.column_number(name)]
-                            : 0.;
+    return ledger.value(ledger.rows().front(), name);
   }
 
 
@@ -61,8 +49,7 @@ namespace Ricochet
   double
   RunSummary::last(const std::string &name) const
   {
-    return has_column(name) ? ledger.rows().back()[ledger.column_number(name)]
-                            : 0.;
+    return ledger.value(ledger.rows().back(), name);
   }
 
 
@@ -107,7 +94,7 @@ namespace Ricochet
       }
     for (const char *component : {"x", "y", "z"})
       if (const auto column = std::string("impulse_") + component + "_" + name;
-          has_column(column))
+          ledger.find_column(column))
         result.impulse.push_back(last(column));
     return result;
   }
@@ -292,7 +279,7 @@ namespace Ricochet
                                        "passed_points",
                                        "dropped_points",
                                        "entered_points"})
-          if (has_column(what + "_" + name))
+          if (ledger.find_column(what + "_" + name))
             json.add(what, last(what + "_" + name));
         json.end_object();
       }

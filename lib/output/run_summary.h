@@ -72,9 +72,6 @@ namespace Ricochet
       std::vector<double> impulse;
     };
 
-    bool
-    has_column(const std::string &name) const;
-
     /// The value of a column in the first and the last row; 0 without it.
     double
     first(const std::string &name) const;

@@ -150,20 +150,19 @@ namespace Ricochet
       return contacts;
     }
 
-    /// The @p contacts with the overlaps of curved surfaces that fit into each other. Other
-    /// overlaps are a @p problem of runs that begin without displacements.
+    /// Set the overlaps of curved surfaces that fit into each other in the @p contacts.
+    /// @return what is wrong with other overlaps, see find_overlaps().
     template <int dim>
-    std::vector<Contact>
-    with_overlaps(const Body<dim>     &body,
-                  std::vector<Contact> contacts,
-                  std::string         &problem)
+    std::string
+    set_overlaps(const Body<dim> &body, std::vector<Contact> &contacts)
     {
+      std::string problem;
       for (Contact &contact : contacts)
         if (problem.empty())
           problem = find_overlaps(body,
                                   contact.pairs,
                                   contact.parameters.coupling == "points");
-      return contacts;
+      return problem;
     }
 
     /// The boundary ids of each set.
@@ -696,18 +695,19 @@ namespace Ricochet
                       const Triangulation<dim> &triangulation,
                       const ImpactSetup<dim>   &setup,
                       const MPI_Comm            communicator)
-    : body(with_boundaries(triangulation, named_ids(setup), communicator),
+    : contacts(contacts_with_sets(parameters.contact,
+                                  setup,
+                                  triangulation,
+                                  communicator))
+    , body(with_boundaries(triangulation, named_ids(setup), communicator),
            setup.degree,
            setup.clamped,
-           contact_ids(contacts_of(parameters.contact, setup)),
-           multipliers_of(contacts_of(parameters.contact, setup), setup.degree),
+           contact_ids(contacts),
+           multipliers_of(contacts, setup.degree),
            communicator,
            held_components(setup),
            setup.geometry.get(),
-           multiplier_sets(contacts_with_sets(parameters.contact,
-                                              setup,
-                                              triangulation,
-                                              communicator)))
+           multiplier_sets(contacts))
     , bulk(make_bulk(body,
                      setup,
                      parameters.scheme.name,
@@ -723,12 +723,7 @@ namespace Ricochet
           ? std::make_unique<BodyMatrix>(
               redistribute_mass(body, *consistent_mass.entries()))
           : nullptr)
-    , contacts(with_overlaps(body,
-                             contacts_with_sets(parameters.contact,
-                                                setup,
-                                                triangulation,
-                                                communicator),
-                             overlap_problem))
+    , overlap_problem(set_overlaps(body, contacts))
     , obstacles(obstacles_of(contacts))
     , parts(setup.parts)
     , contact(make_any_contact(parameters, body, setup, contacts))

@@ -132,16 +132,16 @@ namespace Ricochet
            const ImpactSetup<dim>           &setup,
            const MPI_Comm                    communicator);
 
+    /// All contacts, in the order of ContactSum.
+    std::vector<Contact>                contacts;
     const Body<dim>                     body;
     const std::unique_ptr<BulkOperator> bulk;
     const BodyMatrix                    consistent_mass;
     /// Null with the consistent mass.
     const std::unique_ptr<const BodyMatrix> redistributed_mass;
-    /// All contacts, in the order of ContactSum.
     /// What is wrong with the positions of the bodies, for a run that begins without
     /// displacements; empty if all is well.
-    std::string                overlap_problem;
-    const std::vector<Contact> contacts;
+    const std::string overlap_problem;
     /// The obstacles of all of them; of several contacts by ContactSum::id_of().
     const Obstacles                        obstacles;
     const std::vector<Part<dim>>           parts;

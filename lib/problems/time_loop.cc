@@ -3,7 +3,6 @@
 #include <base/last_meeting.h>
 #include <base/parameter_file.h>
 #include <base/stop_request.h>
-#include <output/run_summary.h>
 #include <problems/time_loop.h>
 
 #include <deal.II/base/timer.h>
@@ -633,10 +632,7 @@ namespace Ricochet
   TimeLoop::terms_of(const std::vector<double> &row) const
   {
     const auto value = [&](const std::string &name) {
-      for (unsigned int i = 0; i < row.size(); ++i)
-        if (ledger.columns()[i].name == name)
-          return row[i];
-      return 0.;
+      return ledger.value(row, name);
     };
     EnergyCheck::Terms terms;
     terms.time                  = value("time");
@@ -946,14 +942,22 @@ namespace Ricochet
 
 
 
+  RunSummary
+  TimeLoop::summary() const
+  {
+    std::vector<std::string> names;
+    for (const auto &entry : contact_names)
+      names.push_back(entry.first);
+    return {ledger, names, check, units};
+  }
+
+
+
   void
   TimeLoop::write_summary(const std::string &state,
                           const std::string &reason,
                           const double       wall_seconds)
   {
-    std::vector<std::string> names;
-    for (const auto &entry : contact_names)
-      names.push_back(entry.first);
     const std::uint64_t mesh_checksum = system.unknowns.mesh_checksum();
     char                text[24];
     std::snprintf(text,
@@ -961,17 +965,16 @@ namespace Ricochet
                   "%016llx",
                   static_cast<unsigned long long>(mesh_checksum));
     const std::string json =
-      RunSummary(ledger, names, check, units)
-        .json({state,
-               reason,
-               parameters.final_time,
-               parameters.time_step,
-               wall_seconds,
-               Utilities::MPI::n_mpi_processes(folder.communicator),
-               text,
-               system.linear_solver_description(),
-               how_solved()},
-              folder);
+      summary().json({state,
+                      reason,
+                      parameters.final_time,
+                      parameters.time_step,
+                      wall_seconds,
+                      Utilities::MPI::n_mpi_processes(folder.communicator),
+                      text,
+                      system.linear_solver_description(),
+                      how_solved()},
+                     folder);
     on_first_rank(folder.communicator, [&]() {
       write_atomically(folder.file("summary.json"), json);
     });
@@ -992,16 +995,10 @@ namespace Ricochet
             {"dropped_points_",
              "points that were pressed and then faced no facet"},
             {"entered_points_", "points that came in behind a facet"}})
-        for (unsigned int i = 0; i < ledger.columns().size(); ++i)
-          if (ledger.columns()[i].name == column + name &&
-              ledger.rows().back()[i] > 0.)
-            folder.log("contact " + name + ": " +
-                       to_text(ledger.rows().back()[i]) + " " + text);
-    std::vector<std::string> names;
-    for (const auto &entry : contact_names)
-      names.push_back(entry.first);
-    for (const std::string &line :
-         RunSummary(ledger, names, check, units).lines())
+        if (const double n = ledger.value(ledger.rows().back(), column + name);
+            n > 0.)
+          folder.log("contact " + name + ": " + to_text(n) + " " + text);
+    for (const std::string &line : summary().lines())
       folder.log(line);
     if (const std::string text = how_solved(); !text.empty())
       folder.log("steps by how they were solved: " + text);

@@ -7,6 +7,7 @@
 #include <output/checkpoint.h>
 #include <output/energy_check.h>
 #include <output/energy_ledger.h>
+#include <output/run_summary.h>
 #include <time_integration/time_scheme.h>
 
 #include <deal.II/base/timer.h>
@@ -221,6 +222,9 @@ namespace Ricochet
     /// and becomes that of @p new_state (J).
     void
     account(const State &new_state, const StepReport &report, double &energy);
+
+    RunSummary
+    summary() const;
 
     /// Write summary.json, see RunSummary. @param state "complete", "stopped" or "failed", and
     /// the @p reason. @throws ComputationError Collective.

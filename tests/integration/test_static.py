@@ -11,6 +11,18 @@ from common import *
 STACK = ROOT / "examples" / "verification" / "stack.prm"
 PATCH = ROOT / "examples" / "verification" / "patch_equal.prm"
 
+STEPS = """
+subsection Time
+  set Scheme     = {scheme}
+  set Final time = {end}
+  set Time step  = {step}
+end
+subsection Output
+  set Fields every     = 0
+  set Checkpoint every = 1
+end
+"""
+
 BLOCK = """
 set Program   = ricochet
 set Dimension = 2
@@ -23,16 +35,7 @@ subsection Body block
   set Density       = 1000
 end
 {more}
-subsection Time
-  set Scheme     = {scheme}
-  set Final time = {end}
-  set Time step  = {step}
-end
-subsection Output
-  set Fields every     = 0
-  set Checkpoint every = 1
-end
-"""
+""" + STEPS
 
 FOOT = """
 subsection Condition foot
@@ -129,16 +132,7 @@ subsection Start
   set Gravity = 0, -9.81
   {more}
 end
-subsection Time
-  set Scheme     = {scheme}
-  set Final time = {end}
-  set Time step  = {step}
-end
-subsection Output
-  set Fields every     = 0
-  set Checkpoint every = 1
-end
-"""
+""" + STEPS
 
 
 class Static(ProgramTest):

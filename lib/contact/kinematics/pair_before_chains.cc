@@ -80,6 +80,26 @@ namespace Ricochet
 
 
   template <int dim>
+  std::pair<double, double>
+  PairBeforeChains<dim>::place_along(const std::vector<Position> &x,
+                                     const unsigned int           facet)
+  {
+    if constexpr (dim == 1)
+      return {0., 0.};
+    else
+      {
+        const Position &a = x[facet + 1], &b = x[facet + 2];
+        const double    length = std::hypot(b[0] - a[0], b[1] - a[1]);
+        const double    along  = ((b[0] - a[0]) * (x[0][0] - a[0]) +
+                              (b[1] - a[1]) * (x[0][1] - a[1])) /
+          length;
+        return {along, length};
+      }
+  }
+
+
+
+  template <int dim>
   bool
   PairBeforeChains<dim>::is_off(const std::vector<Position> &x,
                                 const Chain                 &chain,
@@ -90,12 +110,8 @@ namespace Ricochet
       return false;
     else
       {
-        const auto     &own = master.facets[chain.facets[facet]];
-        const Position &a = x[facet + 1], &b = x[facet + 2];
-        const double    length = std::hypot(b[0] - a[0], b[1] - a[1]);
-        const double    along  = ((b[0] - a[0]) * (x[0][0] - a[0]) +
-                              (b[1] - a[1]) * (x[0][1] - a[1])) /
-          length;
+        const auto &own            = master.facets[chain.facets[facet]];
+        const auto [along, length] = place_along(x, facet);
         if ((!own.previous && along < 0.) || (!own.next && along > length))
           return std::max(-along, along - length) > largest_overhang;
         const double gap = gap_before(x, chain, facet);

@@ -68,6 +68,11 @@ namespace Ricochet
     facet_before(const std::vector<Position> &x,
                  const unsigned int           facet) const;
 
+    /// The place of the point along @p facet of a chain, from its first node, and the length
+    /// of the facet (m); zeros in 1D.
+    static std::pair<double, double>
+    place_along(const std::vector<Position> &x, const unsigned int facet);
+
     /// Whether the point is beyond an open end of the surface by more than @p
     /// largest_overhang (m), or beside it.
     bool

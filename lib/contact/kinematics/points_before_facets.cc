@@ -365,20 +365,11 @@ namespace Ricochet
   double
   PointsBeforeFacets<dim>::overhang(const unsigned int p) const
   {
-    if constexpr (dim == 1)
-      return 0.;
-    else
-      {
-        const Step     &step = steps[p];
-        const auto     &x    = gather_all(p, step.chain, old_positions);
-        const Position &y = x[0], &a = x[step.old_facet + 1],
-                       &b   = x[step.old_facet + 2];
-        const double length = std::hypot(b[0] - a[0], b[1] - a[1]),
-                     along  = ((y[0] - a[0]) * (b[0] - a[0]) +
-                              (y[1] - a[1]) * (b[1] - a[1])) /
-          length;
-        return std::max({0., -along, along - length});
-      }
+    const Step &step = steps[p];
+    const auto [along, length] =
+      this->place_along(gather_all(p, step.chain, old_positions),
+                        step.old_facet);
+    return std::max({0., -along, along - length});
   }
 
 

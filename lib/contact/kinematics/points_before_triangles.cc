@@ -31,6 +31,14 @@ namespace Ricochet
       const auto shares = closest_in_triangle(y, a, b, c);
       return (y - shares[0] * a - shares[1] * b - shares[2] * c).norm();
     }
+
+    /// How far a point is beside a triangle, along its plane, from the square of its
+    /// distance and its gap.
+    double
+    beside(const double distance_square, const double gap)
+    {
+      return std::sqrt(std::max(0., distance_square - gap * gap));
+    }
   } // namespace
 
 
@@ -180,9 +188,9 @@ namespace Ricochet
   double
   PointsBeforeTriangles::overhang(const unsigned int p) const
   {
-    const Corners<double> x = corners(p, steps[p].old_facet, old_positions);
-    const double away = distance(x), gap = PointBeforeTriangle<double>::gap(x);
-    return std::sqrt(std::max(0., away * away - gap * gap));
+    const Corners<double> x    = corners(p, steps[p].old_facet, old_positions);
+    const double          away = distance(x);
+    return beside(away * away, PointBeforeTriangle<double>::gap(x));
   }
 
 
@@ -198,17 +206,16 @@ namespace Ricochet
     const auto         shares = closest_in_triangle(y, a, b, c);
     const Tensor<1, 3> away = y - shares[0] * a - shares[1] * b - shares[2] * c;
     const double       gap  = PointBeforeTriangle<double>::gap(x);
-    const double       beside =
-      std::sqrt(std::max(0., away.norm_square() - gap * gap));
-    const double size =
+    const double       off  = beside(away.norm_square(), gap);
+    const double       size =
       std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     for (unsigned int e = 0; e < 3; ++e)
       if (!master.facets[f].neighbours[e] && shares[(e + 2) % 3] == 0. &&
-          beside > 0.)
-        return beside > found_overhang(own_points[p], has_coverage);
+          off > 0.)
+        return off > found_overhang(own_points[p], has_coverage);
     // A point past a convex edge may be as far away as the neighbour is in front of
     // it; a point farther off the facet than in front of it is beside it.
-    return beside > 1.5 * std::abs(gap) + tolerance * size;
+    return off > 1.5 * std::abs(gap) + tolerance * size;
   }
 
 

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -147,38 +149,32 @@ namespace Ricochet
   ActiveSetContact::own_reaction(const unsigned int p) const
   {
     // The residual without any contact is that of the first one.
-    const Node  *first      = &nodes[p];
-    Tensor<1, 3> normals[3] = {kinematics->geometry(p).normal};
-    unsigned int n          = 1;
+    const Node *first = &nodes[p];
+    // Normals as columns: the own one, and at most two others.
+    Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 3> normals(3,
+                                                                            1);
+    const auto add = [&](const Tensor<1, 3> &normal) {
+      for (unsigned int c = 0; c < 3; ++c)
+        normals(c, normals.cols() - 1) = normal[c];
+    };
+    const Tensor<1, 3> &own = kinematics->geometry(p).normal;
+    add(own);
     for (auto holder = holders[p].rbegin(); holder != holders[p].rend();
          ++holder)
       {
         const Node &node = holder->contact->nodes[holder->node];
         if (holder->is_before)
           first = &node;
-        if (node.accepted_status != Status::open && n < 3)
-          normals[n++] =
-            holder->contact->kinematics->geometry(holder->node).normal;
-      }
-    // The part of the own normal that is perpendicular to the others.
-    Tensor<1, 3> others[2], own = normals[0];
-    for (unsigned int i = 1; i < n; ++i)
-      {
-        Tensor<1, 3> &other = others[i - 1];
-        other               = normals[i];
-        for (unsigned int j = 0; j + 1 < i; ++j)
-          other -= (other * others[j]) * others[j];
-        if (other.norm() < smallest_angle)
+        if (node.accepted_status != Status::open && normals.cols() < 3)
           {
-            other = 0.;
-            continue;
+            normals.conservativeResize(3, normals.cols() + 1);
+            add(holder->contact->kinematics->geometry(holder->node).normal);
           }
-        other /= other.norm();
-        own -= (own * other) * other;
       }
-    if (own.norm() < smallest_angle)
-      return Tensor<1, 3>();
-    return first->excess * own / own.norm_square() / weight * normals[0];
+    const Eigen::Vector3d residual(first->excess[0],
+                                   first->excess[1],
+                                   first->excess[2]);
+    return normals.colPivHouseholderQr().solve(residual)[0] / weight * own;
   }
 
 
