@@ -575,12 +575,16 @@ def energies_of(law, stretch):
     if law == "Mooney-Rivlin":
         return (c1 * (i1 * i3**(-1 / 3) - 3) + c2 * (i2 * i3**(-2 / 3) - 3)
                 + .5 * (LAMBDA + 2 / 3 * MU) * (stretch - 1)**2)
+    if law == "Yeoh":
+        x = i1 * i3**(-1 / 3) - 3
+        return (.5 * MU * x - .02 * MU * x**2 + .005 * MU * x**3
+                + .5 * (LAMBDA + 2 / 3 * MU) * (stretch - 1)**2)
     d = .25 * LAMBDA - c2
     return c1 * (i1 - 3) + c2 * (i2 - 3) + d * (i3 - 1) - (c1 + 2 * c2 + d) * np.log(i3)
 
 
 LAWS = ("linear elastic", "Ciarlet-Geymonat", "Saint Venant-Kirchhoff", "neo-Hookean",
-        "Mooney-Rivlin")
+        "Mooney-Rivlin", "Yeoh")
 
 
 def show_law(which):

@@ -15,12 +15,12 @@
 // each in one file, and become choices of the parameter file in the first lines
 // of main():
 //
-//     own_step --set "Contact/Treatment=exponential pressure" --set "Material/Law=Yeoh"
+//     own_step --set "Contact/Treatment=exponential pressure" --set "Material/Law=Gent"
 
 #include "backward_euler.h"
 #include "exponential_pressure.h"
+#include "gent.h"
 #include "limited_friction.h"
-#include "yeoh.h"
 
 #include <base/program.h>
 #include <materials/material_parameters.h>
@@ -38,7 +38,7 @@ main(int argc, char **argv)
   // Before any parameter is declared: laws declare their own.
   register_contact_law<ExponentialPressure>();
   register_friction_law<LimitedFriction>();
-  register_material<Yeoh>();
+  register_material<Gent>();
   register_time_scheme<BackwardEuler>();
 
   // Parameters of the file, with this program's defaults.
@@ -74,7 +74,7 @@ main(int argc, char **argv)
     // The diagonal of a cell of the mesh below.
     constexpr double cell_diameter = .177;
     impact.contact.set_missing(material.scales(cell_diameter, /* degree */ 1));
-    impact.validate(material.is_linear(), material.viscosity_eta > 0.);
+    impact.validate(material.is_linear(), material.velocity_force());
   };
 
   const auto run = [&](RunFolder &folder) {

@@ -66,8 +66,8 @@ class Figure:
 
     @property
     def is_short(self):
-        """Whether its runs take less than 80 s, all of them together, on one core."""
-        return not self.timed and not self.animate and sum(run.cost for run in self.runs) < 80
+        """Whether its runs take less than 60 s, all of them together, on one core."""
+        return not self.timed and not self.animate and sum(run.cost for run in self.runs) < 60
 
     @property
     def image(self):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/vector_operations.h>
 #include <discretization/boundary_springs.h>
+#include <discretization/linear_bulk.h>
 
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/full_matrix.h>
@@ -71,20 +72,23 @@ namespace Ricochet
     const Body<dim>                         &body,
     std::unique_ptr<BulkOperator>            body_bulk,
     const std::vector<BoundarySprings<dim>> &springs,
-    const unsigned int                       n_parts)
+    const std::vector<double>               &damping_of_parts)
     : bulk(std::move(body_bulk))
-    , part_of_unknown(body.parts_of_unknowns(n_parts))
+    , part_of_unknown(body.parts_of_unknowns(damping_of_parts.size()))
     , communicator(body.communicator)
-    , has_damping(
-        std::any_of(springs.begin(),
-                    springs.end(),
-                    [](const auto &spring) { return spring.damping > 0.; }))
     , work(body.make_vector())
     , product(body.make_vector())
   {
     stiffness = assemble(body, springs, &BoundarySprings<dim>::stiffness);
-    if (has_damping)
-      damping = assemble(body, springs, &BoundarySprings<dim>::damping);
+    if (std::any_of(springs.begin(), springs.end(), [](const auto &spring) {
+          return spring.damping > 0.;
+        }))
+      damping.push_back(
+        assemble(body, springs, &BoundarySprings<dim>::damping));
+    if (std::any_of(damping_of_parts.begin(),
+                    damping_of_parts.end(),
+                    [](const double of_part) { return of_part > 0.; }))
+      damping.push_back(assemble_mass_matrix(body, damping_of_parts));
     scale = stiffness.linfty_norm();
   }
 
@@ -125,22 +129,31 @@ namespace Ricochet
     work.sadd(.5, .5, new_solution);
     stiffness.vmult(product, work);
     force += product;
-    if (!has_damping)
-      return;
-    apply_damping(old_solution, new_solution);
-    force.add(1. / time_step, product);
+    add_damping(1. / time_step, old_solution, new_solution, &force);
   }
 
 
 
   template <int dim>
-  void
-  BulkOnSprings<dim>::apply_damping(const Vector &begin,
-                                    const Vector &end) const
+  double
+  BulkOnSprings<dim>::add_damping(const double  factor,
+                                  const Vector &begin,
+                                  const Vector &end,
+                                  Vector       *force) const
   {
+    if (damping.empty())
+      return 0.;
     work = end;
     work -= begin;
-    damping.vmult(product, work);
+    double sum = 0.;
+    for (const BodyMatrix &matrix : damping)
+      {
+        matrix.vmult(product, work);
+        sum += product * work;
+        if (force)
+          force->add(factor, product);
+      }
+    return sum;
   }
 
 
@@ -154,8 +167,8 @@ namespace Ricochet
   {
     bulk->add_step_tangent(old_solution, new_solution, time_step, tangent);
     stiffness.add_to(.5, tangent);
-    if (has_damping)
-      damping.add_to(1. / time_step, tangent);
+    for (const BodyMatrix &matrix : damping)
+      matrix.add_to(1. / time_step, tangent);
   }
 
 
@@ -171,10 +184,7 @@ namespace Ricochet
       bulk->viscous_force(rate_origin, solution, rate_time, result);
     else
       result = 0.;
-    if (!has_damping)
-      return;
-    apply_damping(rate_origin, solution);
-    result.add(1. / rate_time, product);
+    add_damping(1. / rate_time, rate_origin, solution, &result);
   }
 
 
@@ -193,8 +203,8 @@ namespace Ricochet
                                 solution,
                                 rate_time,
                                 tangent);
-    if (has_damping)
-      damping.add_to(factor / rate_time, tangent);
+    for (const BodyMatrix &matrix : damping)
+      matrix.add_to(factor / rate_time, tangent);
   }
 
 
@@ -207,8 +217,8 @@ namespace Ricochet
     MatrixSum terms;
     if (bulk->is_viscous())
       terms = bulk->viscous_tangent_terms(factor, rate_time);
-    if (has_damping)
-      terms.push_back({factor / rate_time, &damping});
+    for (const BodyMatrix &matrix : damping)
+      terms.push_back({factor / rate_time, &matrix});
     return terms;
   }
 
@@ -234,8 +244,8 @@ namespace Ricochet
     if (terms.empty())
       return terms;
     terms.push_back({.5, &stiffness});
-    if (has_damping)
-      terms.push_back({1. / time_step, &damping});
+    for (const BodyMatrix &matrix : damping)
+      terms.push_back({1. / time_step, &matrix});
     return terms;
   }
 
@@ -275,14 +285,8 @@ namespace Ricochet
                                           const Vector &new_solution,
                                           const double  time_step) const
   {
-    double taken =
-      bulk->viscous_dissipation(old_solution, new_solution, time_step);
-    if (has_damping)
-      {
-        apply_damping(old_solution, new_solution);
-        taken += (product * work) / time_step;
-      }
-    return taken;
+    return bulk->viscous_dissipation(old_solution, new_solution, time_step) +
+      add_damping(0., old_solution, new_solution, nullptr) / time_step;
   }
 
 

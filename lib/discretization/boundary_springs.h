@@ -25,9 +25,10 @@ namespace Ricochet
   };
 
   /**
-   * A body on springs: their stored energy and dissipation are part of its
+   * A body on springs, and with damping in proportion to its mass, dashpots between all
+   * of its points and where they were: their stored energy and dissipation are part of its
    * energy and of its viscous dissipation. Both are linear, so that the balance
-   * of a step is exact: with the matrices K and C of the springs, u_m the mean
+   * of a step is exact: with the matrices K and C of springs and dashpots, u_m the mean
    * and d the difference of both ends,
    *
    *     K u_m . d = 1/2 u_1 . K u_1 - 1/2 u_0 . K u_0,     C d/dt . d >= 0.
@@ -36,11 +37,12 @@ namespace Ricochet
   class BulkOnSprings : public BulkOperator
   {
   public:
-    /// @param n_parts of the @p body, see Body::part().
+    /// @param damping of each part of the @p body (see Body::part()) in proportion to its
+    /// mass: Viscosity::mass_damping times the density (kg/(m^dim s)).
     BulkOnSprings(const Body<dim>                         &body,
                   std::unique_ptr<BulkOperator>            bulk,
                   const std::vector<BoundarySprings<dim>> &springs,
-                  const unsigned int                       n_parts);
+                  const std::vector<double>               &damping);
 
     void
     force(const Vector &solution, Vector &force) const override;
@@ -77,7 +79,7 @@ namespace Ricochet
     bool
     is_viscous() const override
     {
-      return has_damping || bulk->is_viscous();
+      return !damping.empty() || bulk->is_viscous();
     }
 
     void
@@ -127,23 +129,34 @@ namespace Ricochet
     }
 
     std::string
+    inverted_corner(const Vector &solution) const override
+    {
+      return bulk->inverted_corner(solution);
+    }
+
+    std::string
     failure() const override
     {
       return bulk->failure();
     }
 
   private:
-    /// #product = damping times the difference @p end - @p begin, which is left in #work.
-    void
-    apply_damping(const Vector &begin, const Vector &end) const;
+    /// @p force += @p factor times the damping of the difference @p end - @p begin.
+    /// @return the product of both, without the factor.
+    double
+    add_damping(const double  factor,
+                const Vector &begin,
+                const Vector &end,
+                Vector       *force) const;
 
     const std::unique_ptr<BulkOperator> bulk;
     const std::vector<unsigned int>     part_of_unknown;
     const MPI_Comm                      communicator;
-    BodyMatrix                          stiffness, damping;
-    double                              scale = 0.;
-    bool                                has_damping;
-    mutable Vector                      work, product;
+    BodyMatrix                          stiffness;
+    /// Matrices of the springs, and in proportion to the mass; those that are there.
+    std::vector<BodyMatrix> damping;
+    double                  scale = 0.;
+    mutable Vector          work, product;
   };
 } // namespace Ricochet
 

@@ -71,9 +71,12 @@ namespace Ricochet
     , ghosted_old(body.make_ghosted_vector())
     , ghosted_new(body.make_ghosted_vector())
   {
-    for (const Material<dim> &material : materials)
-      AssertThrow(material.hyperelastic,
-                  ExcMessage("The material is not hyperelastic."));
+    AssertThrow(std::any_of(materials.begin(),
+                            materials.end(),
+                            [](const Material<dim> &material) {
+                              return material.hyperelastic != nullptr;
+                            }),
+                ExcMessage("No material is hyperelastic."));
     const FiniteElement<dim> &element = body.dof_handler().get_fe();
 
     // The gradients of linear simplices are constant: one point is enough.
@@ -102,7 +105,8 @@ namespace Ricochet
     std::vector<types::global_dof_index> indices(n);
     for (const auto &cell : body.dof_handler().active_cell_iterators())
       {
-        if (cell->is_artificial())
+        if (cell->is_artificial() ||
+            !materials[body.part(cell, materials.size())].hyperelastic)
           continue;
         cell->get_dof_indices(indices);
         bool touches_owned_rows = false;

@@ -30,7 +30,8 @@ namespace Ricochet
   class HyperelasticBulk : public BulkOperator
   {
   public:
-    /// @param materials of the parts of the body.
+    /// @param materials of the parts of the body; cells of parts that are not hyperelastic are
+    /// left out, see MixedBulk.
     HyperelasticBulk(const Body<dim>                  &body,
                      const std::vector<Material<dim>> &materials);
 

@@ -170,20 +170,25 @@ namespace Ricochet
         one = first[one / dim] * dim + one % dim;
     make_runs(group);
 
-    // W_v = eta/2 tr(strain_rate^2): the viscous stress is eta times the strain
-    // rate.
+    // W_v = eta/2 tr(strain_rate^2): the viscous stress is eta times the strain rate. With
+    // the elasticity tensor it is tau = eta / (2 mu) times the elastic one of that rate.
     std::vector<LinearElastic> laws, viscosities;
     for (const Material<dim> &material : materials)
       {
         AssertThrow(material.linear,
                     ExcMessage("The material is not linear elastic."));
-        AssertThrow(material.viscosity.law == Viscosity::Law::none ||
-                      material.viscosity.law == Viscosity::Law::linear,
+        const Viscosity::Law law = material.viscosity.law;
+        AssertThrow(law == Viscosity::Law::none ||
+                      law == Viscosity::Law::linear ||
+                      law == Viscosity::Law::kelvin_voigt,
                     ExcMessage("A linear body has linear viscosity."));
         laws.push_back(*material.linear);
-        viscosities.push_back(
-          {0.,
-           material.viscosity.is_active() ? .5 * material.viscosity.eta : 0.});
+        const double mu =
+          material.viscosity.is_active() ? .5 * material.viscosity.eta : 0.;
+        viscosities.push_back({law == Viscosity::Law::kelvin_voigt
+                                 ? mu / laws.back().mu * laws.back().lambda
+                                 : 0.,
+                               mu});
       }
     stiffness = assemble_strain_matrix(body, laws, storage);
     scale     = stiffness.linfty_norm();

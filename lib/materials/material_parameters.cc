@@ -35,6 +35,7 @@ namespace Ricochet
     const std::map<std::string, Viscosity::Law> viscosities = {
       {"none", Viscosity::Law::none},
       {"linear", Viscosity::Law::linear},
+      {"Kelvin-Voigt", Viscosity::Law::kelvin_voigt},
       {"Curnier", Viscosity::Law::curnier},
       {"Pioletti", Viscosity::Law::pioletti}};
   } // namespace
@@ -65,15 +66,23 @@ namespace Ricochet
       "Viscosity",
       viscosity,
       "Viscous power density: linear, eta/2 tr(strain rate^2) (paper B, "
-      "(6.1)), for linear elastic bodies; Curnier, eta/2 tr(C_dot^2), and "
-      "Pioletti, eta/4 tr(C_dot^2) (tr C - 3) (B, (2.14)), for hyperelastic "
-      "ones.",
-      Patterns::Selection("none|linear|Curnier|Pioletti"));
+      "(6.1)), and Kelvin-Voigt, eta/(2 mu) times half of the elastic energy "
+      "of the strain rate, for linear elastic bodies; Curnier, eta/2 "
+      "tr(C_dot^2), and Pioletti, eta/4 tr(C_dot^2) (tr C - 3) (B, (2.14)), "
+      "for hyperelastic ones.",
+      Patterns::Selection("none|linear|Kelvin-Voigt|Curnier|Pioletti"));
     parameters.add_parameter("Viscosity eta",
                              viscosity_eta,
                              "Parameter eta of the viscosity (Pa s); 0 for an "
                              "elastic body.",
                              Patterns::Double(0.));
+    parameters.add_parameter(
+      "Mass damping",
+      mass_damping,
+      "Damping in proportion to the mass, alpha of Rayleigh's (1/s): the force "
+      "per mass is alpha times the velocity, against it. It takes momentum, "
+      "as a viscous fluid around the body would.",
+      Patterns::Double(0.));
     parameters.leave_subsection();
   }
 
@@ -107,7 +116,7 @@ namespace Ricochet
     std::vector<std::string> list = {"Law", "Plane state", "Density"};
     for (const OwnParameter &parameter : all_parameters())
       list.push_back(parameter.name);
-    list.insert(list.end(), {"Viscosity", "Viscosity eta"});
+    list.insert(list.end(), {"Viscosity", "Viscosity eta", "Mass damping"});
     return list;
   }
 
@@ -136,20 +145,23 @@ namespace Ricochet
       throw InputError(section + "/Viscosity eta is " + to_text(viscosity_eta) +
                        " and " + section +
                        "/Viscosity is none: name a viscosity "
-                       "(linear, Curnier, Pioletti) or set eta to 0.");
-    if (viscosity == "none")
+                       "(linear, Kelvin-Voigt, Curnier, Pioletti) or set eta "
+                       "to 0.");
+    if (viscosity == "none" && mass_damping == 0.)
       return;
     const bool small_strains = is_linear();
-    if (small_strains != (viscosity == "linear"))
+    if (viscosity != "none" &&
+        small_strains != (viscosity == "linear" || viscosity == "Kelvin-Voigt"))
       throw InputError(
         "The viscosity '" + viscosity + "' does not go with the law '" + law +
         "'. Allowed with it: " +
-        (small_strains ? "none, linear."
-                       : "none, Curnier, Pioletti (the linear one is not "
+        (small_strains ? "none, linear, Kelvin-Voigt."
+                       : "none, Curnier, Pioletti (the linear ones are not "
                          "invariant under rotations)."));
     if (!scheme_traits(scheme).has_rates())
       throw InputError(
-        "Viscosity cannot be combined with the time scheme '" + scheme +
+        std::string(viscosity == "none" ? "Damping" : "Viscosity") +
+        " cannot be combined with the time scheme '" + scheme +
         "', whose forces are functions of the "
         "displacement.\nAllowed with it: " +
         names_of_schemes([](const SchemeTraits &s) { return s.has_rates(); }) +
@@ -187,7 +199,9 @@ namespace Ricochet
   MaterialParameters::make() const
   {
     const MaterialEntry &entry = material_table()[law];
-    const Viscosity      viscous{viscosities.at(viscosity), viscosity_eta};
+    const Viscosity      viscous{viscosities.at(viscosity),
+                            viscosity_eta,
+                            mass_damping};
     if (!entry.make)
       return Material<dim>(entry.at_small_strains(values).in_plane(state(dim)),
                            viscous,

@@ -23,6 +23,8 @@ namespace Ricochet
     double      density       = 1000.;
     std::string viscosity     = "none";
     double      viscosity_eta = 0.;
+    /// See Viscosity (1/s).
+    double mass_damping = 0.;
     /// The parameters of all laws, as they declare them.
     ParameterValues values = all_parameters();
 
@@ -37,6 +39,15 @@ namespace Ricochet
     is_linear() const
     {
       return law == LinearElastic::name;
+    }
+
+    VelocityForce
+    velocity_force() const
+    {
+      return viscosity != "none" && viscosity_eta > 0.
+        ? VelocityForce::viscosity
+        : mass_damping > 0. ? VelocityForce::damping
+                            : VelocityForce::none;
     }
 
     /// The parameters that the law does not use.

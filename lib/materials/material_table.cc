@@ -3,6 +3,7 @@
 #include <materials/laws/mooney_rivlin.h>
 #include <materials/laws/neo_hookean.h>
 #include <materials/laws/saint_venant_kirchhoff.h>
+#include <materials/laws/yeoh.h>
 #include <materials/material_table.h>
 
 namespace Ricochet
@@ -30,7 +31,8 @@ namespace Ricochet
          material_entry<CiarletGeymonat>(),
          material_entry<SaintVenantKirchhoff>(),
          material_entry<NeoHookean>(),
-         material_entry<MooneyRivlin>()});
+         material_entry<MooneyRivlin>(),
+         material_entry<Yeoh>()});
       return laws;
     }
   } // namespace

@@ -4,6 +4,15 @@
 
 namespace Ricochet
 {
+  /// The forces by the velocity in a body, beside those of contact: none, damping in
+  /// proportion to the mass alone, or a viscous stress.
+  enum class VelocityForce
+  {
+    none,
+    damping,
+    viscosity
+  };
+
   /**
    * Kelvin-Voigt viscosity: a viscous power density W_v beside the elastic
    * energy, the viscous stress being its derivative with respect to the rate.
@@ -20,6 +29,9 @@ namespace Ricochet
       none,
       /// W_v = eta/2 tr(strain_rate^2), for small strains (B (6.1)).
       linear,
+      /// W_v = tau/2 strain_rate : C strain_rate with the elasticity tensor C and tau =
+      /// eta / (2 mu): shear has the stress of the linear law, and volume its own, too.
+      kelvin_voigt,
       /// W_v = eta/2 tr(C_dot^2) (B, after (2.13)).
       curnier,
       /// W_v = eta/4 tr(C_dot^2) (tr C - 3), the factor clipped at zero (B
@@ -30,7 +42,11 @@ namespace Ricochet
     Law law = Law::none;
     /// Pa s
     double eta = 0.;
+    /// Damping in proportion to the mass, the other half of Rayleigh's (1/s): the force
+    /// per volume is - mass_damping * density * velocity.
+    double mass_damping = 0.;
 
+    /// Whether there is a viscous stress.
     bool
     is_active() const
     {

@@ -30,7 +30,7 @@ namespace Ricochet
                       scheme,
                       combination.redistributed_mass,
                       combination.linear_material,
-                      combination.viscous,
+                      material.velocity_force(),
                       combination.degree);
     if (combination.opposite == Opposite::moving_obstacle)
       check_motions(scheme,

@@ -6,7 +6,7 @@
 #include <contact/treatments/pair_contact.h>
 #include <discretization/boundary_load.h>
 #include <discretization/hyperelastic_bulk.h>
-#include <discretization/linear_bulk.h>
+#include <discretization/mixed_bulk.h>
 #include <problems/clearance.h>
 #include <problems/impact.h>
 #include <problems/unheld_bodies.h>
@@ -273,15 +273,7 @@ namespace Ricochet
     {
       std::vector<Material<dim>> materials;
       for (const Part<dim> &part : setup.parts)
-        {
-          materials.push_back(part.material);
-          if (part.material.linear.has_value() !=
-              materials[0].linear.has_value())
-            throw InputError(
-              "The parts '" + setup.parts[0].name + "' and '" + part.name +
-              "' cannot be combined: one is linear elastic, the other is not. "
-              "Take Saint Venant-Kirchhoff instead of linear elastic.");
-        }
+        materials.push_back(part.material);
       if (materials.empty())
         materials.push_back(setup.material);
       return materials;
@@ -385,8 +377,18 @@ namespace Ricochet
       // Each cell has a material.
       body.parts_of_unknowns(materials.size());
       if constexpr (dim > 1)
-        if (!materials[0].linear)
-          return std::make_unique<HyperelasticBulk<dim>>(body, materials);
+        {
+          const auto n_linear =
+            std::count_if(materials.begin(),
+                          materials.end(),
+                          [](const Material<dim> &material) {
+                            return material.linear.has_value();
+                          });
+          if (n_linear == 0)
+            return std::make_unique<HyperelasticBulk<dim>>(body, materials);
+          if (static_cast<std::size_t>(n_linear) < materials.size())
+            return std::make_unique<MixedBulk<dim>>(body, materials, storage);
+        }
       return std::make_unique<LinearBulk<dim>>(body, materials, storage);
     }
 
@@ -435,7 +437,15 @@ namespace Ricochet
     {
       const std::vector<Material<dim>> materials = materials_of(setup);
       auto bulk = make_body_bulk(body, materials, storage);
-      if (setup.springs.empty())
+      // Damping in proportion to the mass.
+      std::vector<double> damping   = densities_of(setup);
+      bool                is_damped = false;
+      for (unsigned int p = 0; p < materials.size(); ++p)
+        {
+          damping[p] *= materials[p].viscosity.mass_damping;
+          is_damped = is_damped || damping[p] > 0.;
+        }
+      if (setup.springs.empty() && !is_damped)
         return bulk;
       for (const BoundarySprings<dim> &spring : setup.springs)
         if (spring.damping > 0. && !scheme_traits(scheme).has_rates())
@@ -445,7 +455,7 @@ namespace Ricochet
       return std::make_unique<BulkOnSprings<dim>>(body,
                                                   std::move(bulk),
                                                   setup.springs,
-                                                  materials.size());
+                                                  damping);
     }
 
     template <int dim>

@@ -139,7 +139,7 @@ namespace Ricochet
     const BodyMatrix                    consistent_mass;
     /// Null with the consistent mass.
     const std::unique_ptr<const BodyMatrix> redistributed_mass;
-    /// What is wrong with the positions of the bodies, for a run that begins without
+    /// Sentence about bodies that overlap, for a run that begins without
     /// displacements; empty if all is well.
     const std::string overlap_problem;
     /// The obstacles of all of them; of several contacts by ContactSum::id_of().

@@ -38,14 +38,14 @@ namespace Ricochet
 
 
   void
-  ImpactParameters::validate(const bool linear_material,
-                             const bool viscous) const
+  ImpactParameters::validate(const bool          linear_material,
+                             const VelocityForce velocity_force) const
   {
     check_combination(contact,
                       scheme_traits(scheme.name),
                       redistributed_mass(),
                       linear_material,
-                      viscous);
+                      velocity_force);
     validate_times();
   }
 

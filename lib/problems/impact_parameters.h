@@ -31,10 +31,10 @@ namespace Ricochet
     add_parameters_without_contact(dealii::ParameterHandler &parameters);
 
     /// Refuse combinations without meaning. @param linear_material the body is
-    /// linear elastic. @param viscous it is viscous. @throws InputError
+    /// linear elastic. @throws InputError
     void
-    validate(const bool linear_material = true,
-             const bool viscous         = false) const;
+    validate(const bool          linear_material = true,
+             const VelocityForce velocity_force  = VelocityForce::none) const;
 
     /// The parameters that have no effect with the others as they are.
     std::vector<UnusedParameter>

@@ -45,9 +45,7 @@ namespace Ricochet
   ThrownBodyParameters::validate() const
   {
     material.validate(2, impact.scheme.name);
-    impact.validate(material.is_linear(),
-                    material.viscosity != "none" &&
-                      material.viscosity_eta > 0.);
+    impact.validate(material.is_linear(), material.velocity_force());
   }
 
 

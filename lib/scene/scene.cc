@@ -180,20 +180,20 @@ namespace Ricochet
                     const Touching       &touching,
                     const bool            redistributed_mass) const
   {
-    bool is_linear = true, is_viscous = false;
+    bool          is_linear      = true;
+    VelocityForce velocity_force = VelocityForce::none;
     for (const PartOfScene &part : parts)
       {
-        is_linear  = is_linear && part.material.is_linear();
-        is_viscous = is_viscous ||
-          (part.material.viscosity != "none" &&
-           part.material.viscosity_eta > 0.);
+        is_linear = is_linear && part.material.is_linear();
+        velocity_force =
+          std::max(velocity_force, part.material.velocity_force());
       }
     const SchemeTraits scheme = scheme_traits(impact.scheme.name);
     check_combination(contact.parameters,
                       scheme,
                       redistributed_mass,
                       is_linear,
-                      is_viscous,
+                      velocity_force,
                       degree);
     for (const unsigned int k : touching.obstacles)
       check_motions(scheme,

@@ -84,9 +84,11 @@ namespace Ricochet
             contact.parameters.treatment +
             "' is regularised: what sticks creeps, with its tangential "
             "traction over " +
-            name + " (" + to_text(value) +
-            " in the units of this file). Stick is exact with Signorini active "
-            "set, persistent contact and Ayyad-Barboteu two-step.");
+            name + " (" + to_text(value) + " in the units of this file)" +
+            (scheme_traits(impact.scheme.name).has_inertia
+               ? ". "
+               : ", and time has no meaning in a static analysis. ") +
+            "With Stick = exact it does not.");
     // Nodes that land are stopped within one step.
     const bool is_stopped_in_a_step =
       std::any_of(contacts.begin(),

@@ -345,10 +345,15 @@ namespace Ricochet
     std::vector<std::string> body_names;
     for (const BodySection<dim> &body : bodies)
       body_names.push_back(body.section.column_name());
+    const bool             is_linear = std::all_of(all_materials.begin(),
+                                       all_materials.end(),
+                                       [](const Material<dim> &material) {
+                                         return material.linear.has_value();
+                                       });
     const PartColumns<dim> columns(assembly.body,
                                    assembly.system,
                                    /* small strains */
-                                   all_materials.front().linear.has_value(),
+                                   is_linear,
                                    body_names,
                                    first_part);
     columns.add_to(loop);

@@ -127,16 +127,17 @@ namespace Ricochet
 
   namespace
   {
-    /// The work (J) of the forces of a body between two states, by Gauss' rule with
-    /// enough points to be exact to round-off for the strains of a step.
+    /// The work (J) of the forces of a body between two states, by Gauss' rule with four
+    /// points on each of @p n_parts of the straight path.
     double
-    work_on_straight_path(const BulkOperator &bulk,
+    work_on_parts_of_path(const BulkOperator &bulk,
                           const Vector       &begin,
-                          const Vector       &end)
+                          const Vector       &end,
+                          const unsigned int  n_parts)
     {
-      const QGauss<1> rule(4);
-      Vector          point(begin), force(begin);
-      double          work = 0.;
+      const QIterated<1> rule(QGauss<1>(4), n_parts);
+      Vector             point(begin), force(begin);
+      double             work = 0.;
       for (unsigned int q = 0; q < rule.size(); ++q)
         {
           copy_values(begin, point);
@@ -146,6 +147,31 @@ namespace Ricochet
             product(entries(force),
                     entries(end) - entries(begin),
                     end.get_mpi_communicator());
+        }
+      return work;
+    }
+
+    /// The same, to round-off. One part is enough for the strains of most steps, but not for
+    /// cells that become nearly flat; more of them are taken where the work is not the
+    /// difference of stored energies, until it does not change any more.
+    double
+    work_on_straight_path(const BulkOperator &bulk,
+                          const Vector       &begin,
+                          const Vector       &end)
+    {
+      constexpr double       tolerance  = 1e-12;
+      constexpr unsigned int most_parts = 64;
+      const double first = bulk.energy(begin), last = bulk.energy(end);
+      const double small = tolerance * (std::abs(first) + std::abs(last));
+      double       work  = work_on_parts_of_path(bulk, begin, end, 1);
+      if (std::abs(work - (last - first)) <= small)
+        return work;
+      for (unsigned int n_parts = 2; n_parts <= most_parts; n_parts *= 2)
+        {
+          const double coarser = work;
+          work = work_on_parts_of_path(bulk, begin, end, n_parts);
+          if (!(std::abs(work - coarser) > small))
+            break;
         }
       return work;
     }

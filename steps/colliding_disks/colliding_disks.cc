@@ -235,8 +235,7 @@ CollidingDisks::validate() const
 {
   check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
   material.validate(2, impact.scheme.name);
-  impact.validate(material.is_linear(),
-                  material.viscosity != "none" && material.viscosity_eta > 0.);
+  impact.validate(material.is_linear(), material.velocity_force());
   if (!(offset < distance))
     throw InputError(
       "Disks/Offset = " + to_text(offset) +

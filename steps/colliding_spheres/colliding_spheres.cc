@@ -272,8 +272,7 @@ CollidingSpheres::validate() const
                          scheme_traits(impact.scheme.name),
                          {/* is_self */ false, /* dim */ 3});
   material.validate(3, impact.scheme.name);
-  impact.validate(material.is_linear(),
-                  material.viscosity != "none" && material.viscosity_eta > 0.);
+  impact.validate(material.is_linear(), material.velocity_force());
   if (!(offset < distance))
     throw InputError("Spheres/Offset = " + to_text(offset) +
                      " m must be smaller than Spheres/Distance = " +

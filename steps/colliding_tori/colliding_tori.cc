@@ -252,8 +252,7 @@ CollidingTori::validate() const
                          scheme_traits(impact.scheme.name),
                          {touch_themselves, /* dim */ 3});
   material.validate(3, impact.scheme.name);
-  impact.validate(material.is_linear(),
-                  material.viscosity != "none" && material.viscosity_eta > 0.);
+  impact.validate(material.is_linear(), material.velocity_force());
   if (material.is_linear())
     throw InputError(
       "Linear elastic bodies cannot turn, and tori that are thrown "

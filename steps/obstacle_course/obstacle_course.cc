@@ -249,8 +249,7 @@ ObstacleCourse::validate() const
                            scheme_traits(impact.scheme.name),
                            {/* is_self */ true});
   material.validate(2, impact.scheme.name);
-  impact.validate(material.is_linear(),
-                  material.viscosity != "none" && material.viscosity_eta > 0.);
+  impact.validate(material.is_linear(), material.velocity_force());
   check_motions(scheme_traits(impact.scheme.name),
                 {{surface, obstacle.make(impact.time.final_time)}});
   impact.check_size(2. * n_boundary_nodes * n_boundary_nodes / 8., 2);

@@ -199,8 +199,7 @@ SlidingBlock::validate() const
 {
   check_pair_combination(impact.contact, scheme_traits(impact.scheme.name));
   material.validate(2, impact.scheme.name);
-  impact.validate(material.is_linear(),
-                  material.viscosity != "none" && material.viscosity_eta > 0.);
+  impact.validate(material.is_linear(), material.velocity_force());
   if (begin + block_length > strip_length)
     throw InputError(
       "The block would begin beyond the end of the strip: "

@@ -231,9 +231,7 @@ StentArtery::validate() const
   for (const MaterialParameters *material : {&artery, &stent})
     {
       material->validate(2, impact.scheme.name);
-      impact.validate(material->is_linear(),
-                      material->viscosity != "none" &&
-                        material->viscosity_eta > 0.);
+      impact.validate(material->is_linear(), material->velocity_force());
     }
   impact.check_size(2. *
                       (static_cast<double>(geometry.artery_nodes_along) *

@@ -389,6 +389,15 @@ class BadThrownBodies(Refusal):
                                      "Time/Scheme=ARKODE",
                                      "Contact/Treatment=penalty"])
 
+    def test_damping_by_mass(self):
+        self.refuse_ring("Damping cannot be combined with the time scheme 'ARKODE'",
+                         parameters=["Material/Mass damping=3", "Time/Scheme=ARKODE",
+                                     "Contact/Treatment=penalty"])
+        self.refuse_ball("Damping and the redistributed mass cannot be combined with the time "
+                         "scheme 'Crank-Nicolson'",
+                         parameters=["Material/Mass damping=3", "Time/Scheme=Crank-Nicolson",
+                                     "Time/Mass=redistributed", "Contact/Treatment=penalty"])
+
     def test_viscosity_with_nitsche(self):
         self.refuse_ball("'Nitsche' uses the elastic stress on the contact "
                          "boundary and cannot be combined with a viscous body",

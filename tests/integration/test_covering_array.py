@@ -11,6 +11,7 @@ import csv
 import itertools
 import random
 import re
+import zlib
 
 from common import *
 
@@ -169,6 +170,12 @@ def scene(folder, row):
                                        "  set Dynamic coefficient = 0.2\n"
                                        # A steep fall has several solutions in a step.
                                        "  set Slip-rate decay = 1"}[row["friction"]]
+    # Coulomb's stick is regularised or exact, in half of the rows each that may choose. With
+    # a falling coefficient a single point may have no state that follows from both others.
+    if row["friction"] == "Coulomb" and row["contact"] != "cut faces" and not re.match(
+            "Signorini active set|persistent|Ayyad", treatment):
+        row_number = zlib.crc32(repr(sorted(row.items())).encode())
+        friction += "\n  set Stick = " + ("regularised", "exact")[row_number % 2]
     return SCENE.format(
         dimension=dim, degree=row["degree"], mass=row["mass"], scheme=row["scheme"],
         law=row["material"] if is_linear else "neo-Hookean",
@@ -236,10 +243,10 @@ class CoveringArray(ProgramTest):
         taken = [row for row in self.rows if row["taken"] == "yes" and not self.is_left_out(row)]
         strength = 3 if os.environ.get("RICOCHET_FULL") else 2
         if is_debug_build():
-            taken = [row for row in taken if row["dimension"] == "2"]
+            # With assertions in 2D; a surface against itself in test_self_contact.py.
+            taken = [row for row in taken
+                     if row["dimension"] == "2" and row["contact"] != "itself"]
         chosen = covering_array(taken, strength)
-        if is_debug_build():
-            chosen = chosen[::3]
         print(f"{len(chosen)} of {len(taken)} combinations")
         with ThreadPoolExecutor(max_workers=2) as pool:
             for row, folder, code, out, error in pool.map(self.attempt_row,
@@ -256,6 +263,9 @@ class CoveringArray(ProgramTest):
                     stages = 2 if row["scheme"] in ("TR-BDF2", "BDF2") else 1
                     if "two-step" in row["treatment"]:
                         stages = 2
+                    if "Stick = exact" in folder.with_suffix(".prm").read_text():
+                        # Passes after the first one take one to three iterations each.
+                        stages *= 2
                     self.assertLess(max(ledger["newton_iterations"]), 40 * stages)
 
     def test_what_is_refused(self):

@@ -6,7 +6,9 @@ regularised friction: as a rigid body it has the acceleration g (sin - mu cos). 
 vibrates in its first mode with Kelvin and Voigt's viscosity loses the part exp(-delta) of its
 amplitude in a period. Two disks that collide off their centres keep their momentum, and lose
 energy and angular momentum to the second order of the step only; ARKODE, which controls its
-error, keeps both to its tolerance.
+error, keeps both to its tolerance. A ball with top spin is accelerated by mu times the impulse of its
+bounce. Exact stick is that of the active sets with multipliers and the proximal augmented Lagrangian,
+and tends to it with penalty and Nitsche's method.
 """
 
 import math
@@ -119,10 +121,12 @@ subsection Body bar
   set Cells along   = 20, 1
   set Law           = {law}
   set Young modulus = 1e6
-  set Poisson ratio = 0
+  set Plane state   = plane stress
+  set Poisson ratio = {poisson}
   set Density       = 1000
   set Viscosity     = {viscosity}
   set Viscosity eta = {eta}
+  set Mass damping  = {damping}
   set Acceleration  = 1e-2*sin(pi*x/2); 0
 end
 subsection Obstacle far
@@ -231,6 +235,85 @@ subsection Output
 end
 """
 
+# A ball of 1 m thrown on a floor, its lowest point at -18 m/s along it, or at -1 m/s.
+TOP_SPIN = """
+set Program   = ricochet
+set Dimension = {dim}
+subsection Body ball
+  set Shape         = {shape}
+  set Radius        = 1
+  set Mesh size     = {size}
+  set Translation   = {translation}
+  set Velocity      = {velocity}
+  set Spin          = {spin}
+  set Law           = neo-Hookean
+  set Young modulus = 1e6
+  set Density       = 100
+end
+subsection Obstacle floor
+  set Shape = half space
+end
+subsection Contact floor
+  set Surface              = ball
+  set Against              = floor
+  set Friction coefficient = 0.2
+  {treatment}
+end
+subsection Probe ball
+  set Body = ball
+end
+subsection Time
+  set Final time = {end}
+  set Time step  = 1e-3
+end
+subsection Output
+  set Fields every = 0
+end
+"""
+
+# A block, pressed on a floor and pushed along it, so that its rear slips and its front sticks.
+PUSHED = """
+set Program   = ricochet
+set Dimension = 2
+subsection Body block
+  set Shape         = rectangle
+  set Size          = 1, 0.5
+  set Cells along   = {twice}, {once}
+  set Law           = linear elastic
+  set Plane state   = plane strain
+  set Young modulus = 1e6
+  set Poisson ratio = 0.3
+  set Density       = 1000
+end
+subsection Obstacle floor
+  set Shape = half space
+end
+subsection Contact floor
+  set Surface              = block: lower
+  set Against              = floor
+  set Friction coefficient = 0.3
+  {treatment}
+end
+subsection Condition top
+  set Boundary   = block: upper
+  set Kind       = displacement
+  set Components = x, y
+  set Value      = 0.003*t; -0.005*t
+end
+subsection Probe top
+  set Body     = block: upper
+  set Quantity = force
+end
+subsection Time
+  set Scheme     = static
+  set Final time = 1
+  set Time step  = 0.25
+end
+subsection Output
+  set Fields every = 0
+end
+"""
+
 MIRROR = """
 subsection Condition mirror
   set Boundary   = block: left
@@ -277,15 +360,16 @@ class EveryScheme(ProgramTest):
                         viscosity=viscosity, slope=plates[dim] if is_body else OBSTACLE,
                         against="plate: upper" if is_body else "slope", **shape)
 
-    def runs(self, scenes):
+    def runs(self, scenes, schemes=tuple(WITH_STAGES)):
         """(name, ledger) of each scene with each scheme."""
-        def run(numbered):
-            number, ((name, scene), (scheme, values)) = numbered
+        def run(case):
+            (name, scene), scheme = case
             return f"{name}, {scheme}", self.run_program(
-                "ricochet", NO_FIELDS + values, self.folder / f"case-{number}", prm=scene)
+                "ricochet", NO_FIELDS + WITH_STAGES[scheme],
+                self.folder / f"{name}, {scheme}", prm=scene)
         with ThreadPoolExecutor(max_workers=2) as pool:
-            yield from pool.map(run, enumerate(
-                (scene, scheme) for scene in scenes for scheme in WITH_STAGES.items()))
+            yield from pool.map(run, ((scene, scheme) for scene in scenes
+                                      for scheme in schemes))
 
     def check_run(self, ledger):
         self.assertLess(largest(ledger["balance_residual"]), 1e-9)
@@ -307,20 +391,123 @@ class EveryScheme(ProgramTest):
                     (.3 * mass * 9.81 * math.cos(angle) * slides), 1., delta=.01)
 
     def test_damped_bar(self):
-        """The first overshoot of an oscillator with the damping ratio eta omega / (2 E)."""
+        """The first overshoot of an oscillator with the damping ratio eta omega / (2 E); with the
+        elasticity tensor tau omega / 2, and in proportion to the mass alpha / (2 omega)."""
         omega, ratio = .5 * math.pi * math.sqrt(1e3), .1
         largest_displacement = 1e-2 / omega**2 * (
             1. + math.exp(-math.pi * ratio / math.sqrt(1. - ratio**2)))
-        # Curnier's power density is that of eta C_dot^2 = 4 eta strain_rate^2.
-        scenes = [(law, self.scene(law, BAR, law=law, viscosity=viscosity,
-                                   eta=2e6 * ratio / omega / factor))
-                  for (law, viscosity), factor in zip(MATERIALS, (1., 4.))]
-        for name, ledger in self.runs(scenes):
+        eta, none = 2e6 * ratio / omega, {"viscosity": "none", "eta": 0}
+        # Curnier's power density is that of eta C_dot^2 = 4 eta strain_rate^2; tau is
+        # eta (1 + nu) / E, whatever the strain across the bar.
+        cases = {"linear": {"viscosity": "linear", "eta": eta},
+                 "Curnier": {"viscosity": "Curnier", "eta": eta / 4., "law": "neo-Hookean"},
+                 "elasticity tensor": {"viscosity": "Kelvin-Voigt", "eta": eta / 1.3,
+                                       "poisson": .3},
+                 "mass": {**none, "damping": 2. * ratio * omega, "poisson": .3},
+                 "mass, large strains": {**none, "damping": 2. * ratio * omega,
+                                         "law": "neo-Hookean"}}
+        scenes = [(name, self.scene(name, BAR, **{"law": "linear elastic", "poisson": 0,
+                                                  "damping": 0, **values}))
+                  for name, values in cases.items()]
+        for name, ledger in (*self.runs(scenes[:2]),
+                             *self.runs(scenes[2:], ("midpoint", "TR-BDF2"))):
             with self.subTest(name):
                 self.check_run(ledger)
                 self.assertAlmostEqual(
                     max(ledger["end_displacement_x"]) / largest_displacement, 1., delta=.005)
                 self.assertGreater(ledger["viscous_dissipation"][-1], 0.)
+
+    def top_spin(self, name, dim, spin, treatment, end):
+        axis, top = ("z", "0, 0, 1.02") if dim == 3 else ("y", "0, 1.02")
+        return self.scene(
+            name, TOP_SPIN, dim=dim, shape="ball" if dim == 3 else "disk",
+            size=.5 if dim == 3 else .3, translation=top, end=end, treatment=treatment,
+            velocity="2, 0, -4" if dim == 3 else "2, -4",
+            spin=f"0, {spin}, 0" if dim == 3 else -spin), axis
+
+    def test_top_spin(self):
+        """While it slips, friction has mu times the impulse of the floor and the lever of the
+        radius. In 3D points beside the lowest one do not slip along the plane of the ball's path,
+        and CN and HHT, which let nodes jump on the floor, leave them in any direction."""
+        for dim, treatment in ((2, "Signorini active set"), (2, "penalty"),
+                               (3, "Signorini active set"), (3, "penalty")):
+            name = f"spin {dim} {treatment}"
+            scene, axis = self.top_spin(name, dim, 20, f"set Treatment = {treatment}", .1)
+            schemes = tuple(WITH_STAGES) if dim == 2 else ("midpoint", "TR-BDF2")
+            for scheme, ledger in self.runs([(name, scene)], schemes):
+                with self.subTest(scheme):
+                    self.check_run(ledger)
+                    self.assertEqual(ledger["contact_force_floor"][-1], 0.)
+                    along, across = (ledger[f"momentum_{c}"][-1] - ledger[f"momentum_{c}"][0]
+                                     for c in ("x", axis))
+                    self.assertAlmostEqual(along / across, .2, delta=1e-6 if dim == 2 else 1e-3)
+                    # Angular momentum about the centre, from that about the origin.
+                    sign = 1 if dim == 2 else -1
+                    angular = ledger["angular_momentum" + "_y" * (dim == 3)]
+                    spin = [sign * angular[n] - x * ledger[f"momentum_{axis}"][n] +
+                            (1.02 + ledger[f"ball_displacement_{axis}"][n]) *
+                            ledger["momentum_x"][n]
+                            for n, x in ((k, ledger["ball_displacement_x"][k]) for k in (0, -1))]
+                    self.assertAlmostEqual((spin[1] - spin[0]) / along, 1.,
+                                           delta=.05 if dim == 2 else .15)
+
+    def test_chattering_ball(self):
+        """Nodes of a ball jump on the floor with CN, and cells become nearly flat: the work of their
+        forces is integrated as exactly as that of others."""
+        name = "chattering"
+        scene, _ = self.top_spin(name, 3, 20, "set Treatment = Signorini active set", .12)
+        for _, ledger in self.runs([(name, scene)], ("CN",)):
+            self.assertLess(largest(ledger["balance_residual"]), 1e-11)
+
+    def pushed(self, treatment, n):
+        settings = f"set Treatment = {treatment}" + (
+            "" if "active" in treatment else "\n  set Stick = exact")
+        scene = self.scene(f"pushed {treatment} {n}", PUSHED, twice=2 * n, once=n,
+                           treatment=settings)
+        ledger = self.run_program("ricochet", [], scene.with_suffix(""), prm=scene)
+        self.assertEqual(ledger["step_halvings"][-1], 0)
+        return [ledger[name][-1] for name in ("top_force_x", "top_force_y", "friction_work")]
+
+    def test_exact_stick(self):
+        """Multipliers and the proximal augmented Lagrangian have the forces of active sets in nodes;
+        the others tend to them with the size of the cells."""
+        errors = {"Nitsche": [], "penalty": []}
+        for n in (4, 8, 16):
+            exact = self.pushed("Signorini active set", n)
+            for treatment in ("Signorini multipliers", "proximal augmented Lagrangian",
+                              *errors):
+                with self.subTest(f"{treatment}, {n}"):
+                    relative = [abs(value / right - 1.) for value, right in
+                                zip(self.pushed(treatment, n), exact)]
+                    if treatment in errors:
+                        errors[treatment].append(relative)
+                    else:
+                        self.assertLess(max(relative), 1e-9)
+        for treatment, of_sizes in errors.items():
+            orders = [math.log2(coarse / fine) for coarse, fine in
+                      zip(of_sizes[0], of_sizes[2]) if fine > 1e-4]
+            print(treatment, of_sizes, orders)
+            with self.subTest(treatment):
+                # Over two halvings of the cells: 2 for forces, and 1 and 2 for the work of
+                # friction at the ends of contact.
+                self.assertGreater(min(orders), .9)
+
+        for spin in (3, 20):
+            ledgers = {}
+            for treatment in ("Signorini active set", "Signorini multipliers"):
+                name = f"dynamic {spin} {treatment}"
+                scene, _ = self.top_spin(
+                    name, 2, spin, f"set Treatment = {treatment}" +
+                    ("" if "active" in treatment else "\n  set Stick = exact"), .04)
+                for scheme, ledger in self.runs([(name, scene)], ("midpoint", "TR-BDF2")):
+                    self.check_run(ledger)
+                    ledgers[treatment, scheme.split(", ")[1]] = ledger
+            for scheme in ("midpoint", "TR-BDF2"):
+                one, other = (ledgers[treatment, scheme] for treatment in
+                              ("Signorini active set", "Signorini multipliers"))
+                for column in ("kinetic_energy", "friction_work", "impulse_x_floor"):
+                    self.assertLess(max(abs(a - b) for a, b in zip(one[column], other[column])),
+                                    1e-9 * max(map(abs, one[column])), msg=f"{spin} {scheme}")
 
     def falling(self, dim, is_half):
         """The scene, the block 0.2 wide or its right half."""
@@ -393,6 +580,43 @@ class EveryScheme(ProgramTest):
                 self.assertGreaterEqual(len(peaks), 2)
                 for first, second in zip(peaks, peaks[1:]):
                     self.assertAlmostEqual((second - first) / period, 1., delta=.01)
+
+    def test_small_strains_beside_large_ones(self):
+        """A linear elastic disk hits a hyperelastic one: total energy and momentum are kept, on two
+        ranks, too, and with slow disks and small strains it is what two linear ones do, or two of
+        Saint Venant and Kirchhoff's."""
+        def with_laws(first, second):
+            text = DISKS.replace("set Law           = neo-Hookean",
+                                 "set Law           = " + second)
+            return text.replace("  set Velocity      = 1, 0\n  set Material      = rubber",
+                                "  set Velocity      = 1, 0\n  set Material      = other") + (
+                "subsection Material other\n  set Law           = " + first +
+                "\n  set Young modulus = 1e5\n  set Density       = 1000\nend\n")
+        kept = ["Contact disks/Treatment=improved normal compliance"]
+        mixed = self.scene("mixed", with_laws("linear elastic", "neo-Hookean"))
+        one = self.run_program("ricochet", NO_FIELDS + kept, self.folder / "mixed", prm=mixed)
+        def changes(column):
+            return [value - one[column][0] for value in one[column]]
+        self.assertLess(largest(changes("total_energy")), 1e-11 * one["total_energy"][0])
+        self.assertLess(largest(one["balance_residual"]), 1e-11)
+        self.assertLess(largest(changes("momentum_x")), 1e-9)
+        self.assertGreater(max(one["contact_force_disks"]), 0.)
+        self.assertEqual(one["step_halvings"][-1], 0)
+        two = self.run_program("ricochet", NO_FIELDS + kept, self.folder / "two", prm=mixed,
+                               n_ranks=2)
+        self.assertLess(largest([a - b for a, b in zip(one["kinetic_energy"],
+                                                       two["kinetic_energy"])]),
+                        1e-9 * one["total_energy"][0])
+        slow = kept + ["Body a/Velocity=1e-3, 0", "Body b/Velocity=-1e-3, 0",
+                       "Body b/Translation=1.0001, 0"]
+        laws = ("linear elastic", "Saint Venant-Kirchhoff")
+        energies = [
+            self.run_program("ricochet", NO_FIELDS + slow, self.folder / f"slow-{n}",
+                             prm=self.scene(f"slow-{n}", with_laws(*pair)))["kinetic_energy"]
+            for n, pair in enumerate((laws, (laws[0],) * 2, (laws[1],) * 2))]
+        for others in energies[1:]:
+            self.assertLess(largest([a - b for a, b in zip(energies[0], others)]),
+                            1e-3 * energies[0][0])
 
     def test_colliding_disks(self):
         scene = self.scene("disks", DISKS)

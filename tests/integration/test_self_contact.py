@@ -367,13 +367,13 @@ class RestartAndRanks(SelfContactTest):
         return (ring(end=end) + [SELF, f"Contact/Treatment={name}"] +
                 TREATMENTS[name])
 
-    def compare(self, one, other, n_rows):
+    def compare(self, one, other, n_rows, n_touching=3):
         """To 1e-9 of the largest value of each column."""
         self.assertEqual(one.names, other.names)
         self.assertEqual(len(other["time"]), n_rows)
         # They touch themselves by then.
-        self.assertGreater(sum(f > 0. for f in other["contact_force_inner_circle"]),
-                           2)
+        self.assertGreaterEqual(sum(f > 0. for f in other["contact_force_inner_circle"]),
+                                n_touching)
         for column in ("time", "kinetic_energy", "elastic_energy", "energy",
                        "modified_energy", "momentum_x", "momentum_y",
                        "angular_momentum", "contact_force_foundation",
@@ -403,18 +403,18 @@ class RestartAndRanks(SelfContactTest):
                 self.compare(one, two, round(end / DT) + 1)
 
     def test_one_and_two_ranks_without_symmetry(self):
-        """Friction at the foundation bends the ring to one side. The first three steps in
-        which it touches itself: Newton's method needs up to 47 iterations in them, and
-        then steps are halved, where round-off decides how often."""
+        """Friction at the foundation bends the ring to one side. The first two steps in
+        which it touches itself: in the second one Newton's method fails twice, and from then on
+        round-off decides how often steps are halved."""
         self.long_run()
-        end = 1.45
+        end = 1.44
         parameters = NO_FIELDS + [
             "Contact/Friction coefficient=0.2", "Contact/Tangential compliance=1e7",
             *self.parameters("improved normal compliance", end)]
         one, two = (self.run_program("hyperelastic_ring", parameters,
                                      self.folder / f"{n}", n_ranks=n)
                     for n in (1, 2))
-        self.compare(one, two, round(end / DT) + 1)
+        self.compare(one, two, round(end / DT) + 1, n_touching=2)
 
     def test_stopped_while_it_touches_itself(self):
         """Digit for digit."""

@@ -1193,11 +1193,42 @@ BOOST_AUTO_TEST_CASE(own_nodes_on_nodes)
 
 
 
+// A time step, or as many halves of it as it takes, as in a run. Returns the number
+// of steps that were halved.
+unsigned int
+step_or_halves(Impact<3>   &impact,
+               State       &state,
+               const double time_step,
+               const double smallest = 1e-3)
+{
+  try
+    {
+      State next;
+      impact.scheme->step(impact.system, state, time_step, next);
+      next.time = state.time + time_step;
+      state     = next;
+      return 0;
+    }
+  catch (const NewtonFailure &)
+    {
+      if (time_step < smallest)
+        throw;
+      const unsigned int first_half =
+        step_or_halves(impact, state, .5 * time_step, smallest);
+      return 1 + first_half +
+        step_or_halves(impact, state, .5 * time_step, smallest);
+    }
+}
+
+
+
 // Cubes that meet with other parts than a point against a face: face on face
 // with nodes on nodes or not, edge on face, edge across edge, corner on corner,
 // and facets of very different size. Nothing fails, and no energy is created;
 // with persistent contact points penetrate by the displacement of a step.
 // Crossing edges, which points do not detect, penetrate until nodes are inside.
+// A node on an edge or a corner is in unstable equilibrium: round-off, and so the
+// processor, chooses when and to which side it slips, and that step may be halved.
 BOOST_AUTO_TEST_CASE(degenerate_configurations)
 {
   struct Configuration
@@ -1283,7 +1314,8 @@ BOOST_AUTO_TEST_CASE(degenerate_configurations)
         };
         const double first = energy();
         double       old = first, deepest = 0., largest_residual = 0.;
-        bool         touched = false;
+        bool         touched  = false;
+        unsigned int n_halved = 0;
         impact.system.newton_observer =
           [&](const std::vector<NewtonSolver::Iteration> &history,
               const auto &) {
@@ -1294,10 +1326,7 @@ BOOST_AUTO_TEST_CASE(degenerate_configurations)
           };
         for (unsigned int n = 0; n < 30; ++n)
           {
-            State next;
-            impact.scheme->step(impact.system, state, .01, next);
-            next.time        = state.time + .01;
-            state            = next;
+            n_halved += step_or_halves(impact, state, .01);
             touched          = touched || state.contact_force.l2_norm() > 0.;
             const double now = energy();
             BOOST_CHECK_LE(now, old + 1e-10 * first);
@@ -1311,11 +1340,12 @@ BOOST_AUTO_TEST_CASE(degenerate_configurations)
                          .at(1)
                          .max_penetration);
           }
-        BOOST_TEST_MESSAGE(treatment << ", " << one.name << ": energy "
-                                     << old / first << ", deepest " << deepest
-                                     << ", largest residual "
-                                     << largest_residual);
+        BOOST_TEST_MESSAGE(
+          treatment << ", " << one.name << ": energy " << old / first
+                    << ", deepest " << deepest << ", largest residual "
+                    << largest_residual << ", halved steps " << n_halved);
         BOOST_CHECK(touched);
+        BOOST_CHECK_LE(n_halved, 2);
         // Constraints that depend on each other would go to 1e15 and beyond.
         BOOST_CHECK_LT(largest_residual, 1e9);
         BOOST_CHECK_LT(deepest, .3);

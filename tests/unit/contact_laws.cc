@@ -231,7 +231,7 @@ namespace
 
   template <typename Law>
   void
-  compare_friction(const Law &law)
+  compare_friction(const Law &law, const double at_rest)
   {
     const double              c_tau = 2.;
     const RegularisedFriction friction(
@@ -241,6 +241,8 @@ namespace
     const dealii::Tensor<2, 3> plane =
       dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) -
       outer_product(normal, normal);
+    RegularisedFriction::Stick stick = friction.creep();
+    stick.at_rest = at_rest * (plane * dealii::Tensor<1, 3>({.3, 1., 0.}));
     for (const double pressure : {1e-6, .5, 4.})
       for (const double size : {0., 1e-9, .1, 3.})
         {
@@ -250,18 +252,19 @@ namespace
           dealii::Tensor<1, 3>       with_pressure;
           // The branch that the slip rate itself chooses.
           const auto branch =
-            friction.choose_branch(pressure, slip, c_tau * slip);
+            friction.choose_branch(stick, pressure, slip, stick(slip));
           friction.derivatives(branch,
                                pressure,
                                slip,
                                plane,
                                with_slip_rate,
                                with_pressure);
-          const auto traction = friction.traction(pressure, slip);
+          const auto traction = friction.traction(stick, pressure, slip);
           BOOST_CHECK_SMALL(
             (friction.traction_on(branch, pressure, slip) - traction).norm(),
             1e-14);
-          BOOST_CHECK_GE(traction * slip, 0.);
+          if (at_rest == 0.)
+            BOOST_CHECK_GE(traction * slip, 0.);
           BOOST_CHECK_LE(traction.norm(),
                          law.limit(pressure, slip.norm()) * (1. + 1e-12));
           // At rest the traction is zero by definition; its derivative is that of
@@ -278,11 +281,18 @@ namespace
             sqrt(ad_slip[0] * ad_slip[0] + ad_slip[1] * ad_slip[1] +
                  ad_slip[2] * ad_slip[2]);
           const AD limit = law.template limit<AD>(AD(4, 3, pressure), speed);
-          const AD factor =
-            c_tau * speed.val() < limit.val() ? AD(c_tau) : AD(limit / speed);
+          dealii::Tensor<1, 3, AD> sticking;
+          for (unsigned int c = 0; c < 3; ++c)
+            sticking[c] = stick.at_rest[c] + c_tau * ad_slip[c];
+          const AD size_of_stick =
+            sqrt(sticking[0] * sticking[0] + sticking[1] * sticking[1] +
+                 sticking[2] * sticking[2]);
+          const AD factor = size_of_stick.val() < limit.val()
+            ? AD(1.)
+            : AD(limit / size_of_stick);
           for (unsigned int c = 0; c < 3; ++c)
             {
-              const AD expected = factor * ad_slip[c];
+              const AD expected = factor * sticking[c];
               BOOST_CHECK_SMALL(expected.val() - traction[c], 1e-14);
               for (unsigned int d = 0; d < 3; ++d)
                 BOOST_CHECK_SMALL(expected.dx(d) -
@@ -295,11 +305,15 @@ namespace
 } // namespace
 
 // Regularised friction against automatic differentiation in stick, slip and at
-// rest; its power is never negative and its traction never above the limit.
+// rest; its power is never negative and its traction never above the limit. The same with
+// a traction of sticking points at rest, as in passes of exact stick.
 BOOST_AUTO_TEST_CASE(friction_tangents_are_derivatives)
 {
-  compare_friction(CoulombFriction{.3});
-  compare_friction(WeakeningFriction());
+  for (const double at_rest : {0., .4})
+    {
+      compare_friction(CoulombFriction{.3}, at_rest);
+      compare_friction(WeakeningFriction(), at_rest);
+    }
 }
 
 namespace

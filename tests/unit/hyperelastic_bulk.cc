@@ -8,12 +8,16 @@
 
 #include <base/exceptions.h>
 #include <discretization/hyperelastic_bulk.h>
+#include <discretization/mixed_bulk.h>
 #include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/ciarlet_geymonat.h>
+
+#include <deal.II/base/function.h>
 
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
+#include <functional>
 
 using namespace Ricochet;
 using dealii::VectorOperation;
@@ -220,6 +224,98 @@ namespace
 } // namespace
 
 
+
+namespace
+{
+  /// A cube of which one half is linear elastic, both viscous and connected: work of a step,
+  /// tangents, and with a uniform strain half of the energy of each material.
+  template <int dim>
+  void
+  check_mixed()
+  {
+    CubeAbovePlane<dim> cube(/* simplices = */ false);
+    for (const auto &cell : cube.triangulation.active_cell_iterators())
+      cell->set_material_id(cell->center()[0] < .5 ? 0 : 1);
+    const Body<dim>     body(cube.triangulation,
+                         1,
+                         {},
+                         {1},
+                         MultiplierSpace::none,
+                         MPI_COMM_WORLD);
+    const Material<dim> linear(LinearElastic{.7, .4},
+                               Viscosity{Viscosity::Law::linear, .03}),
+      large = material<dim>(PlaneState::plane_strain,
+                            Viscosity{Viscosity::Law::curnier, .02});
+    const MixedBulk<dim>  bulk(body, {linear, large}, MatrixStorage::entries);
+    const LinearBulk<dim> all_linear(body,
+                                     std::vector<Material<dim>>(2, linear));
+    const HyperelasticBulk<dim> all_large(body,
+                                          std::vector<Material<dim>>(2, large));
+    Vector begin = body.make_vector(), end(begin), direction(begin),
+           force(begin), plus(begin), minus(begin), product(begin);
+    randomise(begin, .02, 1);
+    randomise(end, .02, 2);
+    randomise(direction, 1., 3);
+    const double time_step = .1, eps = 1e-6;
+    std::vector<std::function<double(const dealii::Point<dim> &)>> stretched;
+    for (unsigned int c = 0; c < dim; ++c)
+      stretched.emplace_back([c](const dealii::Point<dim> &x) {
+        return .1 * x[(c + 1) % dim] - .02 * (c + 1) * x[c];
+      });
+    body.interpolate(dealii::FunctionFromFunctionObjects<dim>(stretched),
+                     product);
+    const double expected =
+      .5 * (all_linear.energy(product) + all_large.energy(product));
+    BOOST_CHECK_CLOSE(bulk.energy(product), expected, 1e-10);
+    const auto of_parts = bulk.energies_of_parts(product);
+    BOOST_CHECK_CLOSE(of_parts[0] + of_parts[1], expected, 1e-10);
+    Vector step(end);
+    step -= begin;
+    bulk.step_force(begin, end, time_step, force);
+    BOOST_CHECK_SMALL(force * step - bulk.energy(end) + bulk.energy(begin) -
+                        bulk.viscous_dissipation(begin, end, time_step),
+                      1e-14);
+    using Force = std::function<void(const Vector &, Vector &)>;
+    using Add   = std::function<void(Matrix &)>;
+    const std::vector<std::pair<Force, Add>> forces = {
+      {[&](const Vector &x, Vector &f) {
+         bulk.step_force(begin, x, time_step, f);
+       },
+       [&](Matrix &matrix) {
+         bulk.add_step_tangent(begin, end, time_step, matrix);
+       }},
+      {[&](const Vector &x, Vector &f) { bulk.force(x, f); },
+       [&](Matrix &matrix) { bulk.add_tangent(1., end, matrix); }},
+      {[&](const Vector &x, Vector &f) {
+         bulk.viscous_force(begin, x, time_step, f);
+       },
+       [&](Matrix &matrix) {
+         bulk.add_viscous_tangent(1., begin, end, time_step, matrix);
+       }}};
+    for (const auto &[evaluate, add] : forces)
+      {
+        Matrix tangent;
+        tangent.reinit(body.sparsity_pattern());
+        add(tangent);
+        tangent.vmult(product, direction);
+        Vector point(end);
+        point.add(eps, direction);
+        evaluate(point, plus);
+        point.add(-2. * eps, direction);
+        evaluate(point, minus);
+        plus -= minus;
+        plus *= 1. / (2. * eps);
+        plus -= product;
+        BOOST_CHECK_SMALL(plus.linfty_norm(), 1e-7 * product.linfty_norm());
+      }
+  }
+} // namespace
+
+BOOST_AUTO_TEST_CASE(small_strains_beside_large_ones)
+{
+  check_mixed<2>();
+  check_mixed<3>();
+}
 
 BOOST_AUTO_TEST_CASE(in_2d)
 {

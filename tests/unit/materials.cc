@@ -14,6 +14,7 @@
 #include <materials/laws/mooney_rivlin.h>
 #include <materials/laws/neo_hookean.h>
 #include <materials/laws/saint_venant_kirchhoff.h>
+#include <materials/laws/yeoh.h>
 #include <materials/material_parameters.h>
 
 #include <Sacado.hpp>
@@ -36,6 +37,7 @@ namespace
   const SaintVenantKirchhoff saint_venant_kirchhoff{1.2, .8};
   const NeoHookean           neo_hookean{1.2, .8};
   const MooneyRivlin         mooney_rivlin{.3, .1, 1.7};
+  const Yeoh                 yeoh{.4, -.02, .05, 1.7};
 
   template <int dim>
   SymmetricTensor<2, dim>
@@ -212,7 +214,7 @@ namespace
         BOOST_CHECK_SMALL(energy_difference -
                             (material.energy(old_c + difference) -
                              material.energy(old_c)),
-                          1e-15);
+                          2e-15);
 
         // The tangent against a central difference; its round-off grows as the
         // difference of C falls.
@@ -484,6 +486,9 @@ namespace
           std::make_shared<HyperelasticLawImplementation<MooneyRivlin>>(
             mooney_rivlin),
           state));
+        function(Hyperelastic<2>(
+          std::make_shared<HyperelasticLawImplementation<Yeoh>>(yeoh),
+          state));
       }
     function(Hyperelastic<3>(
       std::make_shared<HyperelasticLawImplementation<CiarletGeymonat>>(
@@ -500,6 +505,9 @@ namespace
       std::make_shared<HyperelasticLawImplementation<MooneyRivlin>>(
         mooney_rivlin),
       PlaneState::plane_strain));
+    function(Hyperelastic<3>(
+      std::make_shared<HyperelasticLawImplementation<Yeoh>>(yeoh),
+      PlaneState::plane_strain));
   }
 } // namespace
 
@@ -513,12 +521,14 @@ BOOST_AUTO_TEST_CASE(derivatives_are_derivatives)
       compare_with_automatic_differentiation<2>(saint_venant_kirchhoff, state);
       compare_with_automatic_differentiation<2>(neo_hookean, state);
       compare_with_automatic_differentiation<2>(mooney_rivlin, state);
+      compare_with_automatic_differentiation<2>(yeoh, state);
     }
   const PlaneState none = PlaneState::plane_strain;
   compare_with_automatic_differentiation<3>(ciarlet_geymonat, none);
   compare_with_automatic_differentiation<3>(saint_venant_kirchhoff, none);
   compare_with_automatic_differentiation<3>(neo_hookean, none);
   compare_with_automatic_differentiation<3>(mooney_rivlin, none);
+  compare_with_automatic_differentiation<3>(yeoh, none);
 }
 
 // The closed form of plane stress against its definition for a large stretch
@@ -545,6 +555,7 @@ BOOST_AUTO_TEST_CASE(small_strains_are_linear)
       ciarlet_geymonat);
   const auto mr = std::make_shared<HyperelasticLawImplementation<MooneyRivlin>>(
     mooney_rivlin);
+  const auto ye = std::make_shared<HyperelasticLawImplementation<Yeoh>>(yeoh);
   const LinearElastic lame{1.2, .8};
   const LinearElastic mr_lame{1.7 - 2. / 3. * .8, .8};
   const LinearElastic cg_lame{4. * (.005 + .35), 2. * (.5 + .005)};
@@ -554,31 +565,43 @@ BOOST_AUTO_TEST_CASE(small_strains_are_linear)
       compare_with_linear_elasticity<2>(nh, lame, state);
       compare_with_linear_elasticity<2>(cg, cg_lame, state);
       compare_with_linear_elasticity<2>(mr, mr_lame, state);
+      compare_with_linear_elasticity<2>(ye, mr_lame, state);
     }
   compare_with_linear_elasticity<3>(svk, lame, PlaneState::plane_strain);
   compare_with_linear_elasticity<3>(nh, lame, PlaneState::plane_strain);
   compare_with_linear_elasticity<3>(cg, cg_lame, PlaneState::plane_strain);
   compare_with_linear_elasticity<3>(mr, mr_lame, PlaneState::plane_strain);
+  compare_with_linear_elasticity<3>(ye, mr_lame, PlaneState::plane_strain);
 }
 
-// Mooney's result: in simple shear by gamma the shear stress is 2 (c10 + c01) gamma,
-// however large it is.
-BOOST_AUTO_TEST_CASE(simple_shear_of_mooney_rivlin)
+// Simple shear by gamma, by hand: the shear stress is 2 (c10 + c01) gamma with Mooney's law,
+// however large it is, and 2 gamma (c10 + 2 c20 gamma^2 + 3 c30 gamma^4) with Yeoh's.
+BOOST_AUTO_TEST_CASE(simple_shear)
 {
-  const Hyperelastic<3> material(
-    std::make_shared<HyperelasticLawImplementation<MooneyRivlin>>(
-      mooney_rivlin),
-    PlaneState::plane_strain);
+  const auto shear_stress = [](const auto &law, const double gamma) {
+    const Hyperelastic<3> material(
+      std::make_shared<
+        HyperelasticLawImplementation<std::decay_t<decltype(law)>>>(law),
+      PlaneState::plane_strain);
+    Tensor<2, 3> f(dealii::unit_symmetric_tensor<3>());
+    f[0][1]           = gamma;
+    const auto stress = f *
+      Tensor<2, 3>(2. *
+                   material.derivative(
+                     SymmetricTensor<2, 3>(symmetrize(transpose(f) * f)))) *
+      transpose(f);
+    return stress[0][1];
+  };
   for (const double gamma : {.1, 1., 3.})
     {
-      dealii::Tensor<2, 3> f(dealii::unit_symmetric_tensor<3>());
-      f[0][1]           = gamma;
-      const auto stress = f *
-        dealii::Tensor<2, 3>(2. *
-                             material.derivative(SymmetricTensor<2, 3>(
-                               symmetrize(transpose(f) * f)))) *
-        transpose(f);
-      BOOST_CHECK_CLOSE(stress[0][1], 2. * (.3 + .1) * gamma, 1e-10);
+      const double square = gamma * gamma;
+      BOOST_CHECK_CLOSE(shear_stress(mooney_rivlin, gamma),
+                        2. * (.3 + .1) * gamma,
+                        1e-10);
+      BOOST_CHECK_CLOSE(shear_stress(yeoh, gamma),
+                        2. * gamma *
+                          (.4 - 2. * .02 * square + 3. * .05 * square * square),
+                        1e-10);
     }
 }
 

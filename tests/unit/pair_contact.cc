@@ -881,8 +881,7 @@ BOOST_AUTO_TEST_CASE(bad_input)
   const auto two_blocks = [](const double                     gap,
                              const Rectangle::Side            slave_side,
                              const dealii::types::boundary_id master,
-                             const std::string               &treatment,
-                             const bool                       mixed = false) {
+                             const std::string               &treatment) {
     dealii::parallel::shared::Triangulation<2> triangulation(MPI_COMM_WORLD);
     make_rectangles({{Point<2>(0., gap), Point<2>(1., 1.), {{2, 2}}, 0., {}},
                      {Point<2>(0., -1.), Point<2>(1., 0.), {{2, 2}}, 0., {}}},
@@ -890,11 +889,7 @@ BOOST_AUTO_TEST_CASE(bad_input)
                     triangulation);
     ImpactSetup<2> setup{rubber(200.)};
     setup.parts.push_back({"upper", rubber(200.), 1.});
-    if (mixed)
-      setup.parts.push_back(
-        {"lower", Material<2>(LinearElastic{200., 200.}), 1.});
-    else
-      setup.parts.push_back({"lower", rubber(200.), 1.});
+    setup.parts.push_back({"lower", rubber(200.), 1.});
     setup.pairs = {{"blocks", {rectangle_side(0, slave_side)}, {master}}};
     Impact<2> impact(parameters_of(treatment, 0.),
                      triangulation,
@@ -915,9 +910,6 @@ BOOST_AUTO_TEST_CASE(bad_input)
          [&]() { two_blocks(.1, Rectangle::lower, 77, "persistent contact"); });
   throws("rigid obstacles", [&]() {
     two_blocks(.1, Rectangle::lower, upper, "Signorini multipliers");
-  });
-  throws("linear elastic", [&]() {
-    two_blocks(.1, Rectangle::lower, upper, "persistent contact", true);
   });
 }
 

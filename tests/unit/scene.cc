@@ -144,13 +144,13 @@ BOOST_AUTO_TEST_CASE(springs)
   material.plane_state                     = "plane strain";
   material.values["Young modulus"]         = 100.;
   const std::vector<Material<2>> materials = {material.make<2>()};
-  const double                   k = 30., c = 2., step = .1;
+  const double                   k = 30., c = 2., drag = .7, step = .1;
   const HyperelasticBulk<2>      alone(body, materials);
   const BulkOnSprings<2>         bulk(
     body,
     std::make_unique<HyperelasticBulk<2>>(body, materials),
     {{right, {{false, true}}, k, 0.}, {right, {{true, false}}, 0., c}},
-    1);
+    {drag});
 
   Vector begin, end;
   body.interpolate(dealii::FunctionFromFunctionObjects<2>(
@@ -171,9 +171,11 @@ BOOST_AUTO_TEST_CASE(springs)
                       alone.energies_of_parts(end)[0],
                     .5 * k * .14 * .14,
                     1e-8);
-  // The integral of (.05 - .01 y)^2 over 0 < y < 1.
+  // The integral of (.05 - .01 y)^2 over 0 < y < 1, and that of (.02 x - .1)^2 over
+  // 0 < x < 2.
+  const double first = .0025 - .0005 + .0001 / 3., second = 7.84e-4 / .06;
   BOOST_CHECK_CLOSE(bulk.viscous_dissipation(begin, end, step),
-                    c / step * (.0025 - .0005 + .0001 / 3.),
+                    (c * first + drag * (2. * first + second)) / step,
                     1e-9);
   Vector force = body.make_vector(), way(end);
   way -= begin;

@@ -24,6 +24,9 @@ namespace Ricochet
    *
    * The traction has the sign of the internal forces: its power, traction . v,
    * is the dissipation of friction and never negative.
+   *
+   * With another traction of the sticking point than c_tau v, see Stick, it is the law of the
+   * augmented Lagrangian, whose solution is Coulomb's law without regularisation.
    */
   class RegularisedFriction
   {
@@ -59,9 +62,12 @@ namespace Ricochet
     RegularisedFriction() = default;
 
     /// @param law null for none. @param tangential_compliance c_tau (Pa s/m)
+    /// @param has_exact_stick points that stick do not creep, see PointwiseFriction.
     RegularisedFriction(std::shared_ptr<const FrictionLaw> law,
-                        const double tangential_compliance)
+                        const double tangential_compliance,
+                        const bool   has_exact_stick = false)
       : tangential_compliance(tangential_compliance)
+      , has_exact_stick(has_exact_stick)
       , law(std::move(law))
     {}
 
@@ -71,36 +77,63 @@ namespace Ricochet
       return law != nullptr;
     }
 
+    /// The traction of a sticking point as a function of its slip rate. That of a slipping
+    /// one has its direction.
+    struct Stick
+    {
+      /// Pa s/m
+      double compliance = 0.;
+      /// At rest (Pa); zero for regularised friction.
+      dealii::Tensor<1, 3> at_rest;
+
+      dealii::Tensor<1, 3>
+      operator()(const dealii::Tensor<1, 3> &slip_rate) const
+      {
+        return at_rest + compliance * slip_rate;
+      }
+    };
+
+    /// That of regularised friction.
+    Stick
+    creep() const
+    {
+      return {tangential_compliance, {}};
+    }
+
     /**
      * The law with stick and slip distinguished by @p trial instead of the slip
-     * rate: a trial = traction + r (v - traction/c_tau) of the last iterate,
-     * with a small r. At a solution both are the same, for any r > 0; during
-     * the iterations a sticking point does not alternate between opposite
+     * rate: a trial = traction + r (v - v_s) of the last iterate, where v_s is the rate at which
+     * a sticking point would have this traction, with a small r. At a solution both are the same,
+     * for any r > 0; during the iterations a sticking point does not alternate between opposite
      * directions of slip (the primal-dual active set of Hüeber, Stadler and
      * Wohlmuth 2008, for the regularised law).
      */
     struct Branch
     {
-      bool sticks = true;
+      bool  sticks = true;
+      Stick stick;
       /// Direction of slip.
       dealii::Tensor<1, 3> direction;
-      /// The direction is that of the slip rate and changes with it.
-      bool follows_slip_rate = false;
+      /// The direction is that of #stick and changes with the slip rate.
+      bool follows_stick = false;
     };
 
     Branch
-    choose_branch(const double                pressure,
+    choose_branch(const Stick                &stick,
+                  const double                pressure,
                   const dealii::Tensor<1, 3> &slip_rate,
                   const dealii::Tensor<1, 3> &trial) const
     {
-      Branch       branch;
+      Branch branch;
+      branch.stick      = stick;
       const double size = trial.norm();
       branch.sticks     = size == 0. || size < limit(pressure, slip_rate).value;
       if (branch.sticks)
         return branch;
-      branch.follows_slip_rate = slip_rate * trial > 0.;
+      const dealii::Tensor<1, 3> sticking = stick(slip_rate);
+      branch.follows_stick                = sticking * trial > 0.;
       branch.direction =
-        branch.follows_slip_rate ? slip_rate / slip_rate.norm() : trial / size;
+        branch.follows_stick ? sticking / sticking.norm() : trial / size;
       return branch;
     }
 
@@ -111,23 +144,22 @@ namespace Ricochet
                 const dealii::Tensor<1, 3> &slip_rate) const
     {
       return branch.sticks
-        ? tangential_compliance * slip_rate
+        ? branch.stick(slip_rate)
         : limit(pressure, slip_rate).value * branch.direction;
     }
 
     /// The traction (Pa) at a @p pressure (Pa, not negative) and a slip rate
     /// (m/s).
     dealii::Tensor<1, 3>
-    traction(const double pressure, const dealii::Tensor<1, 3> &slip_rate) const
+    traction(const Stick                &stick,
+             const double                pressure,
+             const dealii::Tensor<1, 3> &slip_rate) const
     {
-      const double square = slip_rate.norm_square();
-      if (!(square > 0.))
-        return {};
-      const double speed   = std::sqrt(square);
-      const double largest = law->limit(pressure, speed).value;
-      return (tangential_compliance * speed < largest ? tangential_compliance
-                                                      : largest / speed) *
-        slip_rate;
+      const dealii::Tensor<1, 3> sticking = stick(slip_rate);
+      const double               size     = sticking.norm();
+      const double               largest  = limit(pressure, slip_rate).value;
+      return size < largest || !(size > 0.) ? sticking
+                                            : largest / size * sticking;
     }
 
     /// The derivatives of traction_on(): with respect to the slip rate (within
@@ -145,13 +177,14 @@ namespace Ricochet
       with_pressure  = 0.;
       if (branch.sticks)
         {
-          with_slip_rate = tangential_compliance * tangent_plane;
+          with_slip_rate = branch.stick.compliance * tangent_plane;
           return;
         }
       const FrictionLimit own = limit(pressure, slip_rate);
       with_pressure           = own.with_pressure * branch.direction;
-      if (branch.follows_slip_rate)
-        with_slip_rate = own.value / slip_rate.norm() *
+      if (branch.follows_stick)
+        with_slip_rate = own.value * branch.stick.compliance /
+          branch.stick(slip_rate).norm() *
           (tangent_plane - outer_product(branch.direction, branch.direction));
       if (own.with_slip_speed != 0. && slip_rate.norm() > 0.)
         with_slip_rate += own.with_slip_speed *
@@ -160,6 +193,7 @@ namespace Ricochet
 
     /// c_tau (Pa s/m)
     const double tangential_compliance = 0.;
+    const bool   has_exact_stick       = false;
 
   private:
     FrictionLimit

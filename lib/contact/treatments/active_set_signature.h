@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,6 +19,24 @@ namespace Ricochet
   /// Hash of a sequence of small integers on all ranks, the same on all.
   std::uint64_t
   global_hash(const std::vector<int> &values, const MPI_Comm communicator);
+
+  /// Patterns of former iterates, by their hashes.
+  struct FormerPatterns
+  {
+    std::vector<std::uint64_t> seen;
+
+    /// Whether @p pattern has returned after another one.
+    bool
+    returns(const std::uint64_t pattern)
+    {
+      if (!seen.empty() && seen.back() == pattern)
+        return false;
+      const bool known =
+        std::find(seen.begin(), seen.end(), pattern) != seen.end();
+      seen.push_back(pattern);
+      return known;
+    }
+  };
 } // namespace Ricochet
 
 #endif

@@ -7,6 +7,7 @@
 #include <contact/contact_operator.h>
 #include <contact/surfaces/contact_pair.h>
 #include <materials/linear_elastic.h>
+#include <materials/viscosity.h>
 #include <time_integration/scheme_traits.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -27,6 +28,8 @@ namespace Ricochet
     std::string section      = "Contact";
     std::string treatment    = "Nitsche";
     std::string friction_law = "Coulomb";
+    /// Stick of treatments whose friction need not be exact: "regularised" or "exact".
+    std::string stick = "regularised";
     /// The parameters of all laws, as they declare them.
     ParameterValues values = all_parameters();
     /// Between bodies: "points", "mortar", "dual mortar" or "cut faces".
@@ -86,7 +89,6 @@ namespace Ricochet
    * has no meaning, and values out of range.
    *
    * @param linear_material the body is linear elastic.
-   * @param viscous the body is viscous.
    * @param degree of the displacements.
    * @throws InputError that names what is allowed.
    */
@@ -95,7 +97,7 @@ namespace Ricochet
                     const SchemeTraits      &scheme,
                     const bool               redistributed_mass,
                     const bool               linear_material,
-                    const bool               viscous,
+                    const VelocityForce      velocity_force,
                     const unsigned int       degree = 1);
 
   /// Properties of bodies and surfaces in contact that a combination may depend on.

@@ -164,7 +164,8 @@ namespace Ricochet
       if (!has_friction(parameters))
         return {};
       return {find_friction(parameters).make(parameters.values),
-              parameters.values[RegularisedFriction::compliance_name]};
+              parameters.values[RegularisedFriction::compliance_name],
+              find(parameters).make_law && parameters.stick == "exact"};
     }
 
     /// mu of exact friction; 0 for none.
@@ -415,7 +416,7 @@ namespace Ricochet
                     const SchemeTraits      &scheme,
                     const bool               redistributed_mass,
                     const bool               linear_material,
-                    const bool               viscous,
+                    const VelocityForce      velocity_force,
                     const unsigned int       degree)
   {
     const ContactLawTraits traits = find(parameters).traits;
@@ -435,7 +436,7 @@ namespace Ricochet
         "' uses the stress of a linear elastic body on the contact boundary "
         "and cannot be combined with a hyperelastic one.\nAllowed with it: " +
         names_of([](const auto &t) { return !t.uses_stress; }) + ".");
-    if (viscous && traits.uses_stress)
+    if (velocity_force == VelocityForce::viscosity && traits.uses_stress)
       throw InputError(
         "The contact treatment '" + parameters.treatment +
         "' uses the elastic stress on the contact boundary and cannot be "
@@ -449,10 +450,12 @@ namespace Ricochet
         scheme.name + "', in which nothing has inertia.\nAllowed with it: " +
         names_of_schemes([](const SchemeTraits &s) { return s.has_inertia; }) +
         ".");
-    if ((viscous || has_friction(parameters)) && redistributed_mass &&
-        !scheme.contact_over_step)
+    if ((velocity_force != VelocityForce::none || has_friction(parameters)) &&
+        redistributed_mass && !scheme.contact_over_step)
       throw InputError(
-        (viscous ? "Viscosity" : "Friction") +
+        (velocity_force == VelocityForce::viscosity   ? "Viscosity"
+           : velocity_force == VelocityForce::damping ? "Damping"
+                                                      : "Friction") +
         std::string(" and the redistributed mass cannot be combined with the "
                     "time scheme '") +
         scheme.name +
@@ -477,14 +480,17 @@ namespace Ricochet
               [](const SchemeTraits &s) { return s.has_rates(); }) +
             ".");
         if (find(parameters).make_law)
-          RegularisedFriction::check(parameters.values);
+          {
+            if (parameters.stick != "exact")
+              RegularisedFriction::check(parameters.values);
+          }
         else if (!find_friction(parameters).is_coulomb)
           throw InputError(
             "The friction law '" + parameters.friction_law +
-            "' is regularised and cannot be combined with the contact "
-            "treatment '" +
+            "' cannot be combined with the contact treatment '" +
             parameters.treatment +
-            "', whose friction is exact.\nAllowed with it: " +
+            "', whose active sets in nodes know Coulomb's law only.\nAllowed "
+            "with it: " +
             names_of_treatments([](const Treatment &t) {
               return t.traits.takes_friction && t.make_law;
             }) +
@@ -569,6 +575,13 @@ namespace Ricochet
             "' acts in nodes and cannot be combined with Contact/Coupling = cut "
             "faces.\nAllowed with it: " +
             names_of(integrates) + ". For nodes take mortar.");
+        if (parameters.stick == "exact" && has_friction(parameters))
+          throw InputError(
+            parameters.section +
+            "/Stick = exact cannot be combined with Contact/Coupling = cut faces: "
+            "there are more points than displacements that they hold, and which "
+            "of them stick is not unique.\nAllowed with it: regularised; or "
+            "points and mortar.");
         // The schemes are those for a rigid obstacle.
         return;
       }
@@ -705,11 +718,17 @@ namespace Ricochet
             ? of_friction
             : of_treatment;
         else if (absent.empty())
-          belongs_to += of_treatment;
+          belongs_to += find(*this).make_law ? section + "/Stick is " + stick
+                                             : of_treatment;
         else
           belongs_to = "friction; " + section + "/" + absent;
         unused.push_back({section + "/" + parameter.name, belongs_to});
       }
+    if (!find(*this).make_law || !absent.empty())
+      unused.push_back({section + "/Stick",
+                        absent.empty()
+                          ? "treatments with a law; " + of_treatment
+                          : "friction; " + section + "/" + absent});
     return unused;
   }
 
@@ -735,7 +754,7 @@ namespace Ricochet
     unite(used, find_friction(*this).parameters);
     if (!own.traits.piecewise_linear || has_friction(*this))
       unite(used, augmentation_parameters());
-    if (own.make_law && has_friction(*this))
+    if (own.make_law && has_friction(*this) && stick != "exact")
       unite(used, RegularisedFriction::parameters());
     return used;
   }
@@ -913,8 +932,17 @@ namespace Ricochet
       "Friction law",
       friction_law,
       "The traction at which points slip. Only Coulomb's is there for "
-      "treatments whose friction is exact.",
+      "treatments in nodes by active sets.",
       Patterns::Selection(friction_table().names()));
+    parameters.add_parameter(
+      "Stick",
+      stick,
+      "Points that stick, of treatments that have a law for the pressure: "
+      "regularised, they creep with their traction over the tangential "
+      "compliance (paper A, (2.11)); exact, they do not slip, and each stage is "
+      "solved in five to ten passes (augmented Lagrangian). Friction of active "
+      "sets in nodes is always exact.",
+      Patterns::Selection("regularised|exact"));
     values.add_parameters(all_parameters(), parameters);
     parameters.leave_subsection();
   }

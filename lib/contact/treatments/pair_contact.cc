@@ -472,8 +472,13 @@ namespace Ricochet
   bool
   PairContact<dim>::next_pass()
   {
-    if (method.law || method.condition != ClosingCondition::two_step ||
-        pass == 1)
+    if (method.law)
+      return friction.next_pass(
+        [&](const unsigned int s) {
+          return pair_of(states[s]).round_off(states[s].point);
+        },
+        communicator);
+    if (method.condition != ClosingCondition::two_step || pass == 1)
       return false;
     pass       = 1;
     n_iterates = 0;
@@ -703,10 +708,6 @@ namespace Ricochet
                           state.pressure,
                           slip_vector,
                           point_of(state).cell_diameter);
-        for (unsigned int d = 0; d < n_tangents; ++d)
-          state.traction[d] = along[d] * friction.traction(s);
-        if (friction.sticks(s))
-          state.status = Status::stick;
       }
     // Computed now, on this thread, for the assembly that follows.
     if (has_force(state))
@@ -763,6 +764,25 @@ namespace Ricochet
               state.error /= point_of(state).weight;
             }
         }
+  }
+
+
+
+  template <int dim>
+  void
+  PairContact<dim>::take_friction()
+  {
+    for (unsigned int s = 0; s < states.size(); ++s)
+      {
+        PointState &state = states[s];
+        if (!law_of(state) || !(state.pressure > 0.))
+          continue;
+        const auto along = axes(state);
+        for (unsigned int d = 0; d < n_tangents; ++d)
+          state.traction[d] = along[d] * friction.traction(s);
+        if (friction.sticks(s))
+          state.status = Status::stick;
+      }
   }
 
 
@@ -829,6 +849,11 @@ namespace Ricochet
                    });
     if (sets_recur)
       change_worst_only();
+    if (has_friction)
+      {
+        friction.change_worst_only(communicator);
+        take_friction();
+      }
 
     // The other entries are zero.
     double *const forces = local_values(force);
@@ -1091,7 +1116,7 @@ namespace Ricochet
           double factor =
             law_of(state) ? std::abs(state.with_gap) : stiffness(state);
           if (law_of(state) && state.status == Status::stick)
-            factor += friction.round_off(1.);
+            factor += friction.round_off(&state - states.data(), 1.);
           square += std::pow(point_of(state).weight * factor *
                                pair_of(state).round_off(state.point),
                              2);

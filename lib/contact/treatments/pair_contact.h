@@ -6,6 +6,7 @@
 #include <contact/kinematics/surface_pair.h>
 #include <contact/laws/frictional_constraint.h>
 #include <contact/treatments/closing_condition.h>
+#include <contact/treatments/active_set_signature.h>
 #include <contact/treatments/pointwise_friction.h>
 
 #include <algorithm>
@@ -404,6 +405,10 @@ namespace Ricochet
     void
     change_worst_only();
 
+    /// Take tractions and status of the points of laws from #friction.
+    void
+    take_friction();
+
     /// Add the force of a point and the residual of its equations.
     void
     add_force(const PointState &state);
@@ -558,32 +563,15 @@ namespace Ricochet
     Vector       rate_origin, increments;
     unsigned int n_iterates = 0;
     unsigned int pass       = 0;
-    /// Patterns of former iterates.
-    struct Patterns
-    {
-      std::vector<std::uint64_t> seen;
-
-      /// Whether @p pattern has returned after another one.
-      bool
-      returns(const std::uint64_t pattern)
-      {
-        if (!seen.empty() && seen.back() == pattern)
-          return false;
-        const bool known =
-          std::find(seen.begin(), seen.end(), pattern) != seen.end();
-        seen.push_back(pattern);
-        return known;
-      }
-    };
     // Active sets of this pass, and whether one has returned: then one point at a
     // time changes.
-    Patterns sets;
-    bool     sets_recur = false;
+    FormerPatterns sets;
+    bool           sets_recur = false;
     // Patterns of the facets that points face, and the number of iterations for
     // which tangents leave out the terms that make points oscillate.
-    Patterns     facets;
-    unsigned int n_frozen = 0, n_returns = 0;
-    Couplings    all_couplings;
+    FormerPatterns facets;
+    unsigned int   n_frozen = 0, n_returns = 0;
+    Couplings      all_couplings;
     // The surface dofs of this rank in ascending order, the order in which
     // contact is expected to spread over them, their values at the last
     // add_residual(), and the contact force on each.

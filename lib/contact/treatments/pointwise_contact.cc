@@ -25,6 +25,16 @@ namespace Ricochet
 
 
 
+  bool
+  PointwiseContact::next_pass()
+  {
+    return friction.next_pass(
+      [&](const unsigned int p) { return kinematics->way_round_off(p); },
+      evaluator.communicator);
+  }
+
+
+
   ContactSteps
   PointwiseContact::end_step(const Vector &begin,
                              const Vector &end,
@@ -222,6 +232,7 @@ namespace Ricochet
                           slip,
                           evaluator.contact_points()[p].cell_diameter);
       }
+    friction.change_worst_only(evaluator.communicator);
   }
 
 
@@ -559,8 +570,8 @@ namespace Ricochet
         // Slip is a difference of displacements over a step.
         if (friction_acts(p) && friction.sticks(p))
           {
-            const double friction_force =
-              point.weight * friction.round_off(kinematics->way_round_off(p));
+            const double friction_force = point.weight *
+              friction.round_off(p, kinematics->way_round_off(p));
             square += friction_force * friction_force;
           }
       }

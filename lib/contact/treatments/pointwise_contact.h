@@ -69,6 +69,9 @@ namespace Ricochet
     void
     begin_stage(const ContactStart &start, const double weight) override;
 
+    bool
+    next_pass() override;
+
     void
     add_residual(const Vector &solution, Vector &residual) override;
 

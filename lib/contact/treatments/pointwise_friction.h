@@ -3,15 +3,26 @@
 #define ricochet_contact_treatments_pointwise_friction_h
 
 #include <contact/laws/regularised_friction.h>
+#include <contact/treatments/active_set_signature.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <functional>
 #include <vector>
 
 namespace Ricochet
 {
   /**
-   * Friction with a tangential compliance in the points of a pointwise treatment,
-   * with the mean slip rate of the step: the state of stick and slip of each point
-   * during Newton's method.
+   * Friction in the points of a pointwise treatment, with the mean slip rate of the step: the
+   * state of stick and slip of each point during Newton's method.
+   *
+   * Points that stick creep by their tangential compliance, or do not slip: with exact stick a
+   * stage is solved in passes, each with the tractions of the last one at rest and with a
+   * compliance that only affects how many there are (augmented Lagrangian, Simo and Laursen,
+   * Computers & Structures 42, 1992, 97-116). Each pass reduces the slip of sticking points by
+   * about the ratio of the body's stiffness, with its inertia, to that of stick, which is raised
+   * where that is not small. A body that slips as a whole has no stiffness along the surface, so
+   * that sets of sticking points may recur: then one point at a time changes.
    */
   class PointwiseFriction
   {
@@ -35,6 +46,10 @@ namespace Ricochet
     {
       time_step  = step_length;
       n_iterates = 0;
+      n_passes   = 0;
+      at_rest.clear();
+      stick_stiffness = first_stiffness;
+      forget_sets();
     }
 
     /// Make the state of the last evaluate() the next iterate.
@@ -58,6 +73,22 @@ namespace Ricochet
              const double                pressure,
              const dealii::Tensor<1, 3> &slip,
              const double                cell_diameter);
+
+    /// Let one point at a time change between stick and slip if sets recur; after evaluate() of
+    /// all points. Collective.
+    void
+    change_worst_only(const MPI_Comm communicator);
+
+    /**
+     * Begin another pass with the tractions of the last one, unless sticking points do not
+     * slip. Collective.
+     *
+     * @param way_round_off round-off in the displacement increment of each point (m).
+     * @throws NewtonFailure if they still do after #most_passes.
+     */
+    bool
+    next_pass(const std::function<double(const unsigned int)> &way_round_off,
+              const MPI_Comm                                   communicator);
 
     /// The pressure that point @p p had in evaluate() (Pa).
     double
@@ -83,7 +114,8 @@ namespace Ricochet
     dealii::Tensor<1, 3>
     error(const unsigned int p) const
     {
-      return traction(p) - law.traction(pressures[p], slip_rate[p]);
+      return traction(p) -
+        law.traction(branch[p].stick, pressures[p], slip_rate[p]);
     }
 
     /// Derivatives of traction() with respect to the slip over the step (Pa/m) and
@@ -105,22 +137,47 @@ namespace Ricochet
     }
 
     /// Traction (Pa) that round-off @p way_round_off (m) in the displacement
-    /// increment of a sticking point can cause.
+    /// increment of the sticking point @p p can cause.
     double
-    round_off(const double way_round_off) const
+    round_off(const unsigned int p, const double way_round_off) const
     {
-      return law.tangential_compliance / time_step * way_round_off;
+      return branch[p].stick.compliance / time_step * way_round_off;
     }
 
   private:
+    void
+    forget_sets()
+    {
+      sets.seen.clear();
+      sets_recur  = false;
+      set_iterate = 0;
+    }
+
+    /// Stiffness of exact stick as a multiple of r_0 / h_T: in the first passes, bounds, and the
+    /// ratio of changes of tractions from which on it is raised.
+    static constexpr double first_stiffness = 10., largest_stiffness = 1e10,
+                            fastest_growth = 10., enough = 1e-2;
+    /// Largest change of a traction, relative to the largest of them, in the last pass.
+    static constexpr double       largest_change = 1e-10;
+    static constexpr unsigned int most_passes    = 40;
+
     const RegularisedFriction law;
     const double              augmentation;
     double                    time_step  = 0.;
-    unsigned int              n_iterates = 0;
-    std::vector<double>       pressures;
+    unsigned int              n_iterates = 0, n_passes = 0;
+    double                    stick_stiffness = first_stiffness;
+    /// Change of the tractions in the last pass (Pa).
+    double              last_change = 0.;
+    std::vector<double> pressures;
+    /// Tractions of the last pass (Pa); none in the first one, and without exact stick.
+    std::vector<dealii::Tensor<1, 3>> at_rest;
     // Slip rates (m/s).
     std::vector<dealii::Tensor<1, 3>>        slip_rate;
     std::vector<RegularisedFriction::Branch> branch, accepted_branch;
+    /// Sets of sticking points in this pass up to the iterate #set_iterate.
+    FormerPatterns sets;
+    bool           sets_recur  = false;
+    unsigned int   set_iterate = 0;
   };
 } // namespace Ricochet
 

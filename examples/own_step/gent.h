@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef own_step_yeoh_h
-#define own_step_yeoh_h
+#ifndef own_step_gent_h
+#define own_step_gent_h
 
 #include <materials/material_table.h>
 
@@ -8,48 +8,46 @@
 #include <cmath>
 
 /**
- * A user's material: Yeoh's law for filled rubber (Rubber Chemistry and
- * Technology 66, 1993), slightly compressible, with the deviation x = I1
- * I3^(-1/3) - 3 and J^2 = I3:
+ * A user's material: the law of Gent for rubber whose chains can be stretched so far and no
+ * farther (Rubber Chemistry and Technology 69, 1996, 59-61), slightly compressible, with the
+ * deviation x = I1 I3^(-1/3) - 3, its limit m and J^2 = I3:
  *
- *     W = c10 x + c20 x^2 + c30 x^3 + K/2 (J - 1)^2.
+ *     W = - mu m/2 ln(1 - x/m) + K/2 (J - 1)^2.
  *
- * The shear modulus at rest is 2 c10, the bulk modulus K.
+ * The shear modulus at rest is mu, the bulk modulus K.
  */
-struct Yeoh
+struct Gent
 {
-  /// Pa
-  double c10 = 0., c20 = 0., c30 = 0., bulk_modulus = 0.;
+  /// Pa; the limit is a number.
+  double shear_modulus = 0., limit = 0., bulk_modulus = 0.;
 
-  static constexpr const char *name = "Yeoh";
+  static constexpr const char *name = "Gent";
 
   static Ricochet::OwnParameters
   parameters()
   {
     using Ricochet::OwnParameter;
-    return {OwnParameter("Yeoh c10", 2e5)
-              .means("Factor of the deviation", "Pa", ". Used by Yeoh.")
+    return {OwnParameter("Gent shear modulus", 4e5)
+              .means("Shear modulus at rest", "Pa", ". Used by Gent.")
               .at_least(1e-30)
-              .belongs_to("the law Yeoh"),
-            OwnParameter("Yeoh c20", -2e3)
-              .means("Factor of its square", "Pa", ". Used by Yeoh.")
-              .belongs_to("the law Yeoh"),
-            OwnParameter("Yeoh c30", 1e3)
-              .means("Factor of its cube", "Pa", ". Used by Yeoh.")
-              .at_least(0.)
-              .belongs_to("the law Yeoh"),
+              .belongs_to("the law Gent"),
+            OwnParameter("Gent limit", 50.)
+              .means("Deviation at which chains are straight",
+                     "1",
+                     ". Used by Gent.")
+              .at_least(1e-3)
+              .belongs_to("the law Gent"),
             OwnParameter("Bulk modulus", 1e6)
-              .means("Bulk modulus", "Pa", ". Used by Yeoh.")
+              .means("Bulk modulus", "Pa", ". Used by Gent.")
               .at_least(1e-30)
-              .belongs_to("the law Yeoh")};
+              .belongs_to("the law Gent")};
   }
 
-  static Yeoh
+  static Gent
   make(const Ricochet::ParameterValues &values)
   {
-    return {values["Yeoh c10"],
-            values["Yeoh c20"],
-            values["Yeoh c30"],
+    return {values["Gent shear modulus"],
+            values["Gent limit"],
             values["Bulk modulus"]};
   }
 
@@ -58,9 +56,10 @@ struct Yeoh
   energy(const Ricochet::Invariants<Number> &i) const
   {
     using std::cbrt;
+    using std::log;
     using std::sqrt;
     const Number x = i.first / cbrt(i.third) - 3., j = sqrt(i.third);
-    return x * (c10 + x * (c20 + x * c30)) +
+    return -.5 * shear_modulus * limit * log(Number(1. - x / limit)) +
       .5 * bulk_modulus * (j - 1.) * (j - 1.);
   }
 
@@ -71,7 +70,7 @@ struct Yeoh
     using std::cbrt;
     using std::sqrt;
     const Number a = 1. / cbrt(i.third), x = i.first * a - 3.;
-    const Number slope = c10 + x * (2. * c20 + x * 3. * c30);
+    const Number slope = .5 * shear_modulus / (1. - x / limit);
     return {{Number(slope * a),
              Number(0.),
              Number(-slope * i.first * a / (3. * i.third) +
@@ -85,8 +84,9 @@ struct Yeoh
     using std::cbrt;
     using std::sqrt;
     const Number a = 1. / cbrt(i.third), x = i.first * a - 3.;
-    const Number slope     = c10 + x * (2. * c20 + x * 3. * c30);
-    const Number curvature = 2. * c20 + 6. * x * c30;
+    const Number left      = 1. - x / limit;
+    const Number slope     = .5 * shear_modulus / left;
+    const Number curvature = slope / (limit * left);
     // Derivatives of x along I3, once and twice, and mixed.
     const Number x_3  = -i.first * a / (3. * i.third);
     const Number x_33 = -4. * x_3 / (3. * i.third);
