@@ -361,6 +361,31 @@ def golf_ball(run):
     ]
 
 
+def box_on_its_corner(run):
+    phase = run["phase"]
+    fall, hit = np.flatnonzero(phase == 2), np.flatnonzero(phase == 3)
+    squeezed = fall[0] - 1
+    momentum, time = run["momentum_z"], run["time"]
+    mass = -momentum[fall[-1]] / (GRAVITY * (time[fall[-1]] - time[fall[0]]))
+    speed = -momentum[fall[-1]] / mass
+    fallen = run["box_displacement_z"][fall[0]] - run["box_displacement_z"][fall[-1]]
+    force = run["contact_force_floor"][hit]
+    on = time[hit][1:][force[1:] > 0]
+    push = run["impulse_z_floor"][-1]
+    return [
+        near("mass (kg)", mass, .482, .04),
+        near("work of the vice over what is stored",
+             (run["imposed_work"][squeezed] + run["external_work"][squeezed]) /
+             run["elastic_energy"][squeezed], 1., .005),
+        between("energy by letting go (J)", float(np.max(abs(run["phase_change"]))), 0., 1e-12),
+        near("meets the floor with sqrt(2 g h) (m/s)", speed, math.sqrt(2. * GRAVITY * fallen), 1e-3),
+        near("push of the floor (N s)", push,
+             momentum[-1] - momentum[fall[-1]] + mass * GRAVITY * (time[-1] - time[fall[-1]]), 1e-9),
+        between("largest force over the mean", np.max(force) / (push / (on[-1] - on[0])), 1.57, 2.),
+        between("largest force in weights", np.max(force) / (mass * GRAVITY), 60., 90.),
+    ]
+
+
 def hollow_ball(run):
     mass = run["momentum_z"][0] / -.6
     stiffness = (4. * 3e6 * .004**2 /
@@ -642,6 +667,7 @@ EXAMPLES = {
     "seal_in_groove": (seal_in_groove, False),
     "dominoes": (dominoes, False),
     "golf_ball": (golf_ball, False),
+    "box_on_its_corner": (box_on_its_corner, False),
     "gear_pair": (gear_pair, False),
     "twisted_cubes": (twisted_cubes, False),
     "ball_on_block": (ball_on_block, False),

@@ -116,6 +116,12 @@ def lame(run):
                    last(run, "outer_displacement_x"))]
 
 
+def shrink_fit(run):
+    sides = (1. + .25) / (1. - .25) + (4. + 1.) / (4. - 1.)
+    return [Number("pressure", .004 * 1000. / (1. - .3**2) / sides, 2e-3,
+                   last(run, "contact_pressure_fit"))]
+
+
 def cook(run):
     return [Number("displacement of the tip", 23.96, 1e-3, last(run, "tip_displacement_y"))]
 
@@ -165,6 +171,7 @@ CASES = {
     "hertz_asimov": ("asimov-contact, Hertz at four loads", hertz_asimov),
     "hertz_ball": ("Hertz 1882, ball on a half space", hertz_ball),
     "lame": ("Lamé 1852, ring under pressure", lame),
+    "shrink_fit": ("Lamé 1852, shrink fit", shrink_fit),
     "cook": ("Cook 1974, membrane", cook),
     "capstan": ("Euler 1762, capstan", capstan),
     "slope": ("by hand, block at rest on a slope", slope),
@@ -177,7 +184,7 @@ VARIANTS = {
              ["Time/Scheme=static", "Time/Final time=0.1", "Time/Time step=0.05"] +
              [f"Contact {joint}/Treatment=standard normal compliance" for joint in JOINTS]),
 }
-QUICK = ("patch_equal", "beam", "hertz_4c", "hertz_ball", "lame", "slope", "stack", "arch")
+QUICK = ("patch_equal", "beam", "hertz_4c", "hertz_ball", "lame", "shrink_fit", "slope", "stack", "arch")
 
 
 def compute(name, programs, output):

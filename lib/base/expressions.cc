@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/expressions.h>
+#include <base/parameter_file.h>
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cctype>
 #include <iostream>
+#include <regex>
 
 namespace Ricochet
 {
@@ -29,6 +32,39 @@ namespace Ricochet
             return true;
         }
       return false;
+    }
+
+
+
+    /// The words of @p text that are no functions.
+    std::vector<std::string>
+    words(const std::string &text)
+    {
+      const auto is_of_word = [](const char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+      };
+      static const std::regex number(
+        "^([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?");
+      std::vector<std::string> list;
+      for (auto at = text.begin(); at != text.end();)
+        {
+          std::smatch match;
+          if (std::regex_search(at, text.end(), match, number))
+            at += match.length();
+          else if (!is_of_word(*at))
+            ++at;
+          else
+            {
+              const auto end  = std::find_if_not(at, text.end(), is_of_word);
+              const auto next = std::find_if(end, text.end(), [](const char c) {
+                return c != ' ';
+              });
+              if (next == text.end() || *next != '(')
+                list.emplace_back(at, end);
+              at = end;
+            }
+        }
+      return list;
     }
 
 
@@ -96,6 +132,77 @@ namespace Ricochet
                          " as muParser knows them:" + list);
       }
     parser = new_parser;
+  }
+
+
+
+  Condition::Condition(const std::string &text, const std::string &what)
+    : text(text)
+    , what(what)
+    , names(words(text))
+  {
+    if (!exists())
+      return;
+    if (is_random(text))
+      throw InputError(what +
+                       " has random numbers, with which no run could be "
+                       "repeated or resumed: " +
+                       text);
+    std::map<std::string, double> values;
+    for (const std::string &name : names)
+      values[name] = 1.;
+    is_true(values);
+  }
+
+
+
+  bool
+  Condition::is_true(const std::map<std::string, double> &values) const
+  {
+    if (!exists())
+      return false;
+    std::map<std::string, double> constants = {{"pi", dealii::numbers::PI}};
+    for (const std::string &name : names)
+      if (const auto value = values.find(name); value != values.end())
+        constants.insert(*value);
+      else if (name != "pi")
+        {
+          std::vector<std::string> known;
+          std::string              list;
+          for (const auto &[one, number] : values)
+            {
+              known.push_back(one);
+              list += (list.empty() ? "" : ", ") + one;
+            }
+          std::string message = what + ": there is no '" + name + "' in it.";
+          for (const std::string &near : nearest_names(name, known, 1))
+            message += " Is '" + near + "' meant?";
+          throw InputError(
+            message + "\nIt may have the columns of energy.csv: " + list + ".");
+        }
+    // deal.II prints what it does not understand; we say it in a sentence.
+    std::streambuf *const terminal = std::cerr.rdbuf(nullptr);
+    double                value    = 0.;
+    bool                  readable = !has_odd_signs(text);
+    try
+      {
+        dealii::FunctionParser<1> parser(1);
+        parser.initialize("unused", text, constants);
+        value = parser.value(dealii::Point<1>());
+      }
+    catch (const std::exception &)
+      {
+        readable = false;
+      }
+    std::cerr.rdbuf(terminal);
+    std::cerr.clear();
+    if (!readable)
+      throw InputError(what +
+                       " cannot be read; it is a condition on columns of "
+                       "energy.csv as muParser knows it, such as "
+                       "'kinetic_energy < 1e-6 && time > 0.1': " +
+                       text);
+    return value != 0.;
   }
 
 

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/function_parser.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -52,6 +53,32 @@ namespace Ricochet
 
   private:
     std::shared_ptr<dealii::FunctionParser<3>> parser;
+  };
+
+  /// A condition on named values that a user writes as text, such as
+  /// "kinetic_energy < 1e-6 && time > 0.1" (muParser).
+  class Condition
+  {
+  public:
+    /// @param text empty for a condition that is never true.
+    /// @param what it is, for messages: "Time/Until".
+    Condition(const std::string &text, const std::string &what);
+
+    bool
+    exists() const
+    {
+      return !text.empty();
+    }
+
+    /// Whether it is true with these @p values, by name.
+    /// @throws InputError for another name, or when the text cannot be read.
+    bool
+    is_true(const std::map<std::string, double> &values) const;
+
+  private:
+    const std::string text, what;
+    /// Words of the text that are no functions or constants of muParser.
+    std::vector<std::string> names;
   };
 
   /// The parts of @p text between semicolons, without blanks around them.

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <optional>
 #include <sstream>
@@ -160,7 +161,7 @@ namespace Ricochet
           if (begins_with("Output/") || begins_with("Newton/") ||
               begins_with("Linear solver/") || begins_with("Limits/") ||
               name == "Program" || name == "Time/Final time" ||
-              name == "Time/Maximum halvings")
+              name == "Time/Until" || name == "Time/Maximum halvings")
             continue;
           if (parameter.is_input_file && !parameter.value.empty())
             text += name + " = a file with the checksum " +
@@ -201,6 +202,249 @@ namespace Ricochet
 
 
 
+    /// A program with the settings of one phase.
+    struct Input
+    {
+      /// @throws InputError
+      Input(const Program &program, const ParameterText &text)
+        : program_name(program.name)
+      {
+        parameters.add_parameter("Program",
+                                 program_name,
+                                 "The program that this file is for; others "
+                                 "refuse it.");
+        parameters.enter_subsection("Output");
+        parameters.add_parameter(
+          "Folder",
+          output_dir,
+          "Folder for all output of the run; empty for "
+          "output/PROGRAM/FILE, from the names of program "
+          "and parameter file. On the command line: "
+          "--output-dir.",
+          dealii::Patterns::DirectoryName());
+        parameters.leave_subsection();
+        if (program.prepare)
+          program.prepare(text);
+        program.add_parameters(parameters);
+        settings = apply(text, parameters);
+        std::ostringstream all;
+        parameters.print_parameters(all, dealii::ParameterHandler::Text);
+        all_parameters = all.str();
+      }
+
+      /// @return notes. @throws InputError
+      std::vector<std::string>
+      validate(const Program &program) const
+      {
+        program.validate();
+        return check_unused(program, settings);
+      }
+
+      dealii::ParameterHandler parameters;
+      std::string              program_name, output_dir;
+      std::vector<Setting>     settings;
+      std::string              all_parameters;
+    };
+
+
+
+    /// All parameters with their documentation, for `--print-parameters`.
+    std::string
+    table_of_parameters(const Input &input)
+    {
+      std::string allowed;
+      for (const ParameterValue &parameter : list_parameters(input.parameters))
+        if (!parameter.allowed.empty())
+          allowed += "#   " + parameter.name + ": " + parameter.allowed + "\n";
+      return input.all_parameters + "\n# What is allowed:\n" + allowed;
+    }
+
+
+
+    /// The answer to `--validate`.
+    std::string
+    description(const Program                  &program,
+                const std::vector<std::string> &notes,
+                const std::string              &output_dir)
+    {
+      std::string lines;
+      if (program.description_of_input)
+        try
+          {
+            lines += program.description_of_input(output_dir);
+          }
+        catch (const ComputationError &error)
+          {
+            // Exceptions here mean a load that is not finite at the start,
+            // or a folder that cannot be written to; no other computation
+            // has begun.
+            throw InputError(error.what());
+          }
+      for (const std::string &note : notes)
+        lines += note + "\n";
+      return lines;
+    }
+
+
+
+    /// Do what may refuse the input of a phase, whose name is then said.
+    /// @throws InputError
+    void
+    in_phase(const std::string &name, const std::function<void()> &action)
+    {
+      if (name.empty())
+        return action();
+      try
+        {
+          action();
+        }
+      catch (const InputError &problem)
+        {
+          throw InputError("Phase " + name + ": " + problem.what());
+        }
+    }
+
+
+
+    /// The settings of phase number @p k, which begins where the one before it has ended.
+    /// @param output_dir folder of the whole run.
+    ParameterText
+    text_of_phase(const std::vector<Phase> &phases,
+                  const unsigned int        k,
+                  const std::string        &output_dir)
+    {
+      ParameterText text = phases[k].text;
+      if (phases.size() > 1)
+        text.assignments.insert(text.assignments.begin(),
+                                {{"Output", "Checkpoint every"},
+                                 "1000000000",
+                                 "Phase " + phases[k].name,
+                                 "."});
+      if (k > 0)
+        text.assignments.push_back(
+          {{"Start", "From"},
+           (std::filesystem::path(output_dir) / phases[k - 1].folder).string(),
+           "Phase " + phases[k].name,
+           "."});
+      return text;
+    }
+
+
+
+    /// The program with all that is the same in each phase of a run.
+    class Runs
+    {
+    public:
+      Runs(const Program            &program,
+           const std::vector<Phase> &phases,
+           RunFolder::Options        options)
+        : program(program)
+        , phases(phases)
+        , options(std::move(options))
+      {}
+
+      /// A run of one phase, whose @p input has been validated.
+      /// @return what is open, see RunFolder::leave_open().
+      /// @throws OneRankSuffices to be called again.
+      std::vector<std::string>
+      run_only(const Input                    &input,
+               const std::vector<std::string> &notes,
+               const std::string              &note_of_ranks)
+      {
+        RunFolder folder(options, OneRank::communicator());
+        run(input, notes, note_of_ranks, folder);
+        return folder.what_is_open();
+      }
+
+      /// The phases that are still to be made.
+      /// @return what is open. @throws OneRankSuffices to be called again.
+      std::vector<std::string>
+      run_phases(const std::string &note_of_ranks)
+      {
+        // The folder of the whole has no checkpoint: its table is made anew.
+        RunFolder::Options of_whole = options;
+        of_whole.resume             = false;
+        of_whole.overwrite          = options.overwrite || options.resume;
+        RunFolder whole(of_whole, OneRank::communicator());
+        whole.all_parameters = "# Each phase has its own, in its folder.\n";
+        while (results.size() < phases.size())
+          in_phase(phases[results.size()].name,
+                   [&]() { run_next(note_of_ranks, whole); });
+        whole.end();
+        return open;
+      }
+
+    private:
+      void
+      run(const Input                    &input,
+          const std::vector<std::string> &notes,
+          const std::string              &note_of_ranks,
+          RunFolder                      &folder)
+      {
+        folder.all_parameters = input.all_parameters;
+        folder.parameters_that_matter +=
+          parameters_that_matter(input.parameters);
+        folder.log(program.name + ", " + options.version + ", " +
+                   std::to_string(dealii::Utilities::MPI::n_mpi_processes(
+                     folder.communicator)) +
+                   " MPI rank(s)" + note_of_ranks);
+        for (const std::string &note : notes)
+          folder.log(note);
+        program.run(folder);
+        folder.end();
+      }
+
+      void
+      run_next(const std::string &note_of_ranks, RunFolder &whole)
+      {
+        const unsigned int k     = results.size();
+        const Phase       &phase = phases[k];
+        const Input input(program, text_of_phase(phases, k, options.path));
+        const auto  notes      = input.validate(program);
+        RunFolder::Options own = options;
+        own.path =
+          (std::filesystem::path(options.path) / phase.folder).string();
+        // Phases that are complete are resumed at their end.
+        own.resume =
+          options.resume && (k == 0 || RunFolder::has_checkpoint(own.path));
+        RunFolder folder(own, OneRank::communicator());
+        if (k > 0)
+          folder.parameters_that_matter =
+            "the phase before it ended with the checkpoint of checksum " +
+            std::to_string(
+              checksum(read_file(results.back().path + "/checkpoint.bin"))) +
+            "\n";
+        const std::string what = "phase " + std::to_string(k + 1) + " of " +
+          std::to_string(phases.size()) + ": " + phase.name;
+        whole.log(what + ", in the folder " + phase.folder);
+        const auto add_result = [&]() {
+          whole.begin();
+          results.push_back({phase.name, own.path, folder.sums});
+          program.join_phases(whole, results);
+          for (const std::string &line : folder.what_is_open())
+            open.push_back(what + ": " + line);
+        };
+        try
+          {
+            run(input, notes, note_of_ranks, folder);
+          }
+        catch (const StoppedBySignal &)
+          {
+            add_result();
+            throw;
+          }
+        add_result();
+      }
+
+      const Program            &program;
+      const std::vector<Phase> &phases;
+      const RunFolder::Options  options;
+      std::vector<PhaseResult>  results;
+      std::vector<std::string>  open;
+    };
+
+
+
     /// @return what is open at the end of the run, see RunFolder::leave_open(); nothing on
     /// ranks that leave the run to the first one.
     std::optional<std::vector<std::string>>
@@ -234,102 +478,81 @@ namespace Ricochet
           return no_run;
         }
 
-      dealii::ParameterHandler parameters;
-      std::string              program_name = program.name;
-      parameters.add_parameter("Program",
-                               program_name,
-                               "The program that this file is for; others "
-                               "refuse it.");
-      std::string output_dir;
-      parameters.enter_subsection("Output");
-      parameters.add_parameter("Folder",
-                               output_dir,
-                               "Folder for all output of the run; empty for "
-                               "output/PROGRAM/FILE, from the names of program "
-                               "and parameter file. On the command line: "
-                               "--output-dir.",
-                               dealii::Patterns::DirectoryName());
-      parameters.leave_subsection();
       ParameterText text;
       if (!command_line.parameter_file.empty())
         text = parse_parameter_file(command_line.parameter_file);
       for (const std::string &assignment : command_line.assignments)
         text.assignments.push_back(parse_assignment(assignment));
-      if (program.prepare)
-        program.prepare(text);
-      program.add_parameters(parameters);
-      const std::vector<Setting> settings = apply(text, parameters);
+      const std::vector<Phase> phases = program.join_phases
+        ? phases_of(text)
+        : std::vector<Phase>{{"", text, ""}};
 
-      std::ostringstream all_parameters;
-      parameters.print_parameters(all_parameters,
-                                  dealii::ParameterHandler::Text);
-      if (command_line.print_parameters)
-        {
-          std::string allowed;
-          for (const ParameterValue &parameter : list_parameters(parameters))
-            if (!parameter.allowed.empty())
-              allowed +=
-                "#   " + parameter.name + ": " + parameter.allowed + "\n";
-          print(all_parameters.str() + "\n# What is allowed:\n" + allowed);
-          return no_run;
-        }
-
-      program.validate();
-      const std::vector<std::string> notes = check_unused(program, settings);
+      // Every phase is checked before any time is spent.
+      std::unique_ptr<Input>   checked;
+      std::vector<std::string> notes;
+      std::string              answer, output_dir = command_line.output_dir;
+      for (unsigned int k = 0; k < phases.size(); ++k)
+        in_phase(phases[k].name, [&]() {
+          checked =
+            std::make_unique<Input>(program,
+                                    text_of_phase(phases, k, output_dir));
+          if (output_dir.empty())
+            output_dir = checked->output_dir;
+          // Runs of different files have different default folders.
+          if (output_dir.empty())
+            output_dir = "output/" + program.name + "/" +
+              (command_line.parameter_file.empty()
+                 ? "without_file"
+                 : fs::path(command_line.parameter_file).stem().string());
+          // All phases have the same meshes.
+          if (k == 0 && command_line.resume && program.take_meshes)
+            program.take_meshes(
+              (fs::path(output_dir) / phases[k].folder).string());
+          if (!phases[k].name.empty())
+            answer += std::string(k > 0 ? "\n" : "") +
+              (command_line.print_parameters ? "# " : "") + "Phase " +
+              phases[k].name + "\n";
+          if (command_line.print_parameters)
+            {
+              answer += table_of_parameters(*checked);
+              return;
+            }
+          notes = checked->validate(program);
+          if (phases.size() > 1 &&
+              checked->parameters.get({"Output"}, "Checkpoint every") == "0")
+            throw InputError(
+              "Output/Checkpoint every = 0 cannot be combined "
+              "with phases, each of which begins at the last "
+              "checkpoint of the one before.");
+          if (command_line.validate_only)
+            answer += description(program, notes, command_line.output_dir);
+        });
       if (command_line.validate_only)
+        answer = "The parameters are valid.\n" + answer;
+      if (command_line.validate_only || command_line.print_parameters)
         {
-          std::string lines = "The parameters are valid.\n";
-          if (program.description_of_input)
-            try
-              {
-                lines += program.description_of_input(command_line.output_dir);
-              }
-            catch (const ComputationError &error)
-              {
-                // Exceptions here mean a load that is not finite at the start,
-                // or a folder that cannot be written to; no other computation
-                // has begun.
-                throw InputError(error.what());
-              }
-          for (const std::string &note : notes)
-            lines += note + "\n";
-          print(lines);
+          print(answer);
           return no_run;
         }
 
       // A closed console does not stop the run.
       std::signal(SIGPIPE, SIG_IGN);
-      if (!command_line.output_dir.empty())
-        output_dir = command_line.output_dir;
-      // Runs of different files have different default folders.
-      if (output_dir.empty())
-        output_dir = "output/" + program.name + "/" +
-          (command_line.parameter_file.empty()
-             ? "without_file"
-             : fs::path(command_line.parameter_file).stem().string());
       const std::string version = std::string("Ricochet ") + RICOCHET_VERSION +
         " (" + RICOCHET_BUILD_TYPE + "), deal.II " + DEAL_II_PACKAGE_VERSION;
-      const RunFolder::Options options{output_dir,
-                                       program.name,
-                                       command_line.parameter_file,
-                                       command_line.resume,
-                                       command_line.overwrite,
-                                       command_line.quiet,
-                                       version,
-                                       {argv, argv + argc}};
-      const auto               run = [&](const std::string &note_of_ranks) {
-        RunFolder folder(options, OneRank::communicator());
-        folder.all_parameters = all_parameters.str();
-        folder.parameters_that_matter = parameters_that_matter(parameters);
-        folder.log(program.name + ", " + version + ", " +
-                   std::to_string(dealii::Utilities::MPI::n_mpi_processes(
-                     folder.communicator)) +
-                   " MPI rank(s)" + note_of_ranks);
-        for (const std::string &note : notes)
-          folder.log(note);
-        program.run(folder);
-        folder.end();
-        return folder.what_is_open();
+      Runs       runs(program,
+                phases,
+                {output_dir,
+                       program.name,
+                       command_line.parameter_file,
+                       command_line.resume,
+                       command_line.overwrite,
+                       command_line.quiet,
+                       version,
+                       {argv, argv + argc}});
+      const bool has_phases = !phases.front().name.empty();
+      const auto run        = [&](const std::string &note_of_ranks) {
+        return has_phases ? runs.run_phases(note_of_ranks)
+                                 : runs.run_only(*checked, notes, note_of_ranks);
       };
       try
         {

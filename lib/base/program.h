@@ -3,6 +3,7 @@
 #define ricochet_base_program_h
 
 #include <base/parameter_file.h>
+#include <base/phases.h>
 #include <base/run_folder.h>
 
 #include <deal.II/base/mpi.h>
@@ -37,6 +38,16 @@ namespace Ricochet
   CommandLine
   parse_command_line(const int argc, char **argv);
 
+  /// The results of a phase of a run.
+  struct PhaseResult
+  {
+    std::string name;
+    /// Its folder.
+    std::string path;
+    /// RunFolder::sums
+    std::vector<std::string> sums;
+  };
+
   /// Description of one of the programs in steps/ for run_program().
   struct Program
   {
@@ -66,6 +77,13 @@ namespace Ricochet
       std::function<std::string()> text;
     };
     std::vector<Table> tables = {};
+    /// Joins the results of the phases of a run, see phases_of(), in the folder of the
+    /// whole; called after each of them. Left out by programs without phases.
+    std::function<void(RunFolder &whole, const std::vector<PhaseResult> &)>
+      join_phases = {};
+    /// Called before #validate with the folder of a run that is to be resumed, where meshes
+    /// may be kept; may be left out.
+    std::function<void(const std::string &folder)> take_meshes = {};
   };
 
   /**

@@ -221,6 +221,10 @@ namespace Ricochet
     namespace fs = std::filesystem;
     // The checkpoint first: from then on nothing can be resumed by mistake.
     std::vector<std::string> names = result_files;
+    static const std::regex  mesh(name_of_mesh("[A-Za-z0-9._-]+"));
+    for (const auto &one : fs::directory_iterator(options.path))
+      if (std::regex_match(one.path().filename().string(), mesh))
+        names.push_back(one.path().filename().string());
     for (const std::string &list : lists_of_fields)
       if (exists(file(list)))
         for (const std::string &name : fields_of(read_file(file(list))))
@@ -313,6 +317,22 @@ namespace Ricochet
       early_lines += line + "\n";
     else
       on_first_rank(communicator, [&]() { log_file.append(line + "\n"); });
+  }
+
+
+
+  std::string
+  RunFolder::name_of_mesh(const std::string &body)
+  {
+    return "mesh_of_" + body + ".msh";
+  }
+
+
+
+  bool
+  RunFolder::has_checkpoint(const std::string &path)
+  {
+    return exists((std::filesystem::path(path) / checkpoint_file).string());
   }
 
 

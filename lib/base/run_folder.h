@@ -76,6 +76,14 @@ namespace Ricochet
       return open_lines;
     }
 
+    /// Whether there is a checkpoint in the folder @p path.
+    static bool
+    has_checkpoint(const std::string &path);
+
+    /// The file with the mesh of a body that Gmsh has made: "mesh_of_NAME.msh".
+    static std::string
+    name_of_mesh(const std::string &body);
+
     /// Path of @p name inside the folder.
     std::string
     file(const std::string &name) const;
@@ -92,6 +100,9 @@ namespace Ricochet
 
     /// All parameters, for `parameters.prm`.
     std::string all_parameters;
+
+    /// The columns of the energy table that are sums over the run.
+    std::vector<std::string> sums;
 
   private:
     /// @throws InputError where the parameter file is one of the files that the run writes.

@@ -25,44 +25,31 @@ namespace Ricochet
   };
 
   /**
-   * A body on springs, and with damping in proportion to its mass, dashpots between all
-   * of its points and where they were: their stored energy and dissipation are part of its
-   * energy and of its viscous dissipation. Both are linear, so that the balance
-   * of a step is exact: with the matrices K and C of springs and dashpots, u_m the mean
+   * Springs and dashpots on the boundary of a body, and damping in proportion to its mass, which
+   * is dashpots between all of its points and where they were. Both are linear, so that the
+   * balance of a step is exact: with the matrices K and C of springs and dashpots, u_m the mean
    * and d the difference of both ends,
    *
    *     K u_m . d = 1/2 u_1 . K u_1 - 1/2 u_0 . K u_0,     C d/dt . d >= 0.
    */
   template <int dim>
-  class BulkOnSprings : public BulkOperator
+  class SpringsAndDashpots : public BulkOperator
   {
   public:
     /// @param damping of each part of the @p body (see Body::part()) in proportion to its
     /// mass: Viscosity::mass_damping times the density (kg/(m^dim s)).
-    BulkOnSprings(const Body<dim>                         &body,
-                  std::unique_ptr<BulkOperator>            bulk,
-                  const std::vector<BoundarySprings<dim>> &springs,
-                  const std::vector<double>               &damping);
+    SpringsAndDashpots(const Body<dim>                         &body,
+                       const std::vector<BoundarySprings<dim>> &springs,
+                       const std::vector<double>               &damping);
 
     void
     force(const Vector &solution, Vector &force) const override;
-
-    void
-    add_tangent(const double  factor,
-                const Vector &solution,
-                Matrix       &tangent) const override;
 
     void
     step_force(const Vector &old_solution,
                const Vector &new_solution,
                const double  time_step,
                Vector       &force) const override;
-
-    void
-    add_step_tangent(const Vector &old_solution,
-                     const Vector &new_solution,
-                     const double  time_step,
-                     Matrix       &tangent) const override;
 
     MatrixSum
     tangent_terms(const double factor) const override;
@@ -79,7 +66,7 @@ namespace Ricochet
     bool
     is_viscous() const override
     {
-      return !damping.empty() || bulk->is_viscous();
+      return has_damping;
     }
 
     void
@@ -87,13 +74,6 @@ namespace Ricochet
                   const Vector &solution,
                   const double  rate_time,
                   Vector       &result) const override;
-
-    void
-    add_viscous_tangent(const double  factor,
-                        const Vector &rate_origin,
-                        const Vector &solution,
-                        const double  rate_time,
-                        Matrix       &tangent) const override;
 
     MatrixSum
     viscous_tangent_terms(const double factor,
@@ -107,56 +87,27 @@ namespace Ricochet
     double
     stiffness_scale() const override
     {
-      return bulk->stiffness_scale() + scale;
-    }
-
-    double
-    strain_round_off() const override
-    {
-      return bulk->strain_round_off();
-    }
-
-    double
-    energy_round_off() const override
-    {
-      return bulk->energy_round_off();
+      return scale;
     }
 
     bool
     is_linear() const override
     {
-      return bulk->is_linear();
-    }
-
-    std::string
-    inverted_corner(const Vector &solution) const override
-    {
-      return bulk->inverted_corner(solution);
-    }
-
-    std::string
-    failure() const override
-    {
-      return bulk->failure();
+      return true;
     }
 
   private:
-    /// @p force += @p factor times the damping of the difference @p end - @p begin.
-    /// @return the product of both, without the factor.
-    double
-    add_damping(const double  factor,
-                const Vector &begin,
-                const Vector &end,
-                Vector       *force) const;
+    /// #product = damping times the difference @p end - @p begin, which is left in #work.
+    void
+    apply_damping(const Vector &begin, const Vector &end) const;
 
-    const std::unique_ptr<BulkOperator> bulk;
-    const std::vector<unsigned int>     part_of_unknown;
-    const MPI_Comm                      communicator;
-    BodyMatrix                          stiffness;
-    /// Matrices of the springs, and in proportion to the mass; those that are there.
-    std::vector<BodyMatrix> damping;
-    double                  scale = 0.;
-    mutable Vector          work, product;
+    const std::vector<unsigned int> part_of_unknown;
+    const unsigned int              n_parts;
+    const MPI_Comm                  communicator;
+    BodyMatrix                      stiffness, damping;
+    bool                            has_damping;
+    double                          scale = 0.;
+    mutable Vector                  work, product;
   };
 } // namespace Ricochet
 

@@ -32,11 +32,12 @@ namespace Ricochet
     virtual void
     force(const Vector &solution, Vector &force) const = 0;
 
-    /// @p tangent += @p factor times the derivative of force().
+    /// @p tangent += @p factor times the derivative of force(). For a linear body its
+    /// tangent_terms().
     virtual void
     add_tangent(const double  factor,
                 const Vector &solution,
-                Matrix       &tangent) const = 0;
+                Matrix       &tangent) const;
 
     /// Whether there are viscous forces.
     virtual bool
@@ -58,7 +59,8 @@ namespace Ricochet
     }
 
     /// @p tangent += @p factor times the derivative of viscous_force() with respect to
-    /// the solution, by which the velocity changes, too.
+    /// the solution, by which the velocity changes, too. For a linear body its
+    /// viscous_tangent_terms().
     /// @pre is_viscous()
     virtual void
     add_viscous_tangent(const double  factor,
@@ -84,12 +86,12 @@ namespace Ricochet
                Vector       &force) const = 0;
 
     /// @p tangent += the derivative of step_force() with respect to the new
-    /// solution.
+    /// solution. For a linear body its step_tangent_terms().
     virtual void
     add_step_tangent(const Vector &old_solution,
                      const Vector &new_solution,
                      const double  time_step,
-                     Matrix       &tangent) const = 0;
+                     Matrix       &tangent) const;
 
     /// The terms of add_tangent() for a linear body; the matrices live as long
     /// as this object. Empty if the body is not linear.

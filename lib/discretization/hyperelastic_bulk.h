@@ -31,7 +31,7 @@ namespace Ricochet
   {
   public:
     /// @param materials of the parts of the body; cells of parts that are not hyperelastic are
-    /// left out, see MixedBulk.
+    /// left out, see bulk_of_parts().
     HyperelasticBulk(const Body<dim>                  &body,
                      const std::vector<Material<dim>> &materials);
 

@@ -210,18 +210,6 @@ namespace Ricochet
 
 
   template <int dim>
-  void
-  LinearBulk<dim>::add_tangent(const double factor,
-                               const Vector & /*solution*/,
-                               Matrix &tangent) const
-  {
-    for (const MatrixTerm &term : tangent_terms(factor))
-      term.matrix->add_to(term.weight, tangent);
-  }
-
-
-
-  template <int dim>
   MatrixSum
   LinearBulk<dim>::tangent_terms(const double factor) const
   {
@@ -279,19 +267,6 @@ namespace Ricochet
                                          const double rate_time) const
   {
     return {{factor / rate_time, &viscosity_matrix}};
-  }
-
-
-
-  template <int dim>
-  void
-  LinearBulk<dim>::add_step_tangent(const Vector & /*old_solution*/,
-                                    const Vector & /*new_solution*/,
-                                    const double time_step,
-                                    Matrix      &tangent) const
-  {
-    for (const MatrixTerm &term : step_tangent_terms(time_step))
-      term.matrix->add_to(term.weight, tangent);
   }
 
 

@@ -35,21 +35,10 @@ namespace Ricochet
     force(const Vector &solution, Vector &force) const override;
 
     void
-    add_tangent(const double  factor,
-                const Vector &solution,
-                Matrix       &tangent) const override;
-
-    void
     step_force(const Vector &old_solution,
                const Vector &new_solution,
                const double  time_step,
                Vector       &force) const override;
-
-    void
-    add_step_tangent(const Vector &old_solution,
-                     const Vector &new_solution,
-                     const double  time_step,
-                     Matrix       &tangent) const override;
 
     MatrixSum
     tangent_terms(const double factor) const override;

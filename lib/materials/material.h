@@ -6,9 +6,11 @@
 #include <materials/linear_elastic.h>
 #include <materials/viscosity.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace Ricochet
 {
@@ -78,6 +80,18 @@ namespace Ricochet
   private:
     PlaneState plane_state;
   };
+
+  /// Whether all @p materials are linear elastic.
+  template <int dim>
+  bool
+  are_linear(const std::vector<Material<dim>> &materials)
+  {
+    return std::all_of(materials.begin(),
+                       materials.end(),
+                       [](const Material<dim> &material) {
+                         return material.linear.has_value();
+                       });
+  }
 } // namespace Ricochet
 
 #endif

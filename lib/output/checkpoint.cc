@@ -22,7 +22,7 @@ namespace Ricochet
 
   namespace
   {
-    const std::string magic     = "Ricochet checkpoint, format 16\n";
+    const std::string magic     = "Ricochet checkpoint, format 17\n";
     const std::string file_name = "checkpoint.bin";
 
     /// The vectors of a checkpoint, in the order in which they are stored.
@@ -68,6 +68,8 @@ namespace Ricochet
       std::uint64_t mesh = 0;
       /// CheckpointMesh::multipliers
       std::vector<types::global_dof_index> multipliers;
+      /// CheckpointMesh::contact_names
+      std::vector<std::string> contact_names;
       /// Number of contact forces, which are the last values except for the tangent's.
       unsigned int          n_shares = 0;
       unsigned int          step     = 0;
@@ -83,8 +85,8 @@ namespace Ricochet
       void
       serialize(Archive &archive, const unsigned int /*version*/)
       {
-        archive &parameters &mesh &multipliers &n_shares &step &time
-          &step_before &sums &n_rows &checksum &tangent &values;
+        archive &parameters &mesh &multipliers &contact_names &n_shares &step
+          &time &step_before &sums &n_rows &checksum &tangent &values;
       }
     };
 
@@ -145,6 +147,7 @@ namespace Ricochet
                                  const MPI_Comm communicator)
     : positions(unknowns.canonical_positions())
     , checksum(unknowns.mesh_checksum())
+    , contact_names(unknowns.contact_names)
   {
     // The last unknowns of each rank.
     const std::vector<types::global_dof_index> own(
@@ -178,7 +181,8 @@ namespace Ricochet
         "of this scene");
 
     CheckpointMotion motion;
-    motion.time = payload.time;
+    motion.time          = payload.time;
+    motion.contact_names = payload.contact_names;
     // For each own unknown k its number among all multipliers; none for displacements.
     const auto for_each_unknown = [&](const auto &of_displacement,
                                       const auto &of_multiplier) {
@@ -218,6 +222,8 @@ namespace Ricochet
     };
     // With and without tangential ones: that along the normal is the first of a node.
     const auto take_multipliers = [&]() {
+      if (payload.contact_names != mesh.contact_names)
+        return;
       const std::size_t n_there    = payload.multipliers.size(),
                         n_here     = mesh.multipliers.size();
       const std::size_t more_there = n_here == 0 ? 0 : n_there / n_here,
@@ -245,6 +251,8 @@ namespace Ricochet
     take_multipliers();
     take(payload.values[1], motion.velocity);
     motion.contact_forces.resize(std::max(1U, payload.n_shares));
+    // The only contact, of a program without names for them, or none.
+    motion.contact_names.resize(motion.contact_forces.size());
     if (payload.n_shares == 0)
       take(payload.values[of_force], motion.contact_forces[0]);
     const std::size_t first =
@@ -262,6 +270,7 @@ namespace Ricochet
     Payload    payload{folder.parameters_that_matter,
                     mesh.checksum,
                     mesh.multipliers,
+                    mesh.contact_names,
                     static_cast<unsigned int>(state.contact_shares.size()),
                     step,
                     state.time,

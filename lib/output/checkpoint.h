@@ -17,6 +17,8 @@ namespace Ricochet
     std::vector<dealii::types::global_dof_index> multipliers;
     /// Body::mesh_checksum()
     std::uint64_t checksum = 0;
+    /// SemiDiscreteSystem::Unknowns::contact_names
+    std::vector<std::string> contact_names;
 
     /// Collective.
     CheckpointMesh(const SemiDiscreteSystem::Unknowns &unknowns,
@@ -28,12 +30,13 @@ namespace Ricochet
   {
     /// s
     double time = 0.;
-    /// Displacements (m) and, where both runs have the same, multipliers (Pa).
+    /// Displacements (m) and, where both runs have the same contacts, multipliers (Pa).
     Vector solution;
     /// m/s
     Vector velocity;
-    /// The force (N) of each contact.
-    std::vector<Vector> contact_forces;
+    /// The force (N) of each contact, and its name.
+    std::vector<Vector>      contact_forces;
+    std::vector<std::string> contact_names;
 
     /**
      * Read it from the output folder @p folder of any run with the same bodies, whatever

@@ -2,12 +2,15 @@
 #include <base/exceptions.h>
 #include <output/energy_ledger.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <hdf5.h>
 
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <sstream>
 
 namespace Ricochet
 {
@@ -38,6 +41,40 @@ namespace Ricochet
         }
       return line + "\n";
     }
+
+    /// The values of a line. @throws InputError saying what is wrong.
+    std::vector<double>
+    parse_row(const std::string                       &line,
+              const std::vector<EnergyLedger::Column> &column_list)
+    {
+      std::vector<double> row;
+      for (std::size_t begin = 0; begin <= line.size();)
+        {
+          const std::size_t end  = std::min(line.find(',', begin), line.size());
+          const char *const text = line.data() + begin;
+          const char *const stop = line.data() + end;
+          double            value = std::numeric_limits<double>::quiet_NaN();
+          const bool        may_be_empty = row.size() < column_list.size() &&
+            column_list[row.size()].may_be_empty;
+          if (begin < end || !may_be_empty)
+            {
+              const auto result = std::from_chars(text, stop, value);
+              if (result.ec != std::errc() || result.ptr != stop ||
+                  !std::isfinite(value))
+                throw InputError("holds '" +
+                                 std::string(text, stop).substr(0, 40) +
+                                 "' where a number is expected");
+            }
+          row.push_back(value);
+          begin = end + 1;
+        }
+      if (row.size() != column_list.size())
+        throw InputError("has " + std::to_string(row.size()) + " of " +
+                         std::to_string(column_list.size()) + " columns");
+      return row;
+    }
+
+
 
     /// A handle of HDF5 that is closed at the end.
     class Handle
@@ -82,14 +119,17 @@ namespace Ricochet
   unsigned int
   EnergyLedger::add_column(const std::string &name,
                            const std::string &unit,
-                           const bool         may_be_empty)
+                           const bool         may_be_empty,
+                           const bool         is_sum)
   {
     AssertThrow(row_list.empty(), ExcMessage("Columns come before rows."));
     if (find_column(name))
       throw InputError("The energy table would have two columns '" + name +
                        "'. Give the body, contact or probe that it is of "
                        "another name.");
-    column_list.push_back({name, unit, may_be_empty});
+    column_list.push_back({name, unit, may_be_empty, is_sum});
+    if (is_sum)
+      folder.sums.push_back(name);
     return column_list.size() - 1;
   }
 
@@ -151,38 +191,6 @@ namespace Ricochet
 
 
 
-  std::vector<double>
-  EnergyLedger::parse_row(const std::string &line) const
-  {
-    std::vector<double> row;
-    for (std::size_t begin = 0; begin <= line.size();)
-      {
-        const std::size_t end   = std::min(line.find(',', begin), line.size());
-        const char *const text  = line.data() + begin;
-        const char *const stop  = line.data() + end;
-        double            value = std::numeric_limits<double>::quiet_NaN();
-        const bool        may_be_empty = row.size() < column_list.size() &&
-          column_list[row.size()].may_be_empty;
-        if (begin < end || !may_be_empty)
-          {
-            const auto result = std::from_chars(text, stop, value);
-            if (result.ec != std::errc() || result.ptr != stop ||
-                !std::isfinite(value))
-              throw InputError("holds '" +
-                               std::string(text, stop).substr(0, 40) +
-                               "' where a number is expected");
-          }
-        row.push_back(value);
-        begin = end + 1;
-      }
-    if (row.size() != column_list.size())
-      throw InputError("has " + std::to_string(row.size()) + " of " +
-                       std::to_string(column_list.size()) + " columns");
-    return row;
-  }
-
-
-
   void
   EnergyLedger::resume(const Seal &seal)
   {
@@ -217,7 +225,7 @@ namespace Ricochet
         try
           {
             row_list.push_back(
-              parse_row(text.substr(position, end - position)));
+              parse_row(text.substr(position, end - position), column_list));
           }
         catch (const InputError &problem)
           {
@@ -316,5 +324,50 @@ namespace Ricochet
       }
       write_atomically(folder.file("energy.h5"), image);
     });
+  }
+
+
+
+  EnergyTable
+  EnergyTable::read(const std::string &file)
+  {
+    std::istringstream lines(read_file(file));
+    std::string        line;
+    std::getline(lines, line);
+    EnergyTable table;
+    for (const std::string &heading : Utilities::split_string_list(line, ','))
+      {
+        const std::size_t unit = heading.find(" [");
+        if (unit == std::string::npos || heading.back() != ']')
+          throw InputError("'" + file + "' is no energy table.");
+        table.columns.push_back(
+          {heading.substr(0, unit),
+           heading.substr(unit + 2, heading.size() - unit - 3),
+           /* may be empty */ true});
+      }
+    while (std::getline(lines, line))
+      try
+        {
+          table.rows.push_back(parse_row(line, table.columns));
+        }
+      catch (const InputError &problem)
+        {
+          throw InputError("Row " + std::to_string(table.rows.size() + 1) +
+                           " of '" + file + "' " + problem.what() + ".");
+        }
+    if (table.rows.empty())
+      throw InputError("'" + file + "' has no rows.");
+    return table;
+  }
+
+
+
+  unsigned int
+  EnergyTable::column_number(const std::string &name) const
+  {
+    for (unsigned int i = 0; i < columns.size(); ++i)
+      if (columns[i].name == name)
+        return i;
+    throw InputError("An energy table has no column '" + name + "'.");
   }
 } // namespace Ricochet

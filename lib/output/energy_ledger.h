@@ -31,6 +31,8 @@ namespace Ricochet
       std::string unit;
       /// Whether values need not exist.
       bool may_be_empty = false;
+      /// Whether it is a sum over the run.
+      bool is_sum = false;
     };
 
     /// Record of the table in a checkpoint, by which it is identified.
@@ -48,7 +50,8 @@ namespace Ricochet
     unsigned int
     add_column(const std::string &name,
                const std::string &unit,
-               const bool         may_be_empty = false);
+               const bool         may_be_empty = false,
+               const bool         is_sum       = false);
 
     /// Begin `energy.csv`. @throws ComputationError
     void
@@ -105,16 +108,27 @@ namespace Ricochet
     std::string
     header() const;
 
-    /// The values of a line. @throws InputError saying what is wrong.
-    std::vector<double>
-    parse_row(const std::string &line) const;
-
     RunFolder                       &folder;
     std::vector<Column>              column_list;
     std::vector<std::vector<double>> row_list;
     GrowingFile                      csv;
     // Checksum of all of energy.csv.
     std::uint32_t csv_checksum = 0;
+  };
+
+  /// An energy table that a run has written.
+  struct EnergyTable
+  {
+    std::vector<EnergyLedger::Column> columns;
+    std::vector<std::vector<double>>  rows;
+
+    /// @throws InputError when @p file cannot be read or is no such table.
+    static EnergyTable
+    read(const std::string &file);
+
+    /// Number of the column called @p name. @throws InputError
+    unsigned int
+    column_number(const std::string &name) const;
   };
 } // namespace Ricochet
 

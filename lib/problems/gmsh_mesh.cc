@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/child_process.h>
 #include <base/exceptions.h>
+#include <base/files.h>
+#include <base/one_rank.h>
 #include <base/parameter_file.h>
 #include <base/read_only_thread.h>
 #include <problems/gmsh_element_types.h>
 #include <problems/gmsh_file_check.h>
 #include <problems/gmsh_mesh.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
@@ -591,6 +594,69 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    /// The ending of a name, in small letters.
+    std::string
+    ending_of(const std::string &file_name)
+    {
+      std::string ending =
+        std::filesystem::path(file_name).extension().string();
+      for (char &c : ending)
+        c = std::tolower(static_cast<unsigned char>(c));
+      return ending;
+    }
+
+    /// Meshes that Gmsh has made of files in this process, as texts in its format; by file
+    /// name, contents and mesh size.
+    std::string &
+    converted(const std::string &file_name, const double mesh_size)
+    {
+      static std::map<std::string, std::string> texts;
+      return texts[file_name + '\n' + std::to_string(mesh_size) + '\n' +
+                   read_file(file_name)];
+    }
+
+    /// Convert a file as convert_to_gmsh_mesh() does. @return the mesh. @throws InputError
+    std::string
+    convert_in_memory(const std::string &file_name,
+                      const unsigned int dim,
+                      const double       mesh_size,
+                      const unsigned int seconds)
+    {
+      const MemoryFile file;
+      try
+        {
+          convert_to_gmsh_mesh(file_name, file.name(), dim, mesh_size, seconds);
+          return read_file(file.name());
+        }
+      catch (const InputError &error)
+        {
+          throw InputError("The mesh file '" + file_name +
+                           "' cannot be taken: " + error.what());
+        }
+    }
+  } // namespace
+
+
+
+  bool
+  is_geometry(const std::string &file_name)
+  {
+    const std::string ending = ending_of(file_name);
+    return ending == ".geo" || ending == ".step" || ending == ".stp";
+  }
+
+
+
+  std::string
+  mesh_of_geometry(const std::string &file_name, const double mesh_size)
+  {
+    return converted(file_name, mesh_size);
+  }
+
+
+
   template <int dim>
   CellNodes<dim>
   read_any_mesh(const std::string                         &file_name,
@@ -598,9 +664,9 @@ namespace Ricochet
                 Triangulation<dim>                        &triangulation,
                 std::map<std::string, types::boundary_id> &boundary_names,
                 std::map<std::string, types::material_id> &material_names,
-                const unsigned int                         seconds)
+                const unsigned int                         seconds,
+                const std::string                         &kept_file)
   {
-    namespace fs        = std::filesystem;
     const auto read_msh = [&](const std::string &msh_file) {
       CellNodes<dim> nodes = read_gmsh_mesh(msh_file, triangulation);
       boundary_names.clear();
@@ -611,28 +677,35 @@ namespace Ricochet
         material_names[name] = number;
       return nodes;
     };
-    std::string ending = fs::path(file_name).extension().string();
-    for (char &c : ending)
-      c = std::tolower(static_cast<unsigned char>(c));
-    if (ending == ".msh")
+    if (ending_of(file_name) == ".msh")
       return read_msh(file_name);
-    if (ending != ".vtk" && ending != ".geo" && ending != ".step" &&
-        ending != ".stp")
+    if (ending_of(file_name) != ".vtk" && !is_geometry(file_name))
       throw InputError("The mesh file '" + file_name +
                        "' should end with .msh, .vtk, .geo, .step or "
                        ".stp.");
-    if (!fs::exists(file_name))
+    if (!std::filesystem::exists(file_name))
       throw InputError("The mesh file '" + file_name + "' does not exist.");
+    // Also that it is a file, and not a pipe whose end never comes.
     check_mesh_file(file_name);
     refuse_options_beside(file_name);
+    std::string   &mesh         = converted(file_name, mesh_size);
+    const MPI_Comm communicator = OneRank::communicator();
+    on_first_rank(communicator, [&]() {
+      if (mesh.empty())
+        mesh = std::filesystem::exists(kept_file)
+          ? read_file(kept_file)
+          : convert_in_memory(file_name, dim, mesh_size, seconds);
+    });
+    mesh = Utilities::MPI::broadcast(communicator, mesh);
     const MemoryFile file;
+    std::ofstream(file.name()) << mesh;
     try
       {
-        convert_to_gmsh_mesh(file_name, file.name(), dim, mesh_size, seconds);
         return read_msh(file.name());
       }
     catch (const InputError &error)
       {
+        mesh.clear();
         std::string       message = error.what();
         const std::string name    = "The mesh file '" + file.name() + "'";
         const std::size_t place   = message.find(name);
@@ -654,12 +727,14 @@ namespace Ricochet
                 Triangulation<2> &,
                 std::map<std::string, types::boundary_id> &,
                 std::map<std::string, types::material_id> &,
-                const unsigned int);
+                const unsigned int,
+                const std::string &);
   template CellNodes<3>
   read_any_mesh(const std::string &,
                 const double,
                 Triangulation<3> &,
                 std::map<std::string, types::boundary_id> &,
                 std::map<std::string, types::material_id> &,
-                const unsigned int);
+                const unsigned int,
+                const std::string &);
 } // namespace Ricochet

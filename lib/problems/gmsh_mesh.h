@@ -62,8 +62,12 @@ namespace Ricochet
 
   /**
    * Read a mesh, or mesh a geometry, as convert_to_gmsh_mesh() does for files
-   * other than .msh.
+   * other than .msh: once for all ranks and phases of a run, as Gmsh makes meshes of one
+   * geometry that differ where sets of addresses in OpenCASCADE have another order.
+   * Collective on the ranks of OneRank::communicator().
    *
+   * @param kept_file the mesh of the geometry from a run that is resumed; made anew if
+   * that is not there.
    * @param boundary_names gets the boundary ids by the names of physical groups.
    * @param material_names gets the material ids in the same way.
    * @return see read_gmsh_mesh().
@@ -77,7 +81,17 @@ namespace Ricochet
     dealii::Triangulation<dim>                        &triangulation,
     std::map<std::string, dealii::types::boundary_id> &boundary_names,
     std::map<std::string, dealii::types::material_id> &material_names,
-    const unsigned int                                 seconds = 0);
+    const unsigned int                                 seconds   = 0,
+    const std::string                                 &kept_file = "");
+
+  /// Whether Gmsh has to mesh @p file_name.
+  bool
+  is_geometry(const std::string &file_name);
+
+  /// The mesh that read_any_mesh() has made of a geometry, in Gmsh's format 2.2; for
+  /// @p kept_file.
+  std::string
+  mesh_of_geometry(const std::string &file_name, const double mesh_size);
 } // namespace Ricochet
 
 #endif

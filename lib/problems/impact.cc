@@ -5,8 +5,9 @@
 #include <contact/treatments/contact_sum.h>
 #include <contact/treatments/pair_contact.h>
 #include <discretization/boundary_load.h>
-#include <discretization/hyperelastic_bulk.h>
-#include <discretization/mixed_bulk.h>
+#include <discretization/bulk_of_parts.h>
+#include <discretization/bulk_sum.h>
+#include <discretization/linear_bulk.h>
 #include <problems/clearance.h>
 #include <problems/impact.h>
 #include <problems/unheld_bodies.h>
@@ -14,6 +15,7 @@
 
 #include <deal.II/base/function.h>
 #include <deal.II/dofs/dof_tools.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <limits>
@@ -150,7 +152,8 @@ namespace Ricochet
       return contacts;
     }
 
-    /// Set the overlaps of curved surfaces that fit into each other in the @p contacts.
+    /// Set the overlaps of curved surfaces that fit into each other in the @p contacts; none
+    /// where bodies overlap by more.
     /// @return what is wrong with other overlaps, see find_overlaps().
     template <int dim>
     std::string
@@ -158,10 +161,17 @@ namespace Ricochet
     {
       std::string problem;
       for (Contact &contact : contacts)
-        if (problem.empty())
-          problem = find_overlaps(body,
-                                  contact.pairs,
-                                  contact.parameters.coupling == "points");
+        {
+          const std::string own =
+            find_overlaps(body,
+                          contact.pairs,
+                          contact.parameters.coupling == "points");
+          if (!own.empty())
+            for (ContactPair &pair : contact.pairs)
+              pair.overlap = 0.;
+          if (problem.empty())
+            problem = own;
+        }
       return problem;
     }
 
@@ -179,6 +189,15 @@ namespace Ricochet
             sets[set].insert(ids.begin(), ids.end());
           }
       return sets;
+    }
+
+    std::vector<std::string>
+    names_of(const std::vector<Contact> &contacts)
+    {
+      std::vector<std::string> names;
+      for (const Contact &contact : contacts)
+        names.push_back(contact.name);
+      return names;
     }
 
     /// The obstacles of all contacts, for output.
@@ -368,30 +387,6 @@ namespace Ricochet
       return result;
     }
 
-    template <int dim>
-    std::unique_ptr<BulkOperator>
-    make_body_bulk(const Body<dim>                  &body,
-                   const std::vector<Material<dim>> &materials,
-                   const MatrixStorage               storage)
-    {
-      // Each cell has a material.
-      body.parts_of_unknowns(materials.size());
-      if constexpr (dim > 1)
-        {
-          const auto n_linear =
-            std::count_if(materials.begin(),
-                          materials.end(),
-                          [](const Material<dim> &material) {
-                            return material.linear.has_value();
-                          });
-          if (n_linear == 0)
-            return std::make_unique<HyperelasticBulk<dim>>(body, materials);
-          if (static_cast<std::size_t>(n_linear) < materials.size())
-            return std::make_unique<MixedBulk<dim>>(body, materials, storage);
-        }
-      return std::make_unique<LinearBulk<dim>>(body, materials, storage);
-    }
-
     /// Blocks are stored where matrix-vector products dominate; the multigrid
     /// of elements of degree one, and that of bodies against bodies, need
     /// entries.
@@ -404,10 +399,7 @@ namespace Ricochet
       const std::vector<Material<dim>> materials = materials_of(setup);
       const std::vector<Contact>       contacts =
         contacts_of(parameters.contact, setup);
-      const bool is_linear =
-        std::all_of(materials.begin(),
-                    materials.end(),
-                    [](const auto &material) { return bool(material.linear); });
+      const bool is_linear = are_linear(materials);
       const bool between_bodies =
         std::any_of(contacts.begin(), contacts.end(), [](const auto &contact) {
           return contact.is_between_bodies();
@@ -436,26 +428,26 @@ namespace Ricochet
               const MatrixStorage     storage)
     {
       const std::vector<Material<dim>> materials = materials_of(setup);
-      auto bulk = make_body_bulk(body, materials, storage);
+      // Each cell has a material.
+      body.parts_of_unknowns(materials.size());
+      auto terms = bulk_of_parts(body, materials, storage);
       // Damping in proportion to the mass.
-      std::vector<double> damping   = densities_of(setup);
-      bool                is_damped = false;
+      std::vector<double> damping = densities_of(setup);
       for (unsigned int p = 0; p < materials.size(); ++p)
-        {
-          damping[p] *= materials[p].viscosity.mass_damping;
-          is_damped = is_damped || damping[p] > 0.;
-        }
-      if (setup.springs.empty() && !is_damped)
-        return bulk;
+        damping[p] *= materials[p].viscosity.mass_damping;
       for (const BoundarySprings<dim> &spring : setup.springs)
         if (spring.damping > 0. && !scheme_traits(scheme).has_rates())
           throw InputError(
             "Dashpots cannot be combined with the time scheme '" + scheme +
             "', whose forces are functions of the displacement.");
-      return std::make_unique<BulkOnSprings<dim>>(body,
-                                                  std::move(bulk),
-                                                  setup.springs,
-                                                  damping);
+      if (!setup.springs.empty() ||
+          *std::max_element(damping.begin(), damping.end()) > 0.)
+        terms.push_back(std::make_unique<SpringsAndDashpots<dim>>(body,
+                                                                  setup.springs,
+                                                                  damping));
+      if (terms.size() == 1)
+        return std::move(terms[0]);
+      return std::make_unique<BulkSum>(std::move(terms), body.make_vector());
     }
 
     template <int dim>
@@ -470,11 +462,7 @@ namespace Ricochet
                              {contact.pairs.front().is_self,
                               dim,
                               setup.degree,
-                              std::all_of(materials.begin(),
-                                          materials.end(),
-                                          [](const Material<dim> &material) {
-                                            return material.linear.has_value();
-                                          }),
+                              are_linear(materials),
                               parameters.redistributed_mass()});
     }
 
@@ -769,7 +757,8 @@ namespace Ricochet
               },
               scheme_traits(parameters.scheme.name).has_inertia
                 ? SemiDiscreteSystem::Unknowns::Unheld()
-                : find_unheld_bodies(body, setup)},
+                : find_unheld_bodies(body, setup),
+              names_of(contacts)},
              make_load(body, consistent_mass, weight, setup),
              parameters.newton,
              parameters.linear_solver,
@@ -894,12 +883,54 @@ namespace Ricochet
         }
     Vector velocity = velocities_of_parts();
     velocity += motion.velocity;
-    // The force of a law follows from the displacement.
-    std::vector<Vector> forces = motion.contact_forces;
-    for (unsigned int k = 0; k < std::min(forces.size(), contacts.size()); ++k)
-      if (!is_constraint(contacts[k].parameters))
-        forces[k].clear();
-    return state_with(motion.solution, velocity, forces);
+    // The force of a law follows from the displacement; that of a condition is the one of
+    // the contact with its name, of the same boundary where it has several.
+    std::vector<Vector>   forces(contacts.size());
+    std::set<std::size_t> taken;
+    for (unsigned int k = 0; k < contacts.size(); ++k)
+      if (is_constraint(contacts[k].parameters))
+        for (std::size_t there = 0; there < motion.contact_forces.size();
+             ++there)
+          if (motion.contact_names.at(there) == contacts[k].name &&
+              taken.insert(there).second)
+            {
+              forces[k] = motion.contact_forces[there];
+              break;
+            }
+    const State state = state_with(motion.solution, velocity, forces);
+    check_new_contacts(state, motion.contact_names);
+    return state;
+  }
+
+
+
+  template <int dim>
+  void
+  Impact<dim>::check_new_contacts(
+    const State                    &state,
+    const std::vector<std::string> &contacts_before) const
+  {
+    const auto summaries = system.contact.summary(
+      {state.solution, state.contact_force, state.time, &state.contact_shares});
+    const double cell_size =
+      Utilities::MPI::min(GridTools::minimal_cell_diameter(
+                            body.dof_handler().get_triangulation()),
+                          body.communicator);
+    for (unsigned int k = 0; k < contacts.size(); ++k)
+      if (std::find(contacts_before.begin(),
+                    contacts_before.end(),
+                    contacts[k].name) == contacts_before.end())
+        for (const auto id : contact_ids(contacts[k]))
+          if (const auto found = summaries.find(
+                contacts.size() == 1 ? id : ContactSum::id_of(k, id));
+              found != summaries.end() &&
+              found->second.max_penetration > 1e-6 * cell_size)
+            throw InputError(
+              "The contact '" + contacts[k].name +
+              "' begins here, and what touches in it overlaps by " +
+              to_text(found->second.max_penetration) +
+              " in the state from which this run starts. Move it "
+              "apart before.");
   }
 
 
@@ -954,14 +985,16 @@ namespace Ricochet
                           const Vector              &velocity,
                           const std::vector<Vector> &contact_forces)
   {
-    if (!overlap_problem.empty())
-      throw InputError(overlap_problem);
-    for (const Contact &own : contacts)
+    // With displacements the contacts themselves know, see check_new_contacts().
+    if (start_displacement.size() == 0)
       {
-        check_clearance(body,
-                        own.obstacles,
-                        own.name,
-                        /* only what may touch */ !own.name.empty());
+        if (!overlap_problem.empty())
+          throw InputError(overlap_problem);
+        for (const Contact &own : contacts)
+          check_clearance(body,
+                          own.obstacles,
+                          own.name,
+                          /* only what may touch */ !own.name.empty());
       }
     if (has_inertia)
       return system.initial_state(displacement,

@@ -205,6 +205,12 @@ namespace Ricochet
     Vector
     velocities_of_parts() const;
 
+    /// Contacts that were not there in the run from which this one starts begin without
+    /// penetration. @throws InputError Collective.
+    void
+    check_new_contacts(const State                    &state,
+                       const std::vector<std::string> &contacts_before) const;
+
     /// Displacements with which the run starts (m); of size 0 for none.
     Vector start_displacement;
 

@@ -54,6 +54,8 @@ namespace Ricochet
   void
   ImpactParameters::validate_times() const
   {
+    // Refuses what cannot be read.
+    Condition(time.until, "Time/Until");
     if (time.final_time > 1e8 * time.time_step)
       throw InputError("The final time " + to_text(time.final_time) +
                        " is more than 1e8 time steps of " +

@@ -31,7 +31,7 @@ namespace Ricochet
     add_parameters_without_contact(dealii::ParameterHandler &parameters);
 
     /// Refuse combinations without meaning. @param linear_material the body is
-    /// linear elastic. @throws InputError
+    /// linear elastic. @param velocity_force in the body. @throws InputError
     void
     validate(const bool          linear_material = true,
              const VelocityForce velocity_force  = VelocityForce::none) const;

@@ -27,6 +27,13 @@ namespace Ricochet
                              "End of the run (s); the last step reaches or "
                              "passes it.",
                              Patterns::Double(1e-30));
+    parameters.add_parameter(
+      "Until",
+      until,
+      "End of the run before that: after the first step at whose end this condition on "
+      "columns of energy.csv is true, such as 'kinetic_energy < 1e-6 && time > 0.1'. Other "
+      "characters than letters and digits of a column are _ here. Empty: the final time.",
+      Patterns::Anything());
     parameters.add_parameter("Time step",
                              time_step,
                              "Length of a step (s).",
@@ -124,6 +131,7 @@ namespace Ricochet
     const std::map<dealii::types::boundary_id, std::string> &contact_names,
     const Units                                             &units)
     : parameters(parameters)
+    , until(parameters.until, "Time/Until")
     , folder(folder)
     , system(system)
     , scheme(scheme)
@@ -141,6 +149,13 @@ namespace Ricochet
                             const bool         may_be_empty = false) {
       ledger.add_column(name, this->units.name(unit), may_be_empty);
     };
+    const auto add_total = [this](const std::string &name,
+                                  const std::string &unit) {
+      ledger.add_column(name,
+                        this->units.name(unit),
+                        /* may be empty */ false,
+                        /* is sum */ true);
+    };
     add("time", "s");
     add("kinetic_energy", "J");
     add("elastic_energy", "J");
@@ -151,15 +166,15 @@ namespace Ricochet
     add("total_energy",
         "J",
         /* may be empty */ !system.contact.traits().has_modified_energy);
-    add("external_work", "J");
-    add("contact_work", "J");
-    add("friction_work", "J");
-    add("viscous_dissipation", "J");
-    add("numerical_dissipation", "J");
+    add_total("external_work", "J");
+    add_total("contact_work", "J");
+    add_total("friction_work", "J");
+    add_total("viscous_dissipation", "J");
+    add_total("numerical_dissipation", "J");
     if (system.contact.traits().has_moving_obstacles)
-      add("obstacle_work", "J");
+      add_total("obstacle_work", "J");
     if (system.has_imposed_displacements())
-      add("imposed_work", "J");
+      add_total("imposed_work", "J");
     add("balance_residual", "1");
     add("promise_residual",
         "1",
@@ -171,8 +186,8 @@ namespace Ricochet
     add("outer_iterations", "1");
     add("inner_iterations", "1");
     add("tangents", "1");
-    add("step_halvings", "1");
-    add("passing_halvings", "1");
+    add_total("step_halvings", "1");
+    add_total("passing_halvings", "1");
     for (const auto &[name, ids] : this->contact_names)
       {
         const bool may_be_empty = system.contact.traits().gaps_may_be_unknown;
@@ -184,13 +199,13 @@ namespace Ricochet
         if (system.contact.traits().knows_stress_pressure)
           add("stress_pressure_" + name, "Pa");
         add("active_points_" + name, "1");
-        add("passed_points_" + name, "1");
+        add_total("passed_points_" + name, "1");
         if (scheme.contact_force_is_of_step())
-          add("contact_gain_" + name, "J");
+          add_total("contact_gain_" + name, "J");
         if (scheme.contact_force_is_of_step() && may_be_empty)
           {
-            add("dropped_points_" + name, "1");
-            add("entered_points_" + name, "1");
+            add_total("dropped_points_" + name, "1");
+            add_total("entered_points_" + name, "1");
           }
       }
     if (system.contact.traits().knows_work)
@@ -259,6 +274,19 @@ namespace Ricochet
 
 
   void
+  TimeLoop::add_column_of_sum(const std::string &name,
+                              const std::string &unit,
+                              const bool         may_be_empty,
+                              const unsigned int k)
+  {
+    ledger.add_column(name, units.name(unit), may_be_empty, /* is sum */ true);
+    own_columns.push_back(
+      [this, k](const State &) { return std::vector<double>{sums.own[k]}; });
+  }
+
+
+
+  void
   TimeLoop::add_sum(
     const std::string                                         &name,
     const std::string                                         &unit,
@@ -268,7 +296,7 @@ namespace Ricochet
       [increment](const State &begin, const State &end, const StepReport &) {
         return increment(begin, end);
       });
-    add_column(name, unit, [this, k](const State &) { return sums.own[k]; });
+    add_column_of_sum(name, unit, /* may be empty */ false, k);
   }
 
 
@@ -283,9 +311,7 @@ namespace Ricochet
       [increment](const State &, const State &, const StepReport &report) {
         return increment(report);
       });
-    ledger.add_column(name, units.name(unit), /* may be empty */ true);
-    own_columns.push_back(
-      [this, k](const State &) { return std::vector<double>{sums.own[k]}; });
+    add_column_of_sum(name, unit, /* may be empty */ true, k);
   }
 
 
@@ -862,6 +888,27 @@ namespace Ricochet
 
 
 
+  bool
+  TimeLoop::is_at_end() const
+  {
+    if (!until.exists())
+      return false;
+    std::map<std::string, double> values;
+    for (unsigned int i = 0; i < ledger.columns().size(); ++i)
+      {
+        std::string name = ledger.columns()[i].name;
+        std::replace_if(
+          name.begin(),
+          name.end(),
+          [](const unsigned char c) { return std::isalnum(c) == 0; },
+          '_');
+        values.emplace(name, ledger.rows().back()[i]);
+      }
+    return until.is_true(values);
+  }
+
+
+
   void
   TimeLoop::write_fields_if_due(const State &state, const unsigned int step)
   {
@@ -1082,6 +1129,8 @@ namespace Ricochet
 
     State        state = initial_state;
     unsigned int step  = begin(state, n_steps);
+    // Also at the start, where it must be readable and need not be false.
+    bool is_over = is_at_end() && step > 0;
     folder.log(log_head());
     if (parameters.newton_table)
       log_newton_tables();
@@ -1102,7 +1151,7 @@ namespace Ricochet
     int               signal = 0;
     try
       {
-        while (step < n_steps && signal == 0)
+        while (step < n_steps && !is_over && signal == 0)
           {
             timer.enter_subsection("steps");
             const StepReport report =
@@ -1124,7 +1173,8 @@ namespace Ricochet
             const TimerOutput::Scope scope(timer, "fields and checkpoints");
             write_fields_if_due(state, step);
             signal             = StopRequest::signal(folder.communicator);
-            const bool is_last = step == n_steps || signal != 0;
+            is_over            = is_at_end();
+            const bool is_last = step == n_steps || is_over || signal != 0;
             if ((parameters.checkpoint_every > 0 &&
                  (step % parameters.checkpoint_every == 0 || is_last)) ||
                 signal != 0 || checkpoint_clock.is_due(is_last))
@@ -1158,9 +1208,15 @@ namespace Ricochet
         throw;
       }
     ledger.write_hdf5();
+    if (is_over)
+      folder.log("ends at t = " + units.text(state.time, "s") + ", where " +
+                 parameters.until);
+    else if (until.exists() && step == n_steps)
+      folder.log("note: up to the final time it was never so that " +
+                 parameters.until);
     conclude(timer, timing_table);
     std::string reason;
-    if (step < n_steps)
+    if (step < n_steps && !is_over)
       reason = StopRequest::name_of(signal) + " came in step " +
         std::to_string(step) + " of " + std::to_string(n_steps) +
         ", which is complete: t = " + units.text(state.time, "s") +

@@ -2,6 +2,7 @@
 #ifndef ricochet_problems_time_loop_h
 #define ricochet_problems_time_loop_h
 
+#include <base/expressions.h>
 #include <base/run_folder.h>
 #include <base/units.h>
 #include <output/checkpoint.h>
@@ -29,7 +30,9 @@ namespace Ricochet
   public:
     struct Parameters
     {
-      double       final_time       = 12.;
+      double final_time = 12.;
+      /// See Condition; of the columns of the ledger.
+      std::string  until            = "";
       double       time_step        = .05;
       unsigned int max_halvings     = 4;
       unsigned int fields_every     = 10;
@@ -205,6 +208,11 @@ namespace Ricochet
     unsigned int
     begin(State &state, const unsigned int n_steps);
 
+    /// Whether Parameters::until is true in the last row of the ledger.
+    /// @throws InputError when it cannot be read.
+    bool
+    is_at_end() const;
+
     void
     write_fields_if_due(const State &state, const unsigned int step);
 
@@ -217,6 +225,13 @@ namespace Ricochet
     /// See add_sum(). @return its number.
     unsigned int
     add_own_sum(const Increment &increment);
+
+    /// The column of own sum number @p k.
+    void
+    add_column_of_sum(const std::string &name,
+                      const std::string &unit,
+                      const bool         may_be_empty,
+                      const unsigned int k);
 
     /// Enter a step into sums and ledger. @p energy is that of the state before,
     /// and becomes that of @p new_state (J).
@@ -242,6 +257,7 @@ namespace Ricochet
     conclude(dealii::TimerOutput &timer, std::ostringstream &timing_table);
 
     const Parameters    parameters;
+    const Condition     until;
     RunFolder          &folder;
     SemiDiscreteSystem &system;
     TimeScheme         &scheme;

@@ -488,7 +488,26 @@ namespace Ricochet
 
   template <int dim>
   void
-  BodySection<dim>::make_mesh(BodyMesh<dim> &mesh, const double advance) const
+  BodySection<dim>::keep_mesh(RunFolder &folder) const
+  {
+    if (!is_geometry(file))
+      return;
+    const std::string name = RunFolder::name_of_mesh(section.column_name());
+    if (folder.resume)
+      folder.log("the mesh of '" + section.name + "' is the one of " + name);
+    else
+      on_first_rank(folder.communicator, [&]() {
+        write_atomically(folder.file(name), mesh_of_geometry(file, mesh_size));
+      });
+  }
+
+
+
+  template <int dim>
+  void
+  BodySection<dim>::make_mesh(BodyMesh<dim>     &mesh,
+                              const double       advance,
+                              const std::string &kept_meshes) const
   {
     const Shape<dim> *own = find<dim>(shape);
     if (file.empty() == (own == nullptr))
@@ -510,12 +529,16 @@ namespace Ricochet
         mesh.boundary_names = own->boundary_names;
       }
     else
-      mesh.nodes = read_any_mesh(file,
-                                 mesh_size,
-                                 fine,
-                                 mesh.boundary_names,
-                                 mesh.material_names,
-                                 meshing_time);
+      mesh.nodes =
+        read_any_mesh(file,
+                      mesh_size,
+                      fine,
+                      mesh.boundary_names,
+                      mesh.material_names,
+                      meshing_time,
+                      kept_meshes.empty() ? ""
+                                          : kept_meshes + "/" +
+                          RunFolder::name_of_mesh(section.column_name()));
     if (!mesh.nodes.empty() && refinements > 0)
       throw InputError("The mesh '" + file +
                        "' has elements of second order, which cannot be "

@@ -2,6 +2,7 @@
 #ifndef ricochet_scene_body_section_h
 #define ricochet_scene_body_section_h
 
+#include <base/run_folder.h>
 #include <discretization/curved_geometry.h>
 #include <materials/material_parameters.h>
 #include <scene/named_sections.h>
@@ -95,10 +96,18 @@ namespace Ricochet
     /**
      * Make, or read, and place the mesh.
      * @param advance time of flight from the given position (s).
+     * @param kept_meshes folder of a run that is resumed, see keep_mesh(); or empty.
      * @throws InputError when it cannot be made.
      */
     void
-    make_mesh(BodyMesh<dim> &mesh, const double advance) const;
+    make_mesh(BodyMesh<dim>     &mesh,
+              const double       advance,
+              const std::string &kept_meshes) const;
+
+    /// Keep the mesh that Gmsh has made of a geometry in the folder of the run, which may be
+    /// resumed and finds another one then, see read_any_mesh().
+    void
+    keep_mesh(RunFolder &folder) const;
 
     /// A lower bound of the number of vertices, before any mesh is made; for
     /// files it is hardly more than zero.

@@ -41,6 +41,7 @@ namespace Ricochet
     impact.time.fields_every = 5;
     impact.scheme.name       = "midpoint";
 
+    // Phases have been taken apart by run_program().
     std::vector<NamedSection> sections = find_named_sections(
       text,
       {"Body", "Material", "Obstacle", "Contact", "Condition", "Probe"},
@@ -282,7 +283,7 @@ namespace Ricochet
         // A mesh that is much too large is refused here, before it is made.
         impact.check_size(dim * bodies[b].vertices_at_least(), dim);
         bodies[b].meshing_time = meshing_time;
-        bodies[b].make_mesh(mesh, advance);
+        bodies[b].make_mesh(mesh, advance, kept_meshes);
         const bool simplex = mesh.cells.all_reference_cells_are_simplex();
         if (b > 0 && simplex != is_simplex)
           {

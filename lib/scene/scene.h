@@ -57,6 +57,9 @@ namespace Ricochet
     void
     run(RunFolder &folder);
 
+    /// Folder of a run that is resumed, which has the meshes that Gmsh has made; or empty.
+    std::string kept_meshes;
+
   private:
     /// The sides of a contact.
     struct Touching

@@ -444,7 +444,11 @@ namespace Ricochet
     if (!nodes.empty())
       setup.geometry = make_curved_geometry(nodes, whole, MPI_COMM_SELF);
     Impact<dim> assembly(impact, whole, setup, MPI_COMM_SELF);
-    assembly.state_of_parts();
+    if (start_from.empty())
+      assembly.state_of_parts();
+    else
+      text << "starts from the last state in " << start_from
+           << "; what touches there is found when it begins\n";
     for (const ProbeSection<dim> &probe : probes)
       probe.check(assembly, surfaces, first_part);
     const ObstacleSurfaces<dim> obstacle_surfaces(assembly.obstacles);

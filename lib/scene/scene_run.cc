@@ -345,15 +345,10 @@ namespace Ricochet
     std::vector<std::string> body_names;
     for (const BodySection<dim> &body : bodies)
       body_names.push_back(body.section.column_name());
-    const bool             is_linear = std::all_of(all_materials.begin(),
-                                       all_materials.end(),
-                                       [](const Material<dim> &material) {
-                                         return material.linear.has_value();
-                                       });
     const PartColumns<dim> columns(assembly.body,
                                    assembly.system,
                                    /* small strains */
-                                   is_linear,
+                                   are_linear(all_materials),
                                    body_names,
                                    first_part);
     columns.add_to(loop);
@@ -365,6 +360,9 @@ namespace Ricochet
 
     for (const Part<dim> &part : assembly.parts)
       loop.part_names.push_back(part.name);
+    folder.begin();
+    for (const BodySection<dim> &body : bodies)
+      body.keep_mesh(folder);
     loop.run(initial_state);
     folder.log("pictures: ricochet-plot " + folder.file("") +
                (impact.time.fields_every > 0 ? " --fields" : ""));

@@ -73,6 +73,8 @@ namespace Ricochet
         double                   cell_size = 0.;
       };
       Unheld unheld = {};
+      /// Names of the contacts in the order of State::contact_shares, for checkpoints.
+      std::vector<std::string> contact_names = {};
     };
 
     /**

@@ -202,8 +202,10 @@ class Run:
         except (OSError, ElementTree.ParseError, KeyError, ValueError) as error:
             raise NotARun(f"The list of fields '{path}' cannot be read: {error}.") from None
         result = []
+        # The files of phases, which are in folders of their own, are counted in their order.
+        of_phases = len({pathlib.PurePath(name).parent for _, name in files}) > 1
         for number, (time, name) in enumerate(files):
-            match = re.search(r"(\d+)\.vtu$", name)
+            match = None if of_phases else re.search(r"(\d+)\.vtu$", name)
             step = int(match.group(1)) if match else number
             result.append(FieldFile(step, time, self.folder / name))
         if not result:
@@ -212,7 +214,7 @@ class Run:
 
     @property
     def steps(self) -> list[int]:
-        """The steps of which there are fields."""
+        """The steps of which there are fields; of a run in phases the numbers of its files."""
         return [file.step for file in self.field_files]
 
     @property

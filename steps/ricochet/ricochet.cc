@@ -25,7 +25,9 @@
 //
 // There are as many bodies, obstacles, contacts, conditions at boundaries and
 // probes as sections `Body NAME`, `Obstacle NAME`, `Contact NAME`,
-// `Condition NAME` and `Probe NAME`.
+// `Condition NAME` and `Probe NAME`. Sections `Phase NAME` have what differs in
+// a part of the run, which goes on from where the one before it has ended: so
+// something is pressed, settles, is released and hits.
 //
 // ## The problem
 //
@@ -92,6 +94,7 @@
 // with NAME for your own names.
 
 #include <base/program.h>
+#include <output/phase_ledger.h>
 #include <problems/combinations.h>
 #include <scene/scene.h>
 
@@ -111,8 +114,11 @@ namespace
     program.add_parameters = [scene](ParameterHandler &parameters) {
       scene->add_parameters(parameters);
     };
-    program.validate = [scene]() { scene->validate(); };
-    program.run      = [scene](RunFolder &folder) { scene->run(folder); };
+    program.validate    = [scene]() { scene->validate(); };
+    program.run         = [scene](RunFolder &folder) { scene->run(folder); };
+    program.take_meshes = [scene](const std::string &folder) {
+      scene->kept_meshes = folder;
+    };
     program.unused_parameters = [scene]() {
       return scene->unused_parameters();
     };
@@ -152,5 +158,7 @@ main(int argc, char **argv)
        promises_as_table},
       {"--combinations",
        "print which choices go together, as CSV",
-       combinations_as_csv}}});
+       combinations_as_csv}},
+     join_phases,
+     [&](const std::string &folder) { scene.take_meshes(folder); }});
 }

@@ -604,10 +604,48 @@ end
         self.run_program("ricochet", ["Time/Final time=3e-3"], prm=scene,
                          options=["--resume"])
         (self.folder / "size.geo").write_text("height = 1.01;\n")
-        code, _, error = self.attempt("ricochet", ["Time/Final time=4e-3"], prm=scene,
+        # The run goes on with the mesh that it was begun with.
+        self.run_program("ricochet", ["Time/Final time=4e-3"], prm=scene,
+                         options=["--resume"])
+        log = (self.folder / "run" / "log.txt").read_text()
+        self.assertIn("the mesh of 'block' is the one of mesh_of_block.msh", log)
+        (self.folder / "run" / "mesh_of_block.msh").unlink()
+        code, _, error = self.attempt("ricochet", ["Time/Final time=5e-3"], prm=scene,
                                       options=["--resume"])
         self.assertEqual(code, 1, msg=error)
         self.assertIn("belongs to another mesh", " ".join(error.split()))
+
+    def test_a_geometry_with_rounded_edges(self):
+        """Gmsh makes another mesh of it in each process, as sets of addresses have another order: ranks
+        and a run that is resumed have one mesh."""
+        (self.folder / "box.geo").write_text(
+            'SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 0.1, 0.08, 0.06};\n'
+            "Fillet{1}{1 : 12}{0.015}\nMesh.MeshSizeMin = 0.01;\nMesh.MeshSizeMax = 0.02;\n")
+        scene = self.folder / "scene.prm"
+        scene.write_text("""
+set Dimension = 3
+subsection Body box
+  set File     = box.geo
+  set Velocity = 0, 0, -1
+end
+subsection Time
+  set Time step  = 1e-3
+  set Final time = 4e-3
+end
+subsection Output
+  set Checkpoint every = 1
+end
+subsection Linear solver
+  set Distribute = true
+end
+""")
+        for n in range(2):
+            part = self.folder / f"part_{n}"
+            self.run_program("ricochet", ["Time/Final time=2e-3"], part, prm=scene, n_ranks=2)
+            ledger = self.run_program("ricochet", (), part, prm=scene, options=["--resume"])
+            self.assertEqual(len(ledger["time"]), 5)
+            for energy in ledger["energy"]:
+                self.assertAlmostEqual(energy / ledger["energy"][0], 1., places=12)
 
 
 if __name__ == "__main__":

@@ -7,8 +7,10 @@
 #include "meshes.h"
 
 #include <base/exceptions.h>
+#include <discretization/bulk_of_parts.h>
+#include <discretization/bulk_sum.h>
 #include <discretization/hyperelastic_bulk.h>
-#include <discretization/mixed_bulk.h>
+#include <discretization/linear_bulk.h>
 #include <materials/hyperelastic_law_implementation.h>
 #include <materials/laws/ciarlet_geymonat.h>
 
@@ -36,6 +38,34 @@ namespace
           CiarletGeymonat{.5, .005, .35}),
         state),
       viscosity);
+  }
+
+  /// The tangent that @p add adds against the difference of @p evaluate, the force at a state,
+  /// in this @p direction about @p solution.
+  template <int dim>
+  void
+  check_tangent(
+    const Body<dim>                                               &body,
+    const Vector                                                  &solution,
+    const Vector                                                  &direction,
+    const std::function<void(const Vector &state, Vector &force)> &evaluate,
+    const std::function<void(Matrix &tangent)>                    &add)
+  {
+    const double eps = 1e-6;
+    Vector plus(solution), minus(solution), product(solution), point(solution);
+    Matrix tangent;
+    tangent.reinit(body.sparsity_pattern());
+    add(tangent);
+    tangent.vmult(product, direction);
+    point.add(eps, direction);
+    evaluate(point, plus);
+    point = solution;
+    point.add(-eps, direction);
+    evaluate(point, minus);
+    plus -= minus;
+    plus *= 1. / (2. * eps);
+    plus -= product;
+    BOOST_CHECK_SMALL(plus.linfty_norm(), 1e-7 * product.linfty_norm());
   }
 
   /// The viscous force at @p solution where the velocity is (solution - origin) / time:
@@ -123,8 +153,7 @@ namespace
                                  : PlaneState::plane_strain,
                         viscosity));
         Vector old_solution = body.make_vector(), solution(old_solution),
-               direction(old_solution), force(old_solution), plus(old_solution),
-               minus(old_solution), product(old_solution);
+               direction(old_solution), force(old_solution);
         // Small enough that no element of degree 2 is inverted.
         randomise(old_solution, .02, 1);
         randomise(solution, .02, 2);
@@ -142,32 +171,22 @@ namespace
                           1e-14);
         BOOST_CHECK_EQUAL(dissipation > 0., viscosity.is_active());
 
-        // Tangents.
-        const double eps = 1e-6;
-        for (const bool step_force : {true, false})
-          {
-            Matrix tangent;
-            tangent.reinit(body.sparsity_pattern());
-            if (step_force)
-              bulk.add_step_tangent(old_solution, solution, time_step, tangent);
-            else
-              bulk.add_tangent(1., solution, tangent);
-            tangent.vmult(product, direction);
-            const auto evaluate = [&](const double distance, Vector &result) {
-              Vector point(solution);
-              point.add(distance, direction);
-              if (step_force)
-                bulk.step_force(old_solution, point, time_step, result);
-              else
-                bulk.force(point, result);
-            };
-            evaluate(eps, plus);
-            evaluate(-eps, minus);
-            plus -= minus;
-            plus *= 1. / (2. * eps);
-            plus -= product;
-            BOOST_CHECK_SMALL(plus.linfty_norm(), 1e-7 * product.linfty_norm());
-          }
+        check_tangent(
+          body,
+          solution,
+          direction,
+          [&](const Vector &x, Vector &f) {
+            bulk.step_force(old_solution, x, time_step, f);
+          },
+          [&](Matrix &matrix) {
+            bulk.add_step_tangent(old_solution, solution, time_step, matrix);
+          });
+        check_tangent(
+          body,
+          solution,
+          direction,
+          [&](const Vector &x, Vector &f) { bulk.force(x, f); },
+          [&](Matrix &matrix) { bulk.add_tangent(1., solution, matrix); });
 
         // Viscous forces at an instant: none if the body is not viscous.
         BOOST_CHECK_EQUAL(bulk.is_viscous(), viscosity.is_active());
@@ -246,17 +265,20 @@ namespace
                                Viscosity{Viscosity::Law::linear, .03}),
       large = material<dim>(PlaneState::plane_strain,
                             Viscosity{Viscosity::Law::curnier, .02});
-    const MixedBulk<dim>  bulk(body, {linear, large}, MatrixStorage::entries);
-    const LinearBulk<dim> all_linear(body,
+    const BulkSum               bulk(bulk_of_parts<dim>(body,
+                                          {linear, large},
+                                          MatrixStorage::entries),
+                       body.make_vector());
+    const LinearBulk<dim>       all_linear(body,
                                      std::vector<Material<dim>>(2, linear));
     const HyperelasticBulk<dim> all_large(body,
                                           std::vector<Material<dim>>(2, large));
     Vector begin = body.make_vector(), end(begin), direction(begin),
-           force(begin), plus(begin), minus(begin), product(begin);
+           force(begin), product(begin);
     randomise(begin, .02, 1);
     randomise(end, .02, 2);
     randomise(direction, 1., 3);
-    const double time_step = .1, eps = 1e-6;
+    const double time_step = .1;
     std::vector<std::function<double(const dealii::Point<dim> &)>> stretched;
     for (unsigned int c = 0; c < dim; ++c)
       stretched.emplace_back([c](const dealii::Point<dim> &x) {
@@ -275,39 +297,32 @@ namespace
     BOOST_CHECK_SMALL(force * step - bulk.energy(end) + bulk.energy(begin) -
                         bulk.viscous_dissipation(begin, end, time_step),
                       1e-14);
-    using Force = std::function<void(const Vector &, Vector &)>;
-    using Add   = std::function<void(Matrix &)>;
-    const std::vector<std::pair<Force, Add>> forces = {
-      {[&](const Vector &x, Vector &f) {
-         bulk.step_force(begin, x, time_step, f);
-       },
-       [&](Matrix &matrix) {
-         bulk.add_step_tangent(begin, end, time_step, matrix);
-       }},
-      {[&](const Vector &x, Vector &f) { bulk.force(x, f); },
-       [&](Matrix &matrix) { bulk.add_tangent(1., end, matrix); }},
-      {[&](const Vector &x, Vector &f) {
-         bulk.viscous_force(begin, x, time_step, f);
-       },
-       [&](Matrix &matrix) {
-         bulk.add_viscous_tangent(1., begin, end, time_step, matrix);
-       }}};
-    for (const auto &[evaluate, add] : forces)
-      {
-        Matrix tangent;
-        tangent.reinit(body.sparsity_pattern());
-        add(tangent);
-        tangent.vmult(product, direction);
-        Vector point(end);
-        point.add(eps, direction);
-        evaluate(point, plus);
-        point.add(-2. * eps, direction);
-        evaluate(point, minus);
-        plus -= minus;
-        plus *= 1. / (2. * eps);
-        plus -= product;
-        BOOST_CHECK_SMALL(plus.linfty_norm(), 1e-7 * product.linfty_norm());
-      }
+    check_tangent(
+      body,
+      end,
+      direction,
+      [&](const Vector &x, Vector &f) {
+        bulk.step_force(begin, x, time_step, f);
+      },
+      [&](Matrix &matrix) {
+        bulk.add_step_tangent(begin, end, time_step, matrix);
+      });
+    check_tangent(
+      body,
+      end,
+      direction,
+      [&](const Vector &x, Vector &f) { bulk.force(x, f); },
+      [&](Matrix &matrix) { bulk.add_tangent(1., end, matrix); });
+    check_tangent(
+      body,
+      end,
+      direction,
+      [&](const Vector &x, Vector &f) {
+        bulk.viscous_force(begin, x, time_step, f);
+      },
+      [&](Matrix &matrix) {
+        bulk.add_viscous_tangent(1., begin, end, time_step, matrix);
+      });
   }
 } // namespace
 

@@ -3,6 +3,7 @@
 #include <base/exceptions.h>
 #include <base/units.h>
 #include <discretization/boundary_springs.h>
+#include <discretization/bulk_sum.h>
 #include <discretization/follower_pressure.h>
 #include <discretization/hyperelastic_bulk.h>
 #include <discretization/linear_bulk.h>
@@ -146,11 +147,14 @@ BOOST_AUTO_TEST_CASE(springs)
   const std::vector<Material<2>> materials = {material.make<2>()};
   const double                   k = 30., c = 2., drag = .7, step = .1;
   const HyperelasticBulk<2>      alone(body, materials);
-  const BulkOnSprings<2>         bulk(
+  std::vector<std::unique_ptr<BulkOperator>> terms;
+  terms.push_back(std::make_unique<HyperelasticBulk<2>>(body, materials));
+  terms.push_back(std::make_unique<SpringsAndDashpots<2>>(
     body,
-    std::make_unique<HyperelasticBulk<2>>(body, materials),
-    {{right, {{false, true}}, k, 0.}, {right, {{true, false}}, 0., c}},
-    {drag});
+    std::vector<BoundarySprings<2>>{{right, {{false, true}}, k, 0.},
+                                    {right, {{true, false}}, 0., c}},
+    std::vector<double>{drag}));
+  const BulkSum bulk(std::move(terms), body.make_vector());
 
   Vector begin, end;
   body.interpolate(dealii::FunctionFromFunctionObjects<2>(

@@ -88,7 +88,7 @@ namespace Ricochet
    * Refuse a combination of treatment, scheme, mass, friction and material that
    * has no meaning, and values out of range.
    *
-   * @param linear_material the body is linear elastic.
+   * @param linear_material the body is linear elastic. @param velocity_force in the body.
    * @param degree of the displacements.
    * @throws InputError that names what is allowed.
    */

@@ -708,6 +708,7 @@ namespace Ricochet
                           state.pressure,
                           slip_vector,
                           point_of(state).cell_diameter);
+        take_friction(state, along);
       }
     // Computed now, on this thread, for the assembly that follows.
     if (has_force(state))
@@ -770,19 +771,17 @@ namespace Ricochet
 
   template <int dim>
   void
-  PairContact<dim>::take_friction()
+  PairContact<dim>::take_friction(
+    PointState                                 &state,
+    const std::array<Tensor<1, 3>, n_tangents> &along) const
   {
-    for (unsigned int s = 0; s < states.size(); ++s)
-      {
-        PointState &state = states[s];
-        if (!law_of(state) || !(state.pressure > 0.))
-          continue;
-        const auto along = axes(state);
-        for (unsigned int d = 0; d < n_tangents; ++d)
-          state.traction[d] = along[d] * friction.traction(s);
-        if (friction.sticks(s))
-          state.status = Status::stick;
-      }
+    const unsigned int s = &state - states.data();
+    for (unsigned int d = 0; d < n_tangents; ++d)
+      state.traction[d] = along[d] * friction.traction(s);
+    if (friction.sticks(s))
+      state.status = Status::stick;
+    else if (state.status == Status::stick)
+      state.status = Status::slip;
   }
 
 
@@ -849,11 +848,10 @@ namespace Ricochet
                    });
     if (sets_recur)
       change_worst_only();
-    if (has_friction)
-      {
-        friction.change_worst_only(communicator);
-        take_friction();
-      }
+    if (has_friction && friction.change_worst_only(communicator))
+      for (PointState &state : states)
+        if (law_of(state) && state.pressure > 0.)
+          take_friction(state, axes(state));
 
     // The other entries are zero.
     double *const forces = local_values(force);

@@ -405,9 +405,12 @@ namespace Ricochet
     void
     change_worst_only();
 
-    /// Take tractions and status of the points of laws from #friction.
+    /// Take traction and status of the pressed point @p state of a law from #friction. @param
+    /// along its axes().
     void
-    take_friction();
+    take_friction(
+      PointState                                         &state,
+      const std::array<dealii::Tensor<1, 3>, n_tangents> &along) const;
 
     /// Add the force of a point and the residual of its equations.
     void

@@ -55,12 +55,11 @@ namespace Ricochet
 
 
 
-  void
+  bool
   PointwiseFriction::change_worst_only(const MPI_Comm communicator)
   {
-    if (!exists() || !law.has_exact_stick ||
-        accepted_branch.size() != branch.size())
-      return;
+    if (!law.has_exact_stick || accepted_branch.size() != branch.size())
+      return false;
     if (set_iterate != n_iterates)
       {
         set_iterate = n_iterates;
@@ -71,7 +70,7 @@ namespace Ricochet
           sets_recur = true;
       }
     if (!sets_recur)
-      return;
+      return false;
     // How far the traction would be from that of the law without the change (Pa).
     std::vector<double> errors(branch.size(), 0.);
     double              largest = 0.;
@@ -96,6 +95,7 @@ namespace Ricochet
           // Its direction stays, too.
           branch[p].follows_stick = false;
         }
+    return true;
   }
 
 
@@ -105,7 +105,7 @@ namespace Ricochet
     const std::function<double(const unsigned int)> &way_round_off,
     const MPI_Comm                                   communicator)
   {
-    if (!exists() || !law.has_exact_stick)
+    if (!law.has_exact_stick)
       return false;
     at_rest.resize(pressures.size());
     // Tractions, and how much of their changes is no round-off.

@@ -75,8 +75,8 @@ namespace Ricochet
              const double                cell_diameter);
 
     /// Let one point at a time change between stick and slip if sets recur; after evaluate() of
-    /// all points. Collective.
-    void
+    /// all points. @return whether points may have another state now. Collective.
+    bool
     change_worst_only(const MPI_Comm communicator);
 
     /**
