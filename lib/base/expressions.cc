@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <iostream>
 #include <regex>
 
@@ -69,6 +70,28 @@ namespace Ricochet
 
 
 
+    /// Whether @p action, which asks a parser of deal.II, succeeds. deal.II prints what it does
+    /// not understand; we say it in a sentence.
+    bool
+    is_understood(const std::function<void()> &action)
+    {
+      std::streambuf *const terminal   = std::cerr.rdbuf(nullptr);
+      bool                  understood = true;
+      try
+        {
+          action();
+        }
+      catch (const std::exception &)
+        {
+          understood = false;
+        }
+      std::cerr.rdbuf(terminal);
+      std::cerr.clear();
+      return understood;
+    }
+
+
+
     /// Whether random numbers are asked for: rand() or rand_seed().
     bool
     is_random(const std::string &text)
@@ -97,28 +120,18 @@ namespace Ricochet
                          "repeated or resumed: " +
                          text);
     auto new_parser = std::make_shared<dealii::FunctionParser<3>>(texts.size());
-    // deal.II prints what it does not understand; we say it in a sentence.
-    std::streambuf *const terminal = std::cerr.rdbuf(nullptr);
-    bool                  readable = true;
-    try
-      {
-        const bool one = variables.find(',') == std::string::npos;
-        new_parser->initialize((one ? variables + ",unused_1,unused_2"
+    bool readable   = is_understood([&]() {
+      const bool one = variables.find(',') == std::string::npos;
+      new_parser->initialize((one ? variables + ",unused_1,unused_2"
                                     : variables) +
-                                 (of_time ? ",t" : ""),
-                               texts,
-                               {{"pi", dealii::numbers::PI}},
-                               of_time);
-        // The parser looks at an expression when it is first needed.
-        for (unsigned int f = 0; f < texts.size(); ++f)
-          new_parser->value(dealii::Point<3>(), f);
-      }
-    catch (const std::exception &)
-      {
-        readable = false;
-      }
-    std::cerr.rdbuf(terminal);
-    std::cerr.clear();
+                               (of_time ? ",t" : ""),
+                             texts,
+                             {{"pi", dealii::numbers::PI}},
+                             of_time);
+      // The parser looks at an expression when it is first needed.
+      for (unsigned int f = 0; f < texts.size(); ++f)
+        new_parser->value(dealii::Point<3>(), f);
+    });
     for (const std::string &text : texts)
       readable = readable && !has_odd_signs(text);
     if (!readable)
@@ -180,22 +193,12 @@ namespace Ricochet
           throw InputError(
             message + "\nIt may have the columns of energy.csv: " + list + ".");
         }
-    // deal.II prints what it does not understand; we say it in a sentence.
-    std::streambuf *const terminal = std::cerr.rdbuf(nullptr);
-    double                value    = 0.;
-    bool                  readable = !has_odd_signs(text);
-    try
-      {
-        dealii::FunctionParser<1> parser(1);
-        parser.initialize("unused", text, constants);
-        value = parser.value(dealii::Point<1>());
-      }
-    catch (const std::exception &)
-      {
-        readable = false;
-      }
-    std::cerr.rdbuf(terminal);
-    std::cerr.clear();
+    double     value    = 0.;
+    const bool readable = !has_odd_signs(text) && is_understood([&]() {
+      dealii::FunctionParser<1> parser(1);
+      parser.initialize("unused", text, constants);
+      value = parser.value(dealii::Point<1>());
+    });
     if (!readable)
       throw InputError(what +
                        " cannot be read; it is a condition on columns of "

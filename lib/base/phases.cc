@@ -65,6 +65,10 @@ namespace Ricochet
     sections_without(const std::vector<Assignment> &own,
                      const ParameterText           &text)
     {
+      std::vector<std::string> known;
+      for (const ParameterText::Section &one : text.sections)
+        if (one.path.size() == 1 && !begins_with(one.path[0], "Phase "))
+          known.push_back(one.path[0]);
       std::set<std::string> out;
       for (const Assignment &assignment : own)
         if (assignment.path == Path{"Without"})
@@ -73,11 +77,6 @@ namespace Ricochet
             for (const std::string &section :
                  dealii::Utilities::split_string_list(assignment.value, ';'))
               {
-                std::vector<std::string> known;
-                for (const ParameterText::Section &one : text.sections)
-                  if (one.path.size() == 1 &&
-                      !begins_with(one.path[0], "Phase "))
-                    known.push_back(one.path[0]);
                 if (std::find(known.begin(), known.end(), section) ==
                     known.end())
                   {
@@ -116,7 +115,7 @@ namespace Ricochet
           }
       const std::set<std::string> without = sections_without(own, text);
       const auto                  is_out  = [&](const Path &path) {
-        return path.size() > 1 && without.count(path[0]) > 0;
+        return without.count(path[0]) > 0;
       };
 
       ParameterText result;
@@ -143,8 +142,7 @@ namespace Ricochet
               continue;
             if (is_here)
               section.path.erase(section.path.begin());
-            if (section.path.empty() ||
-                (!is_here && without.count(section.path[0]) > 0) ||
+            if (section.path.empty() || (!is_here && is_out(section.path)) ||
                 (is_here && known.count(section.path) > 0))
               continue;
             known.insert(section.path);

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <set>
 #include <stdexcept>
@@ -494,11 +495,17 @@ namespace Ricochet
       return;
     const std::string name = RunFolder::name_of_mesh(section.column_name());
     if (folder.resume)
-      folder.log("the mesh of '" + section.name + "' is the one of " + name);
-    else
-      on_first_rank(folder.communicator, [&]() {
-        write_atomically(folder.file(name), mesh_of_geometry(file, mesh_size));
-      });
+      {
+        // Nothing is touched before the checkpoint has been found to belong to this run.
+        if (std::filesystem::exists(folder.file(name)))
+          folder.log("the mesh of '" + section.name + "' is the one of " +
+                     name);
+        return;
+      }
+    folder.begin();
+    on_first_rank(folder.communicator, [&]() {
+      write_atomically(folder.file(name), mesh_of_geometry(file, mesh_size));
+    });
   }
 
 

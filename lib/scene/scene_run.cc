@@ -360,7 +360,6 @@ namespace Ricochet
 
     for (const Part<dim> &part : assembly.parts)
       loop.part_names.push_back(part.name);
-    folder.begin();
     for (const BodySection<dim> &body : bodies)
       body.keep_mesh(folder);
     loop.run(initial_state);

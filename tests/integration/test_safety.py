@@ -610,10 +610,12 @@ end
         log = (self.folder / "run" / "log.txt").read_text()
         self.assertIn("the mesh of 'block' is the one of mesh_of_block.msh", log)
         (self.folder / "run" / "mesh_of_block.msh").unlink()
+        log = (self.folder / "run" / "log.txt").read_text()
         code, _, error = self.attempt("ricochet", ["Time/Final time=5e-3"], prm=scene,
                                       options=["--resume"])
         self.assertEqual(code, 1, msg=error)
         self.assertIn("belongs to another mesh", " ".join(error.split()))
+        self.assertEqual((self.folder / "run" / "log.txt").read_text(), log)
 
     def test_a_geometry_with_rounded_edges(self):
         """Gmsh makes another mesh of it in each process, as sets of addresses have another order: ranks
