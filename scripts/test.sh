@@ -25,6 +25,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 packages="clang-format"
 [ -z "${1:-}" ] || packages="$packages clang-tidy"
 install_packages
+# The page of a run is looked at in a browser, where there is one.
+packages="chromium"
+(install_packages) || echo "There is no browser, so that the page of a run is not looked at."
 
 if [ "${1:-}" = "--quick" ]; then
   build release

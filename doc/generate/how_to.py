@@ -17,7 +17,9 @@ from . import site, text
 ORDER = (
     "run",
     "scenes",
+    "choose",
     "static",
+    "other_codes",
     "law",
     "material",
     "scheme",

@@ -9,7 +9,7 @@ import os
 import pathlib
 import re
 import subprocess
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ricochet import prm
 
@@ -26,6 +26,11 @@ class Parameter:
     meaning: str
     default: str
     allowed: str = "a text"
+    #: Default and allowed values of a program in 3D, where they are others than in 2D; a parameter
+    #: that is there in one dimension only has `only`.
+    default_in_space: str | None = None
+    allowed_in_space: str | None = None
+    only: str = ""
 
     @property
     def section(self) -> str:
@@ -84,7 +89,30 @@ def declared(program: pathlib.Path) -> list[Parameter]:
     answer = ask(program, "--print-parameters")
     if answer.returncode != 0:
         raise site.SiteError(f"{program} --print-parameters failed: {answer.stderr.strip()}")
-    return parse(answer.stdout)
+    in_plane = parse(answer.stdout)
+    if not any(parameter.name == "Dimension" for parameter in in_plane):
+        return in_plane
+    answer = ask(program, "--print-parameters", "--set", "Dimension=3")
+    return in_both_dimensions(in_plane, parse(answer.stdout))
+
+
+def in_both_dimensions(in_plane: list[Parameter], in_space: list[Parameter]) -> list[Parameter]:
+    """The parameters of a program whose file chooses the dimension."""
+    found = []
+    others = {parameter.name: parameter for parameter in in_space}
+    for parameter in in_plane:
+        other = others.pop(parameter.name, None)
+        if other is None:
+            found.append(replace(parameter, only="2D"))
+        else:
+            found.append(
+                replace(
+                    parameter,
+                    default_in_space=None if other.default == parameter.default else other.default,
+                    allowed_in_space=None if other.allowed == parameter.allowed else other.allowed,
+                )
+            )
+    return found + [replace(parameter, only="3D") for parameter in others.values()]
 
 
 def parse(printed: str) -> list[Parameter]:
@@ -233,7 +261,13 @@ def _page(program: str, parameters: list[Parameter], says: str) -> str:
         rows = [("default", default)]
         if parameter.unit:
             rows.append(("unit", text.escape(parameter.unit)))
+        if parameter.default_in_space is not None:
+            rows.append(("default in 3D", f"<code>{text.escape(parameter.default_in_space)}</code>"))
         rows.append(("allowed", text.escape(parameter.allowed)))
+        if parameter.allowed_in_space is not None:
+            rows.append(("allowed in 3D", text.escape(parameter.allowed_in_space)))
+        if parameter.only:
+            rows.append(("is there", f"in {parameter.only}"))
         rows.append(("set by", _set_by(program, parameter, sections, page)))
         pieces += [
             f"({anchor_of(parameter)}-of-{text.slug(program)})=\n### {text.plain(parameter.last)}",

@@ -133,6 +133,28 @@ def capstan(run):
                    -float(run.table["pull_force_y"][step]) / 10.)]
 
 
+def at(run, column, time):
+    return float(run.table[column][int(np.argmin(np.abs(run.table["time"] - time)))])
+
+
+def twist(run):
+    return [Number("force before the turn, between two bars by hand", .701, .013 / .701,
+                   at(run, "contact_force_joint", 1.)),
+            Number("force after the turn over that before", 1., 2e-3,
+                   last(run, "contact_force_joint") / at(run, "contact_force_joint", 1.)),
+            Number("energy after the turn over that before", 1., 5e-3,
+                   last(run, "elastic_energy") / at(run, "elastic_energy", 1.))]
+
+
+def ironing(run):
+    return [Number("vertical force at the end over that at the start", 1., 1e-6,
+                   last(run, "resultant_y_joint") / at(run, "resultant_y_joint", 1.)),
+            Number("horizontal force at the end over that at the start", -1., 1e-5,
+                   last(run, "resultant_x_joint") / at(run, "resultant_x_joint", 1.)),
+            Number("energy at the end over that at the start", 1., 1e-6,
+                   last(run, "elastic_energy") / at(run, "elastic_energy", 1.))]
+
+
 def slope(run):
     return [Number("normal force", 9218.3846, 1e-6, last(run, "resultant_y_joint")),
             Number("friction", -3355.2176, 1e-6, last(run, "resultant_x_joint"))]
@@ -174,6 +196,8 @@ CASES = {
     "shrink_fit": ("Lamé 1852, shrink fit", shrink_fit),
     "cook": ("Cook 1974, membrane", cook),
     "capstan": ("Euler 1762, capstan", capstan),
+    "twist": ("smith, cubes pressed and turned by 90 degrees", twist),
+    "ironing": ("ironing, mirror image by hand", ironing),
     "slope": ("by hand, block at rest on a slope", slope),
     "stack": ("by hand, stack at rest", stack),
     "arch": ("Heyman 1966, arch at rest", arch),
@@ -184,7 +208,8 @@ VARIANTS = {
              ["Time/Scheme=static", "Time/Final time=0.1", "Time/Time step=0.05"] +
              [f"Contact {joint}/Treatment=standard normal compliance" for joint in JOINTS]),
 }
-QUICK = ("patch_equal", "beam", "hertz_4c", "hertz_ball", "lame", "shrink_fit", "slope", "stack", "arch")
+QUICK = ("patch_equal", "beam", "hertz_4c", "hertz_ball", "lame", "shrink_fit", "ironing", "slope",
+         "stack", "arch")
 
 
 def compute(name, programs, output):

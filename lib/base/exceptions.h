@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace Ricochet
 {
@@ -16,7 +17,27 @@ namespace Ricochet
   class InputError : public std::runtime_error
   {
   public:
-    using std::runtime_error::runtime_error;
+    /// Data for programs that read messages, besides the sentence: see refusal_as_json().
+    struct Details
+    {
+      /// The kind of mistake; the same in each version.
+      std::string code = "input";
+      /// "Section/Name" of the parameter, where it is about one.
+      std::string key = {};
+      /// Names that may be meant, best first.
+      std::vector<std::string> nearest = {};
+    };
+
+    explicit InputError(const std::string &text)
+      : std::runtime_error(text)
+    {}
+
+    InputError(const std::string &text, const Details &details)
+      : std::runtime_error(text)
+      , details(details)
+    {}
+
+    Details details;
   };
 
   /**

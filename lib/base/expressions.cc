@@ -37,39 +37,6 @@ namespace Ricochet
 
 
 
-    /// The words of @p text that are no functions.
-    std::vector<std::string>
-    words(const std::string &text)
-    {
-      const auto is_of_word = [](const char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-      };
-      static const std::regex number(
-        "^([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?");
-      std::vector<std::string> list;
-      for (auto at = text.begin(); at != text.end();)
-        {
-          std::smatch match;
-          if (std::regex_search(at, text.end(), match, number))
-            at += match.length();
-          else if (!is_of_word(*at))
-            ++at;
-          else
-            {
-              const auto end  = std::find_if_not(at, text.end(), is_of_word);
-              const auto next = std::find_if(end, text.end(), [](const char c) {
-                return c != ' ';
-              });
-              if (next == text.end() || *next != '(')
-                list.emplace_back(at, end);
-              at = end;
-            }
-        }
-      return list;
-    }
-
-
-
     /// Whether @p action, which asks a parser of deal.II, succeeds. deal.II prints what it does
     /// not understand; we say it in a sentence.
     bool
@@ -152,15 +119,10 @@ namespace Ricochet
   Condition::Condition(const std::string &text, const std::string &what)
     : text(text)
     , what(what)
-    , names(words(text))
+    , names(names_in(text))
   {
     if (!exists())
       return;
-    if (is_random(text))
-      throw InputError(what +
-                       " has random numbers, with which no run could be "
-                       "repeated or resumed: " +
-                       text);
     std::map<std::string, double> values;
     for (const std::string &name : names)
       values[name] = 1.;
@@ -174,7 +136,7 @@ namespace Ricochet
   {
     if (!exists())
       return false;
-    std::map<std::string, double> constants = {{"pi", dealii::numbers::PI}};
+    std::map<std::string, double> constants;
     for (const std::string &name : names)
       if (const auto value = values.find(name); value != values.end())
         constants.insert(*value);
@@ -193,19 +155,69 @@ namespace Ricochet
           throw InputError(
             message + "\nIt may have the columns of energy.csv: " + list + ".");
         }
-    double     value    = 0.;
-    const bool readable = !has_odd_signs(text) && is_understood([&]() {
+    return value_of(text,
+                    constants,
+                    what +
+                      ", a condition on columns of energy.csv such as "
+                      "'kinetic_energy < 1e-6 && time > 0.1',") != 0.;
+  }
+
+
+
+  std::vector<std::string>
+  names_in(const std::string &expression)
+  {
+    const auto is_of_word = [](const char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+    };
+    static const std::regex number(
+      "^([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?");
+    std::vector<std::string> list;
+    for (auto at = expression.begin(); at != expression.end();)
+      {
+        std::smatch match;
+        if (std::regex_search(at, expression.end(), match, number))
+          at += match.length();
+        else if (!is_of_word(*at))
+          ++at;
+        else
+          {
+            const auto end = std::find_if_not(at, expression.end(), is_of_word);
+            const auto next =
+              std::find_if(end, expression.end(), [](const char c) {
+                return c != ' ';
+              });
+            if (next == expression.end() || *next != '(')
+              list.emplace_back(at, end);
+            at = end;
+          }
+      }
+    return list;
+  }
+
+
+  double
+  value_of(const std::string                   &expression,
+           const std::map<std::string, double> &constants,
+           const std::string                   &what)
+  {
+    if (is_random(expression))
+      throw InputError(what +
+                       " has random numbers, with which no run could be "
+                       "repeated or resumed: " +
+                       expression);
+    std::map<std::string, double> all = constants;
+    all["pi"]                         = dealii::numbers::PI;
+    double     value                  = 0.;
+    const bool readable = !has_odd_signs(expression) && is_understood([&]() {
       dealii::FunctionParser<1> parser(1);
-      parser.initialize("unused", text, constants);
+      parser.initialize("unused", expression, all);
       value = parser.value(dealii::Point<1>());
     });
     if (!readable)
       throw InputError(what +
-                       " cannot be read; it is a condition on columns of "
-                       "energy.csv as muParser knows it, such as "
-                       "'kinetic_energy < 1e-6 && time > 0.1': " +
-                       text);
-    return value != 0.;
+                       " cannot be read as muParser knows it: " + expression);
+    return value;
   }
 
 

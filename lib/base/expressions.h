@@ -81,6 +81,18 @@ namespace Ricochet
     std::vector<std::string> names;
   };
 
+  /// The words of @p expression that are no functions, such as x and pi in "sin(pi*x)".
+  std::vector<std::string>
+  names_in(const std::string &expression);
+
+  /// The value of @p expression (muParser), in which @p constants and pi are known.
+  /// @param what it is, for messages.
+  /// @throws InputError when it cannot be read, or has random numbers.
+  double
+  value_of(const std::string                   &expression,
+           const std::map<std::string, double> &constants,
+           const std::string                   &what);
+
   /// The parts of @p text between semicolons, without blanks around them.
   std::vector<std::string>
   split_expressions(const std::string &text);

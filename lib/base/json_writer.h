@@ -67,15 +67,27 @@ namespace Ricochet
     add(const std::string &name, const double value)
     {
       begin_member(name);
-      if (!std::isfinite(value))
+      write(value);
+    }
+
+    void
+    add(const std::string &name, const std::vector<double> &values)
+    {
+      begin_member(name);
+      text += "[";
+      for (unsigned int k = 0; k < values.size(); ++k)
         {
-          text += "null";
-          return;
+          text += k == 0 ? "" : ", ";
+          write(values[k]);
         }
-      // Locales write other decimal points.
-      char number[32];
-      text.append(number,
-                  std::to_chars(number, number + sizeof(number), value).ptr);
+      text += "]";
+    }
+
+    void
+    add_null(const std::string &name)
+    {
+      begin_member(name);
+      text += "null";
     }
 
     void
@@ -96,6 +108,20 @@ namespace Ricochet
     }
 
   private:
+    void
+    write(const double value)
+    {
+      if (!std::isfinite(value))
+        {
+          text += "null";
+          return;
+        }
+      // Locales write other decimal points.
+      char number[32];
+      text.append(number,
+                  std::to_chars(number, number + sizeof(number), value).ptr);
+    }
+
     void
     begin_line()
     {

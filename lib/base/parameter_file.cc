@@ -32,6 +32,8 @@ namespace Ricochet
       Path                                           path;
       std::unique_ptr<dealii::Patterns::PatternBase> pattern;
       std::string                                    value;
+      std::string                                    documentation;
+      std::string                                    pattern_text;
     };
     using Declarations = std::map<std::string, Declaration>;
 
@@ -75,7 +77,9 @@ namespace Ricochet
               Declaration{name,
                           dealii::Patterns::pattern_factory(
                             child.get<std::string>("pattern_description")),
-                          child.get<std::string>("value")};
+                          child.get<std::string>("value"),
+                          child.get<std::string>("documentation", ""),
+                          child.get<std::string>("pattern_description")};
           else
             collect(child, name, declarations);
         }
@@ -234,14 +238,16 @@ namespace Ricochet
                 message += "\n  " + name;
             }
           message += "\nAll of them: run the program with --print-parameters.";
-          throw InputError(message);
+          throw InputError(message,
+                           {"unknown_parameter", join(path), suggestions});
         }
 
       const Declaration &declaration = entry->second;
       if (path == Path{"Program"} && given_value != declaration.value)
         throw InputError(where + ": this file is for the program '" +
-                         shortened(given_value) + "', not for '" +
-                         declaration.value + "'.");
+                           shortened(given_value) + "', not for '" +
+                           declaration.value + "'.",
+                         {"wrong_program", "Program", {given_value}});
 
       std::string value = given_value;
       if (is_input_file(declaration) && !value.empty())
@@ -252,8 +258,9 @@ namespace Ricochet
 
       if (!declaration.pattern->match(value))
         throw InputError(where + ": the value '" + shortened(value) + "' of '" +
-                         join(path) + "' is not allowed.\nAllowed: " +
-                         allowed_values(*declaration.pattern));
+                           join(path) + "' is not allowed.\nAllowed: " +
+                           allowed_values(*declaration.pattern),
+                         {"value_not_allowed", join(path)});
 
       for (unsigned int i = 0; i + 1 < path.size(); ++i)
         parameters.enter_subsection(path[i]);
@@ -303,7 +310,8 @@ namespace Ricochet
         included_from.empty() ? "" : included_from + ": ";
       const auto refuse = [&](const std::string &why) {
         throw InputError(origin + "the parameter file '" +
-                         shortened(file_name) + "' " + why + ".");
+                           shortened(file_name) + "' " + why + ".",
+                         {"unreadable_file"});
       };
       std::error_code error;
       if (!fs::exists(file_name, error))
@@ -330,7 +338,8 @@ namespace Ricochet
         }
       catch (const InputError &problem)
         {
-          throw InputError(origin + "the parameter file " + problem.what());
+          throw InputError(origin + "the parameter file " + problem.what(),
+                           {"unreadable_file"});
         }
       // Some editors begin a file with a mark of its encoding.
       if (text.compare(0, 3, "\xEF\xBB\xBF") == 0)
@@ -372,7 +381,8 @@ namespace Ricochet
           else if (line == "end")
             {
               if (section.empty())
-                throw InputError(where + ": this 'end' closes no subsection.");
+                throw InputError(where + ": this 'end' closes no subsection.",
+                                 {"syntax"});
               section.pop_back();
             }
           else if (keyword == "include" && !rest.empty())
@@ -393,11 +403,12 @@ namespace Ricochet
                 {path, trim(rest.substr(equal + 1)), where, folder});
             }
           else
-            throw InputError(where + ": cannot make sense of '" +
-                             shortened(line) +
-                             "'.\nA line is 'subsection NAME', 'set NAME = "
-                             "VALUE', 'end', 'include FILE' or a comment that "
-                             "starts with '#'.");
+            throw InputError(
+              where + ": cannot make sense of '" + shortened(line) +
+                "'.\nA line is 'subsection NAME', 'set NAME = "
+                "VALUE', 'end', 'include FILE' or a comment that "
+                "starts with '#'.",
+              {"syntax"});
         }
       if (!section.empty())
         {
@@ -407,8 +418,9 @@ namespace Ricochet
                          reading.text.sections.rend(),
                          [&](const auto &one) { return one.path == section; });
           throw InputError(opened->where + ": the subsection '" +
-                           shortened(join(section)) +
-                           "' is never closed with 'end'.");
+                             shortened(join(section)) +
+                             "' is never closed with 'end'.",
+                           {"syntax"});
         }
       reading.open_files.pop_back();
     }
@@ -462,6 +474,9 @@ namespace Ricochet
     for (const auto &[name, declaration] : declarations_of(parameters))
       {
         list.push_back({name, declaration.value, is_input_file(declaration)});
+        list.back().path          = declaration.path;
+        list.back().documentation = declaration.documentation;
+        list.back().pattern       = declaration.pattern_text;
         if (!dynamic_cast<const dealii::Patterns::Anything *>(
               declaration.pattern.get()))
           list.back().allowed = allowed_values(*declaration.pattern);

@@ -41,6 +41,11 @@ namespace Ricochet
     bool is_input_file = false;
     /// Allowed values, in deal.II's words; empty if any value is allowed.
     std::string allowed = {};
+    /// The names of its sections and its own.
+    std::vector<std::string> path          = {};
+    std::string              documentation = {};
+    /// Description of its pattern as dealii::Patterns::pattern_factory() reads it.
+    std::string pattern = {};
   };
 
   /// Contents of parameter files and command line, before any parameter is

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <algorithm>
 #include <set>
 
@@ -15,15 +17,9 @@ namespace Ricochet
     using Assignment = ParameterText::Assignment;
 
     bool
-    begins_with(const std::string &text, const std::string &beginning)
-    {
-      return text.compare(0, beginning.size(), beginning) == 0;
-    }
-
-    bool
     is_of_phase(const Path &path)
     {
-      return path.size() > 1 && begins_with(path.front(), "Phase ");
+      return path.size() > 1 && boost::starts_with(path.front(), "Phase ");
     }
 
     /// Without the section of the phase.
@@ -39,7 +35,7 @@ namespace Ricochet
     is_of_start(const Path &path)
     {
       return path == Path{"Start", "Advance"} ||
-        (path.size() == 2 && begins_with(path[0], "Body ") &&
+        (path.size() == 2 && boost::starts_with(path[0], "Body ") &&
          (path[1] == "Velocity" || path[1] == "Spin"));
     }
 
@@ -67,7 +63,7 @@ namespace Ricochet
     {
       std::vector<std::string> known;
       for (const ParameterText::Section &one : text.sections)
-        if (one.path.size() == 1 && !begins_with(one.path[0], "Phase "))
+        if (one.path.size() == 1 && !boost::starts_with(one.path[0], "Phase "))
           known.push_back(one.path[0]);
       std::set<std::string> out;
       for (const Assignment &assignment : own)
@@ -138,7 +134,7 @@ namespace Ricochet
           {
             const bool is_here = section.path[0] == heading;
             if (is_own != is_here ||
-                (!is_here && begins_with(section.path[0], "Phase ")))
+                (!is_here && boost::starts_with(section.path[0], "Phase ")))
               continue;
             if (is_here)
               section.path.erase(section.path.begin());
@@ -163,7 +159,7 @@ namespace Ricochet
       {
         const std::string &heading = section.path.front();
         if (section.path.size() > 1 ||
-            (heading != "Phase" && !begins_with(heading, "Phase ")))
+            (heading != "Phase" && !boost::starts_with(heading, "Phase ")))
           continue;
         Phase phase;
         phase.name = name_in(heading, section.where);

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/alike_sections.h>
+#include <base/commit.h>
+#include <base/json_writer.h>
 #include <base/last_meeting.h>
 #include <base/parameter_file.h>
+#include <base/parameter_schema.h>
 #include <base/one_rank.h>
 #include <base/program.h>
 #include <base/threads.h>
+#include <base/variables.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -57,6 +62,8 @@ namespace Ricochet
           command_line.table = argument;
         else if (argument == "--quiet")
           command_line.quiet = true;
+        else if (argument == "--json")
+          command_line.json = true;
         else if (argument == "--help" || argument == "-h")
           command_line.help = true;
         else if (argument == "--version")
@@ -76,12 +83,14 @@ namespace Ricochet
                                                  "--promises",
                                                  "--combinations",
                                                  "--quiet",
+                                                 "--json",
                                                  "--help",
                                                  "--version"},
                                              1);
             if (!names.empty())
               message += " Is " + names[0] + " meant?";
-            throw InputError(message + " See --help.");
+            throw InputError(message + " See --help.",
+                             {"unknown_option", argument, names});
           }
         else if (command_line.parameter_file.empty())
           command_line.parameter_file = argument;
@@ -125,6 +134,7 @@ namespace Ricochet
         of_tables +
         "  --quiet                     no lines on the console (log.txt has "
         "them)\n"
+        "  --json                      refusals, --validate and --print-parameters as JSON\n"
         "  --help, --version\n"
         "Without FILE.prm all parameters have their default values.\n"
         "In parallel: mpirun -n N " +
@@ -194,7 +204,8 @@ namespace Ricochet
             last->value + "' and has no effect: it belongs to " +
             unused.belongs_to + ".";
           if (last->on_command_line)
-            throw InputError(last->where + ": " + text);
+            throw InputError(last->where + ": " + text,
+                             {"no_effect", unused.name});
           notes.push_back("note: " + last->where + ": " + text);
         }
       return notes;
@@ -261,6 +272,47 @@ namespace Ricochet
 
 
 
+    /// The same as a JSON Schema; where the file chooses the dimension, for both.
+    std::string
+    schema_of_parameters(const Program &program, const ParameterText &text)
+    {
+      const auto in_dimension = [&](const std::string &dimension) {
+        ParameterText own = text;
+        own.assignments.push_back({{"Dimension"}, dimension, "", "."});
+        return Input(program, own);
+      };
+      JsonWriter json;
+      json.add("$schema", "https://json-schema.org/draft/2020-12/schema");
+      json.add("title", "parameters of " + program.name);
+      const Input any(program, text);
+      const auto  all = list_parameters(any.parameters);
+      if (std::none_of(all.begin(), all.end(), [](const ParameterValue &one) {
+            return one.name == "Dimension";
+          }))
+        {
+          add_schema(any.parameters, json);
+          return json.finished();
+        }
+      json.begin_object("if");
+      json.begin_object("properties");
+      json.begin_object("Dimension");
+      json.add("const", "3");
+      json.end_object();
+      json.end_object();
+      json.add("required", std::vector<std::string>{"Dimension"});
+      json.end_object();
+      for (const auto &[name, dimension] :
+           {std::pair<std::string, std::string>{"then", "3"}, {"else", "2"}})
+        {
+          json.begin_object(name);
+          add_schema(in_dimension(dimension).parameters, json);
+          json.end_object();
+        }
+      return json.finished();
+    }
+
+
+
     /// The answer to `--validate`.
     std::string
     description(const Program                  &program,
@@ -300,7 +352,8 @@ namespace Ricochet
         }
       catch (const InputError &problem)
         {
-          throw InputError("Phase " + name + ": " + problem.what());
+          throw InputError("Phase " + name + ": " + problem.what(),
+                           problem.details);
         }
     }
 
@@ -473,24 +526,36 @@ namespace Ricochet
       if (command_line.version)
         {
           print(program.name + " of Ricochet " + RICOCHET_VERSION + " (" +
-                RICOCHET_BUILD_TYPE + "), deal.II " + DEAL_II_PACKAGE_VERSION +
-                "\n");
+                RICOCHET_BUILD_TYPE + "), commit " + commit() + ", deal.II " +
+                DEAL_II_PACKAGE_VERSION + "\n");
           return no_run;
         }
 
+      if (command_line.json && command_line.print_parameters &&
+          !command_line.parameter_file.empty())
+        throw InputError(
+          "--print-parameters --json describes all sections that a file may "
+          "have, and takes none.");
       ParameterText text;
       if (!command_line.parameter_file.empty())
         text = parse_parameter_file(command_line.parameter_file);
       for (const std::string &assignment : command_line.assignments)
         text.assignments.push_back(parse_assignment(assignment));
-      const std::vector<Phase> phases = program.join_phases
+      std::vector<Phase> phases = program.join_phases
         ? phases_of(text)
         : std::vector<Phase>{{"", text, ""}};
+      for (Phase &phase : phases)
+        in_phase(phase.name, [&phase]() {
+          phase.text = with_alike_sections(with_variables(phase.text));
+        });
 
       // Every phase is checked before any time is spent.
       std::unique_ptr<Input>   checked;
       std::vector<std::string> notes;
       std::string              answer, output_dir = command_line.output_dir;
+      JsonWriter               json_answer;
+      json_answer.add("valid", true);
+      json_answer.begin_object("phases");
       for (unsigned int k = 0; k < phases.size(); ++k)
         in_phase(phases[k].name, [&]() {
           checked =
@@ -508,13 +573,15 @@ namespace Ricochet
           if (k == 0 && command_line.resume && program.take_meshes)
             program.take_meshes(
               (fs::path(output_dir) / phases[k].folder).string());
-          if (!phases[k].name.empty())
+          if (!phases[k].name.empty() && !command_line.json)
             answer += std::string(k > 0 ? "\n" : "") +
               (command_line.print_parameters ? "# " : "") + "Phase " +
               phases[k].name + "\n";
           if (command_line.print_parameters)
             {
-              answer += table_of_parameters(*checked);
+              answer += command_line.json
+                ? schema_of_parameters(program, phases[k].text)
+                : table_of_parameters(*checked);
               return;
             }
           notes = checked->validate(program);
@@ -524,11 +591,22 @@ namespace Ricochet
               "Output/Checkpoint every = 0 cannot be combined "
               "with phases, each of which begins at the last "
               "checkpoint of the one before.");
-          if (command_line.validate_only)
-            answer += description(program, notes, command_line.output_dir);
+          if (!command_line.validate_only)
+            return;
+          const std::string text =
+            description(program, notes, command_line.output_dir);
+          answer += text;
+          json_answer.begin_object(phases[k].name.empty() ? program.name
+                                                          : phases[k].name);
+          json_answer.add("lines",
+                          dealii::Utilities::split_string_list(text, '\n'));
+          json_answer.add("notes", notes);
+          json_answer.end_object();
         });
+      json_answer.end_object();
       if (command_line.validate_only)
-        answer = "The parameters are valid.\n" + answer;
+        answer = command_line.json ? json_answer.finished()
+                                   : "The parameters are valid.\n" + answer;
       if (command_line.validate_only || command_line.print_parameters)
         {
           print(answer);
@@ -637,11 +715,21 @@ namespace Ricochet
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
 
     const LastMeeting meeting;
-    const auto report = [&](const std::string &kind, const std::string &text) {
-      std::cerr << "\n"
-                << program.name << ": " << kind << "\n"
-                << text << "\n"
-                << std::endl;
+    const bool        as_json =
+      std::any_of(argv + 1, argv + argc, [](const char *word) {
+        return std::string(word) == "--json";
+      });
+    const auto report = [&](const std::string         &kind,
+                            const std::string         &text,
+                            const int                  code,
+                            const InputError::Details &details) {
+      if (as_json)
+        std::cerr << refusal_as_json(text, details, code) << std::flush;
+      else
+        std::cerr << "\n"
+                  << program.name << ": " << kind << "\n"
+                  << text << "\n"
+                  << std::endl;
     };
     // Possibly on one rank only: the others must not wait for ever.
     const auto stop_all_ranks = [](const int code) {
@@ -650,13 +738,15 @@ namespace Ricochet
       return code;
     };
     // Where all ranks have failed, one of them says so and each of them ends.
-    const auto fail =
-      [&](const int code, const std::string &kind, const std::string &text) {
-        const bool all_failed = LastMeeting::is_complete();
-        if (is_root || !all_failed)
-          report(kind, text);
-        return all_failed ? code : stop_all_ranks(code);
-      };
+    const auto fail = [&](const int                  code,
+                          const std::string         &kind,
+                          const std::string         &text,
+                          const InputError::Details &details) {
+      const bool all_failed = LastMeeting::is_complete();
+      if (is_root || !all_failed)
+        report(kind, text, code, details);
+      return all_failed ? code : stop_all_ranks(code);
+    };
     const auto run = [&]() {
       try
         {
@@ -671,30 +761,41 @@ namespace Ricochet
               if (is_root)
                 report(
                   "the run is complete, but its energy is not what it says.",
-                  lines);
+                  lines,
+                  4,
+                  {"open_energy"});
               return 4;
             }
         }
       catch (const StoppedBySignal &stop)
         {
           if (is_root)
-            report("stopped by a signal.", stop.what());
+            report("stopped by a signal.",
+                   stop.what(),
+                   128 + stop.signal,
+                   {"signal"});
           return 128 + stop.signal;
         }
       catch (const InputError &error)
         {
-          return fail(1, "the input is not valid.", error.what());
+          return fail(1,
+                      "the input is not valid.",
+                      error.what(),
+                      error.details);
         }
       catch (const ComputationError &error)
         {
-          return fail(2, "the computation stopped.", error.what());
+          return fail(2,
+                      "the computation stopped.",
+                      error.what(),
+                      {"computation"});
         }
       catch (const std::bad_alloc &)
         {
-          std::cerr << "\n"
-                    << program.name << ": the computation stopped.\n"
-                    << "There is not enough memory.\n"
-                    << std::endl;
+          report("the computation stopped.",
+                 "There is not enough memory.",
+                 2,
+                 {"memory"});
           return stop_all_ranks(2);
         }
       catch (const std::exception &error)

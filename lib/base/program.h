@@ -30,6 +30,7 @@ namespace Ricochet
     bool                     help             = false;
     bool                     version          = false;
     bool                     quiet            = false;
+    bool                     json             = false;
     /// An option of Program::tables; empty for none.
     std::string table;
   };
@@ -92,12 +93,14 @@ namespace Ricochet
    *
    *     NAME [FILE.prm] [--set "Section/Name=value"]... [--output-dir DIR]
    *          [--overwrite] [--resume] [--validate] [--print-parameters]
-   *          [--quiet] [--help] [--version]
+   *          [--quiet] [--json] [--help] [--version]
    *
    * A parameter without effect is refused when it is set on the command line, and
    * noted in the log when a file sets it: files set what belongs together.
    *
-   * Errors are printed once, by rank 0, without a stack trace.
+   * Errors are printed once, by rank 0, without a stack trace. With `--json` they are as
+   * refusal_as_json() has them, and so are the answers to `--validate` and
+   * `--print-parameters`.
    *
    * @return the exit code: 0 success, 1 InputError, 2 ComputationError,
    * 3 anything else (a bug), 4 a complete run whose balance or promise is open, see

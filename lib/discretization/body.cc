@@ -4,6 +4,7 @@
 #include <base/parameter_file.h>
 #include <discretization/body.h>
 #include <discretization/boundary_dofs.h>
+#include <discretization/nearest_vertex.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -120,7 +121,8 @@ namespace Ricochet
                   const MPI_Comm                  communicator,
                   const HeldComponents           &held,
                   const Mapping<dim>             *curved,
-                  const std::vector<BoundaryIds> &multiplier_sets)
+                  const std::vector<BoundaryIds> &multiplier_sets,
+                  const Vertices                 &vertices)
     : communicator(communicator)
     , displacement_dofs(triangulation)
     , multiplier_dofs(triangulation)
@@ -182,6 +184,12 @@ namespace Ricochet
       }
     displacement_dofs.distribute_dofs(*displacement_element);
     number_multipliers();
+    for (const auto &[id, vertex] : vertices)
+      unknowns_of_vertices[id] = unknowns_of_nearest_vertex(*this,
+                                                            vertex.place,
+                                                            vertex.n_parts,
+                                                            vertex.begin,
+                                                            vertex.end);
 
     IndexSet clamped =
       owned_system_indices(boundary_dofs(displacement_dofs, clamped_ids));
@@ -219,6 +227,14 @@ namespace Ricochet
   Body<dim>::boundary_displacements(const types::boundary_id id,
                                     const unsigned int       component) const
   {
+    if (const auto vertex = unknowns_of_vertices.find(id);
+        vertex != unknowns_of_vertices.end())
+      {
+        IndexSet set(owned.size());
+        if (!vertex->second.empty())
+          set.add_index(vertex->second[component]);
+        return set;
+      }
     ComponentMask mask(dim, false);
     mask.set(component, true);
     return owned_system_indices(

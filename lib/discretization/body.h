@@ -58,6 +58,17 @@ namespace Ricochet
     using HeldComponents =
       std::map<dealii::types::boundary_id, std::array<bool, dim>>;
 
+    /// One vertex that has an id as a part of the boundary does, for conditions: the nearest
+    /// one to a place, of some parts.
+    struct Vertex
+    {
+      /// m
+      dealii::Point<dim> place;
+      /// Parts from the first to before the last one, of so many.
+      unsigned int begin = 0, end = 1, n_parts = 1;
+    };
+    using Vertices = std::map<dealii::types::boundary_id, Vertex>;
+
     /**
      * @param triangulation any of deal.II's, all cells of the same kind.
      * @param degree polynomial degree of the displacement.
@@ -69,6 +80,7 @@ namespace Ricochet
      * displacement of degree 2; null for cells with straight edges.
      * @param multiplier_sets the boundary ids with multipliers: a node that several
      * contacts hold has those of several sets. One set with all ids of @p contact if empty.
+     * @param vertices with ids of their own, which the mesh does not have.
      */
     Body(const dealii::Triangulation<dim> &triangulation,
          const unsigned int                degree,
@@ -78,7 +90,8 @@ namespace Ricochet
          const MPI_Comm                    communicator,
          const HeldComponents             &held            = {},
          const dealii::Mapping<dim>       *curved          = nullptr,
-         const std::vector<BoundaryIds>   &multiplier_sets = {});
+         const std::vector<BoundaryIds>   &multiplier_sets = {},
+         const Vertices                   &vertices        = {});
 
     /// System index of displacement DoF @p i of the DoFHandler.
     dealii::types::global_dof_index
@@ -237,8 +250,15 @@ namespace Ricochet
       return contact_ids;
     }
 
+    /// Whether @p id is that of a vertex.
+    bool
+    is_vertex(const dealii::types::boundary_id id) const
+    {
+      return unknowns_of_vertices.count(id) > 0;
+    }
+
     /// Owned system indices of the displacements in direction @p component of nodes
-    /// on the boundary @p id. Collective.
+    /// on the boundary @p id, or of the vertex with that id. Collective.
     dealii::IndexSet
     boundary_displacements(const dealii::types::boundary_id id,
                            const unsigned int               component) const;
@@ -305,6 +325,11 @@ namespace Ricochet
     std::vector<dealii::types::global_dof_index> rank_shift;
     std::map<dealii::types::global_dof_index, dealii::types::global_dof_index>
       multiplier_index;
+
+    /// Owned unknowns of the vertices that have ids.
+    std::map<dealii::types::boundary_id,
+             std::vector<dealii::types::global_dof_index>>
+      unknowns_of_vertices;
 
     dealii::IndexSet owned, relevant, contact_displacements, owned_multipliers;
     Constraints      prescribed;

@@ -6,15 +6,6 @@
 
 namespace Ricochet
 {
-  /// Whether @p a is nearer than @p b to @p point or, where both are as near to nine digits,
-  /// has the lower coordinates, of which x counts first: the same vertex on any mesh and
-  /// any number of ranks.
-  template <int dim>
-  bool
-  is_nearer(const dealii::Point<dim> &a,
-            const dealii::Point<dim> &b,
-            const dealii::Point<dim> &point);
-
   /// Values of system vectors in the vertex that is nearest to a given point,
   /// by is_nearer().
   template <int dim>
@@ -41,7 +32,7 @@ namespace Ricochet
     const MPI_Comm communicator;
     // System indices of the node's displacements on the rank that owns them;
     // empty on all others.
-    std::vector<dealii::types::global_dof_index> indices;
+    const std::vector<dealii::types::global_dof_index> indices;
   };
 } // namespace Ricochet
 

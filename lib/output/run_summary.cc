@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/commit.h>
 #include <base/files.h>
 #include <base/json_writer.h>
 #include <output/run_summary.h>
@@ -8,6 +9,8 @@
 #include <cstdio>
 #include <ctime>
 #include <limits>
+
+#include <unistd.h>
 
 namespace Ricochet
 {
@@ -33,6 +36,15 @@ namespace Ricochet
       ::gmtime_r(&time, &parts);
       std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &parts);
       return text;
+    }
+
+    /// Name of this machine.
+    std::string
+    host()
+    {
+      char name[256] = "";
+      ::gethostname(name, sizeof(name) - 1);
+      return name;
     }
   } // namespace
 
@@ -168,6 +180,7 @@ namespace Ricochet
     json.add("format", 1U);
     json.add("program", options.program);
     json.add("version", options.version);
+    json.add("commit", commit());
     json.add("command_line", options.command_line);
     json.begin_object("input");
     json.add("parameter_file", options.parameter_file);
@@ -182,6 +195,8 @@ namespace Ricochet
       json.add("reason", circumstances.reason);
     json.add("finished", now());
     json.add("wall_seconds", circumstances.wall_seconds);
+    json.add("processor_seconds", circumstances.processor_seconds);
+    json.add("host", host());
     json.add("ranks", circumstances.n_ranks);
     json.add("linear_solver", circumstances.linear_solver);
     json.end_object();

@@ -27,9 +27,10 @@ namespace Ricochet
       std::string state = "complete", reason;
       /// Final time that was asked for, and the length of a step (s).
       double final_time = 0., time_step = 0.;
-      /// Wall time of the steps of this start of the program (s).
-      double       wall_seconds = 0.;
-      unsigned int n_ranks      = 1;
+      /// Wall time of the steps of this start of the program (s), and the time of the
+      /// processors of all ranks.
+      double       wall_seconds = 0., processor_seconds = 0.;
+      unsigned int n_ranks = 1;
       std::string  mesh_checksum, linear_solver;
       /// How many steps were solved in which way.
       std::string solved_by;

@@ -230,6 +230,10 @@ namespace Ricochet
         ids.insert(spring.boundary_id);
       for (const BoundaryPressure<dim> &pressure : setup.pressures)
         ids.insert(pressure.boundary_id);
+      for (const ResultantLoad<dim> &load : setup.resultants)
+        ids.insert(load.ids.begin(), load.ids.end());
+      for (const auto &vertex : setup.vertices)
+        ids.erase(vertex.first);
       return ids;
     }
 
@@ -643,6 +647,8 @@ namespace Ricochet
         terms.push_back(setup.load);
       for (const auto &[id, traction] : setup.tractions)
         terms.push_back(boundary_load(body, id, traction));
+      for (const ResultantLoad<dim> &load : setup.resultants)
+        terms.push_back(resultant_load(body, load));
       const bool any = std::any_of(setup.parts.begin(),
                                    setup.parts.end(),
                                    [](const Part<dim> &part) {
@@ -705,7 +711,8 @@ namespace Ricochet
            communicator,
            held_components(setup),
            setup.geometry.get(),
-           multiplier_sets(contacts))
+           multiplier_sets(contacts),
+           setup.vertices)
     , bulk(make_bulk(body,
                      setup,
                      parameters.scheme.name,

@@ -6,6 +6,7 @@
 #include <discretization/boundary_springs.h>
 #include <discretization/bulk_operator.h>
 #include <discretization/follower_pressure.h>
+#include <discretization/resultant_load.h>
 #include <materials/material.h>
 #include <output/checkpoint.h>
 #include <problems/impact_parameters.h>
@@ -105,6 +106,10 @@ namespace Ricochet
     std::map<dealii::types::boundary_id, ImposedDisplacement<dim>> imposed = {};
     /// Tractions on the undeformed boundary (Pa), by boundary id.
     std::map<dealii::types::boundary_id, VectorField<dim>> tractions = {};
+    /// Forces and moments on parts of the boundary, and forces on vertices.
+    std::vector<ResultantLoad<dim>> resultants = {};
+    /// Vertices with ids of their own, for conditions.
+    typename Body<dim>::Vertices vertices = {};
     /// Pressures that follow the surface.
     std::vector<BoundaryPressure<dim>> pressures = {};
     /// The bodies start with displacements, see Impact::state_from().

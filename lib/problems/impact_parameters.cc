@@ -46,24 +46,7 @@ namespace Ricochet
                       redistributed_mass(),
                       linear_material,
                       velocity_force);
-    validate_times();
-  }
-
-
-
-  void
-  ImpactParameters::validate_times() const
-  {
-    // Refuses what cannot be read.
-    Condition(time.until, "Time/Until");
-    if (time.final_time > 1e8 * time.time_step)
-      throw InputError("The final time " + to_text(time.final_time) +
-                       " is more than 1e8 time steps of " +
-                       to_text(time.time_step) + " away.");
-    if (time.time_step > (1. + 1e-9) * time.final_time)
-      throw InputError("The time step " + to_text(time.time_step) +
-                       " is longer than the whole run of " +
-                       to_text(time.final_time) + ".");
+    time.validate();
   }
 
 

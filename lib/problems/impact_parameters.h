@@ -40,10 +40,6 @@ namespace Ricochet
     std::vector<UnusedParameter>
     unused_parameters() const;
 
-    /// Refuse steps that do not go with the final time. @throws InputError
-    void
-    validate_times() const;
-
     /// Refuse runs that do not fit into memory: SizeLimit::check() for the
     /// number of steps of the run.
     void

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -52,6 +53,17 @@ namespace Ricochet
                              "Write VTU files every so many steps; 0 for "
                              "never.",
                              Patterns::Integer(0));
+    parameters.add_parameter(
+      "Fields at",
+      fields_at,
+      "Write VTU files also at these times (s), separated by commas: "
+      "at the end of the step that reaches each of them.");
+    parameters.add_parameter(
+      "Fields when",
+      fields_when,
+      "Write VTU files also at the end of each step at which this condition on columns of "
+      "energy.csv is true (see Time/Until), such as 'contact_force_floor > 0'.",
+      Patterns::Anything());
     parameters.add_parameter("Checkpoint every",
                              checkpoint_every,
                              "Write a checkpoint every so many steps and at "
@@ -77,6 +89,29 @@ namespace Ricochet
                              timing,
                              "At the end, print where the time was spent.");
     parameters.leave_subsection();
+  }
+
+
+
+  void
+  TimeLoop::Parameters::validate() const
+  {
+    // Refuses what cannot be read.
+    Condition(until, "Time/Until");
+    Condition(fields_when, "Output/Fields when");
+    if (final_time > 1e8 * time_step)
+      throw InputError("The final time " + to_text(final_time) +
+                       " is more than 1e8 time steps of " + to_text(time_step) +
+                       " away.");
+    if (time_step > (1. + 1e-9) * final_time)
+      throw InputError("The time step " + to_text(time_step) +
+                       " is longer than the whole run of " +
+                       to_text(final_time) + ".");
+    for (const double time : fields_at)
+      if (time < 0. || time > final_time + time_step)
+        throw InputError("Output/Fields at has the time " + to_text(time) +
+                         ", which is not in the run from 0 to " +
+                         to_text(final_time) + ".");
   }
 
 
@@ -132,6 +167,7 @@ namespace Ricochet
     const Units                                             &units)
     : parameters(parameters)
     , until(parameters.until, "Time/Until")
+    , fields_when(parameters.fields_when, "Output/Fields when")
     , folder(folder)
     , system(system)
     , scheme(scheme)
@@ -332,6 +368,34 @@ namespace Ricochet
 
 
   StepReport
+  TimeLoop::step(const State       &old_state,
+                 const double       time_step,
+                 const unsigned int n_halvings_so_far,
+                 State             &new_state)
+  {
+    try
+      {
+        return scheme.step(system, old_state, time_step, new_state);
+      }
+    catch (const NewtonFailure &)
+      {
+        if (!scheme.has_last_resort() ||
+            n_halvings_so_far < parameters.max_halvings)
+          throw;
+      }
+    const StepReport report =
+      scheme.step_of_last_resort(system, old_state, time_step, new_state);
+    folder.log(
+      "note: Newton's method found no equilibrium at t = " +
+      units.text(new_state.time, "s") +
+      ", pseudo-transient continuation did; a motion to it would lose " +
+      units.text(report.numerical_dissipation, "J"));
+    return report;
+  }
+
+
+
+  StepReport
   TimeLoop::advance(const State       &old_state,
                     const double       time_step,
                     const unsigned int n_halvings_so_far,
@@ -340,7 +404,7 @@ namespace Ricochet
     try
       {
         StepReport report =
-          scheme.step(system, old_state, time_step, new_state);
+          step(old_state, time_step, n_halvings_so_far, new_state);
         if (obstacle_work && system.contact.traits().has_moving_obstacles)
           {
             const auto forces_of = [](const State &state) {
@@ -839,7 +903,7 @@ namespace Ricochet
     careful([&]() { save(state, step, sums_of_state); });
     careful([&]() { ledger.write_hdf5(); });
     careful([&]() { write_summary("failed", known_problem, wall_seconds); });
-    if (write_fields && parameters.fields_every > 0)
+    if (write_fields && parameters.wants_fields())
       careful([&]() { write_fields(state, step); });
     return problems;
   }
@@ -889,9 +953,9 @@ namespace Ricochet
 
 
   bool
-  TimeLoop::is_at_end() const
+  TimeLoop::is_true_now(const Condition &condition) const
   {
-    if (!until.exists())
+    if (!condition.exists())
       return false;
     std::map<std::string, double> values;
     for (unsigned int i = 0; i < ledger.columns().size(); ++i)
@@ -904,7 +968,25 @@ namespace Ricochet
           '_');
         values.emplace(name, ledger.rows().back()[i]);
       }
-    return until.is_true(values);
+    return condition.is_true(values);
+  }
+
+
+
+  bool
+  TimeLoop::are_fields_due(const State &state, const unsigned int step) const
+  {
+    const double begin = state.time - parameters.time_step,
+                 slack = 1e-9 * parameters.time_step;
+    // The condition is looked at in any case: at the start it is refused if it names what is
+    // not there.
+    return is_true_now(fields_when) ||
+      (parameters.fields_every > 0 && step % parameters.fields_every == 0) ||
+      std::any_of(parameters.fields_at.begin(),
+                  parameters.fields_at.end(),
+                  [&](const double time) {
+                    return time > begin + slack && time <= state.time + slack;
+                  });
   }
 
 
@@ -912,8 +994,7 @@ namespace Ricochet
   void
   TimeLoop::write_fields_if_due(const State &state, const unsigned int step)
   {
-    if (write_fields && parameters.fields_every > 0 &&
-        step % parameters.fields_every == 0)
+    if (write_fields && are_fields_due(state, step))
       write_fields(state, step);
   }
 
@@ -1000,6 +1081,18 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    /// Time of all processors that this process has taken (s).
+    double
+    processor_seconds()
+    {
+      return std::clock() / static_cast<double>(CLOCKS_PER_SEC);
+    }
+  } // namespace
+
+
+
   void
   TimeLoop::write_summary(const std::string &state,
                           const std::string &reason,
@@ -1017,6 +1110,8 @@ namespace Ricochet
                       parameters.final_time,
                       parameters.time_step,
                       wall_seconds,
+                      Utilities::MPI::sum(processor_seconds(),
+                                          folder.communicator),
                       Utilities::MPI::n_mpi_processes(folder.communicator),
                       text,
                       system.linear_solver_description(),
@@ -1130,7 +1225,7 @@ namespace Ricochet
     State        state = initial_state;
     unsigned int step  = begin(state, n_steps);
     // Also at the start, where it must be readable and need not be false.
-    bool is_over = is_at_end() && step > 0;
+    bool is_over = is_true_now(until) && step > 0;
     folder.log(log_head());
     if (parameters.newton_table)
       log_newton_tables();
@@ -1173,7 +1268,7 @@ namespace Ricochet
             const TimerOutput::Scope scope(timer, "fields and checkpoints");
             write_fields_if_due(state, step);
             signal             = StopRequest::signal(folder.communicator);
-            is_over            = is_at_end();
+            is_over            = is_true_now(until);
             const bool is_last = step == n_steps || is_over || signal != 0;
             if ((parameters.checkpoint_every > 0 &&
                  (step % parameters.checkpoint_every == 0 || is_last)) ||

@@ -32,10 +32,14 @@ namespace Ricochet
     {
       double final_time = 12.;
       /// See Condition; of the columns of the ledger.
-      std::string  until            = "";
-      double       time_step        = .05;
-      unsigned int max_halvings     = 4;
-      unsigned int fields_every     = 10;
+      std::string  until        = "";
+      double       time_step    = .05;
+      unsigned int max_halvings = 4;
+      unsigned int fields_every = 10;
+      /// Fields are also due at the end of the step that reaches one of these times (s),
+      std::vector<double> fields_at = {};
+      /// and of each step at whose end this is true; see Condition.
+      std::string  fields_when      = "";
       unsigned int checkpoint_every = 0;
       /// min
       double       checkpoint_minutes = 10.;
@@ -45,6 +49,18 @@ namespace Ricochet
 
       void
       add_parameters(dealii::ParameterHandler &parameters);
+
+      /// @throws InputError for conditions that cannot be read, and times and steps that do not
+      /// go with each other.
+      void
+      validate() const;
+
+      /// Whether fields are ever due.
+      bool
+      wants_fields() const
+      {
+        return fields_every > 0 || !fields_at.empty() || !fields_when.empty();
+      }
     };
 
     /**
@@ -135,6 +151,14 @@ namespace Ricochet
     }
 
   private:
+    /// One step of the scheme, or of its last resort where it may not be halved.
+    /// @throws NewtonFailure
+    StepReport
+    step(const State       &old_state,
+         const double       time_step,
+         const unsigned int n_halvings_so_far,
+         State             &new_state);
+
     /// One step of length @p time_step, as two of half the length if need be.
     StepReport
     advance(const State       &old_state,
@@ -208,10 +232,13 @@ namespace Ricochet
     unsigned int
     begin(State &state, const unsigned int n_steps);
 
-    /// Whether Parameters::until is true in the last row of the ledger.
-    /// @throws InputError when it cannot be read.
+    /// Whether @p condition is true in the last row of the ledger.
+    /// @throws InputError when it names other columns.
     bool
-    is_at_end() const;
+    is_true_now(const Condition &condition) const;
+
+    bool
+    are_fields_due(const State &state, const unsigned int step) const;
 
     void
     write_fields_if_due(const State &state, const unsigned int step);
@@ -257,7 +284,7 @@ namespace Ricochet
     conclude(dealii::TimerOutput &timer, std::ostringstream &timing_table);
 
     const Parameters    parameters;
-    const Condition     until;
+    const Condition     until, fields_when;
     RunFolder          &folder;
     SemiDiscreteSystem &system;
     TimeScheme         &scheme;

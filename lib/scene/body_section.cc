@@ -2,6 +2,7 @@
 #include <base/child_process.h>
 #include <base/exceptions.h>
 #include <problems/ball_mesh.h>
+#include <problems/cell_group.h>
 #include <problems/gmsh_mesh.h>
 #include <problems/round_meshes.h>
 #include <scene/body_section.h>
@@ -259,6 +260,30 @@ namespace Ricochet
       return nullptr;
     }
 
+    /// The one of the material ids @p present that @p text names, by its number or one of
+    /// @p names. @param where for messages. @throws InputError
+    types::material_id
+    find_group(const std::string                               &text,
+               const std::string                               &where,
+               const std::set<types::material_id>              &present,
+               const std::map<std::string, types::material_id> &names)
+    {
+      std::string list;
+      for (const auto id : present)
+        {
+          std::vector<std::string> own = {std::to_string(id)};
+          for (const auto &[name, named_id] : names)
+            if (named_id == id)
+              own.push_back(name);
+          if (std::find(own.begin(), own.end(), text) != own.end())
+            return id;
+          for (const std::string &name : own)
+            list += (list.empty() ? "" : ", ") + name;
+        }
+      throw InputError(where + ": the mesh has no cells '" +
+                       text.substr(0, 100) + "'. There is: " + list + ".");
+    }
+
     /// The mesh without its history of refinement; simplices if wanted.
     template <int dim>
     void
@@ -296,6 +321,7 @@ namespace Ricochet
     , cells_along(dim, 8)
   {
     axis[2]          = 1.;
+    second_axis[2]   = 1.;
     material         = default_material();
     material.section = section.full_name();
   }
@@ -320,6 +346,12 @@ namespace Ricochet
       "numbers and names of physical groups. In a parameter file the path counts "
       "from the folder of that file.",
       Patterns::FileName());
+    parameters.add_parameter(
+      "Group",
+      group,
+      "The physical group of cells in the file that is this body, by its number or name, "
+      "where the file has several bodies. Empty: all cells.",
+      Patterns::Anything());
     parameters.add_parameter("Shape",
                              shape,
                              "What to make where there is no file. generator: "
@@ -414,10 +446,21 @@ namespace Ricochet
                              "Angle by which it is then turned about the "
                              "origin, against the clock (rad).");
     if constexpr (dim == 3)
-      parameters.add_parameter("Rotation axis",
-                               axis,
-                               "The axis about which it is turned, of any "
-                               "length.");
+      {
+        parameters.add_parameter("Rotation axis",
+                                 axis,
+                                 "The axis about which it is turned, of any "
+                                 "length.");
+        parameters.add_parameter(
+          "Second rotation",
+          second_angle,
+          "Angle by which it is turned after that, about the "
+          "origin (rad).");
+        parameters.add_parameter(
+          "Second rotation axis",
+          second_axis,
+          "The axis of the second rotation, of any length.");
+      }
     parameters.add_parameter("Translation",
                              translation,
                              "By how much it is then moved (m).");
@@ -475,13 +518,20 @@ namespace Ricochet
           unused.push_back(
             {name_of(name), owners + "; " + name_of("Shape") + " is " + shape});
         }
+    if (file.empty())
+      unused.push_back(
+        {name_of("Group"),
+         "bodies from a file; " + name_of("Shape") + " is " + shape});
     if (!file.empty() && cells != "automatic")
       unused.push_back(
         {name_of("Cells"),
          "shapes that are made; " + name_of("File") + " is " + file});
-    if (angle == 0. && dim == 3)
-      unused.push_back({name_of("Rotation axis"),
-                        "rotation; " + name_of("Rotation") + " is 0"});
+    for (const auto &[name, own_angle] :
+         {std::pair<std::string, double>{"Rotation", angle},
+          {"Second rotation", second_angle}})
+      if (own_angle == 0. && dim == 3)
+        unused.push_back(
+          {name_of(name + " axis"), "rotation; " + name_of(name) + " is 0"});
     return unused;
   }
 
@@ -546,6 +596,16 @@ namespace Ricochet
                       kept_meshes.empty() ? ""
                                           : kept_meshes + "/" +
                           RunFolder::name_of_mesh(section.column_name()));
+    if (!group.empty() && !own)
+      {
+        std::set<types::material_id> present;
+        for (const auto &cell : fine.active_cell_iterators())
+          present.insert(cell->material_id());
+        keep_cells_of(
+          find_group(group, name_of("Group"), present, mesh.material_names),
+          fine,
+          mesh.nodes);
+      }
     if (!mesh.nodes.empty() && refinements > 0)
       throw InputError("The mesh '" + file +
                        "' has elements of second order, which cannot be "
@@ -594,33 +654,14 @@ namespace Ricochet
             name_of("Materials") + ": '" + item.substr(0, 100) +
             "' should be 'number or name of the cells: name of a "
             "material'.");
-        std::vector<std::string> candidates;
-        bool                     found = false;
-        for (const auto &entry : mesh.shares)
-          {
-            std::vector<std::string> own = {std::to_string(entry.first)};
-            for (const auto &[name, id] : mesh.material_names)
-              if (id == entry.first)
-                own.push_back(name);
-            for (const std::string &candidate : own)
-              if (candidate == group)
-                {
-                  found = true;
-                  if (!names.emplace(entry.first, material).second)
-                    throw InputError(name_of("Materials") +
-                                     " gives the cells '" + group +
-                                     "' two materials.");
-                  break;
-                }
-            candidates.insert(candidates.end(), own.begin(), own.end());
-          }
-        if (found)
-          continue;
-        std::string list;
-        for (const std::string &candidate : candidates)
-          list += (list.empty() ? "" : ", ") + candidate;
-        throw InputError(name_of("Materials") + ": the mesh has no cells '" +
-                         group.substr(0, 100) + "'. There is: " + list + ".");
+        std::set<types::material_id> present;
+        for (const auto &share : mesh.shares)
+          present.insert(share.first);
+        const auto id =
+          find_group(group, name_of("Materials"), present, mesh.material_names);
+        if (!names.emplace(id, material).second)
+          throw InputError(name_of("Materials") + " gives the cells '" + group +
+                           "' two materials.");
       }
     return names;
   }
@@ -631,17 +672,24 @@ namespace Ricochet
   void
   BodySection<dim>::place(BodyMesh<dim> &mesh, const double advance) const
   {
-    if (axis.norm() == 0.)
-      throw InputError(name_of("Rotation axis") + " is a vector of no length.");
+    const auto rotation_about = [this](const Tensor<1, 3> &direction,
+                                       const double        by_angle,
+                                       const std::string  &name) {
+      if (direction.norm() == 0.)
+        throw InputError(name_of(name) + " is a vector of no length.");
+      return Physics::Transformations::Rotations::rotation_matrix_3d(
+        Point<3>(direction / direction.norm()),
+        by_angle);
+    };
     const Tensor<2, 3> rotation =
-      Physics::Transformations::Rotations::rotation_matrix_3d(
-        Point<3>(axis / axis.norm()),
-        angle);
-    const auto placed = [&](const Point<dim> &x) {
+      rotation_about(second_axis, second_angle, "Second rotation axis") *
+      rotation_about(axis, angle, "Rotation axis");
+    const bool is_turned = angle != 0. || second_angle != 0.;
+    const auto placed    = [&](const Point<dim> &x) {
       Tensor<1, 3> scaled;
       for (unsigned int c = 0; c < dim; ++c)
         scaled[c] = scale * x[c];
-      const Tensor<1, 3> turned = angle == 0. ? scaled : rotation * scaled;
+      const Tensor<1, 3> turned = is_turned ? rotation * scaled : scaled;
       Point<dim>         result;
       for (unsigned int c = 0; c < dim; ++c)
         result[c] = turned[c] + translation[c] + advance * velocity[c];

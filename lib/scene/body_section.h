@@ -54,6 +54,8 @@ namespace Ricochet
     const NamedSection section;
 
     std::string file;
+    /// The cells of the file that are this body; empty for all.
+    std::string group;
     std::string shape = "none";
     /// m
     double                    radius = 1., inner_radius = .5;
@@ -69,9 +71,9 @@ namespace Ricochet
     bool        curved = false;
 
     double scale = 1.;
-    /// rad
-    double                 angle = 0.;
-    dealii::Tensor<1, 3>   axis;
+    /// rad; the second rotation follows the first one, in 3D.
+    double                 angle = 0., second_angle = 0.;
+    dealii::Tensor<1, 3>   axis, second_axis;
     dealii::Tensor<1, dim> translation;
 
     MaterialParameters material;

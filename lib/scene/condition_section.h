@@ -19,13 +19,17 @@ namespace Ricochet
 
     const NamedSection section;
 
-    /// A name for SurfaceNames.
+    /// A name for SurfaceNames, or that of a body of which #point chooses a vertex.
     std::string boundary;
-    std::string kind = "fixed";
+    /// m; empty for all of the boundary.
+    std::vector<double> point;
+    std::string         kind = "fixed";
     /// "x, y"; empty for all.
     std::string components;
     /// Expressions of x, y, z and t, separated by semicolons.
     std::string value;
+    /// A file for TimeTable, whose values #value is multiplied by; empty for none.
+    std::string table;
     /// Pa/m, Pa s/m
     double stiffness = 0., damping = 0.;
 
@@ -37,8 +41,11 @@ namespace Ricochet
 
     /// Enter it into @p setup. @throws InputError for a boundary that does not exist,
     /// expressions that cannot be read, and a direction that is prescribed twice.
+    /// @param first_part of each body, and the number of all parts.
     void
-    add_to(const SurfaceNames &surfaces, ImpactSetup<dim> &setup) const;
+    add_to(const SurfaceNames              &surfaces,
+           const std::vector<unsigned int> &first_part,
+           ImpactSetup<dim>                &setup) const;
 
     std::string
     name_of(const std::string &name) const
@@ -49,6 +56,25 @@ namespace Ricochet
   private:
     std::array<bool, dim>
     which_components() const;
+
+    /// The boundaries, or the id of the vertex, which is entered into @p setup.
+    std::set<dealii::types::boundary_id>
+    find_ids(const SurfaceNames              &surfaces,
+             const std::vector<unsigned int> &first_part,
+             ImpactSetup<dim>                &setup) const;
+
+    /// Component @p c of #n functions of the time and the place: #value times #table.
+    using Field = std::function<double(const unsigned int c,
+                                       const double       time,
+                                       const dealii::Point<dim> &)>;
+
+    Field
+    field(const unsigned int n) const;
+
+    void
+    prescribe(const dealii::types::boundary_id id,
+              const VectorField<dim>          &value,
+              ImpactSetup<dim>                &setup) const;
   };
 
   /// The vector field that @p text, dim expressions of x, y, z and t separated by

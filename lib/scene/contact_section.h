@@ -5,6 +5,8 @@
 #include <contact/treatments/contact_treatment.h>
 #include <scene/named_sections.h>
 
+#include <functional>
+
 namespace Ricochet
 {
   /// A contact as described in a section `Contact NAME`: its surfaces, and its
@@ -19,12 +21,18 @@ namespace Ricochet
     std::string surface;
     /// An obstacle or several, surfaces as above, or "itself".
     std::string against;
+    /// An expression of the time t (m); empty for none.
+    std::string interference;
 
     /// Zero where the value is to be computed.
     ContactParameters parameters;
 
     void
     add_parameters(dealii::ParameterHandler &handler);
+
+    /// ContactPair::interference; empty without. @throws InputError
+    std::function<double(const double time)>
+    make_interference() const;
 
     std::string
     name_of(const std::string &name) const

@@ -74,11 +74,13 @@ namespace Ricochet
               candidates.push_back(one + full.substr(kind.size()));
             std::string message = section.where + ": there is no section '" +
               full.substr(0, 100) + "'.";
-            for (const std::string &name : nearest_names(full, candidates, 1))
+            const auto near = nearest_names(full, candidates, 1);
+            for (const std::string &name : near)
               message += " Is '" + name + "' meant?";
             throw InputError(message + "\nSections are " + join(plain) +
-                             ", and with a name of your own: " + join(kinds) +
-                             ".");
+                               ", and with a name of your own: " + join(kinds) +
+                               ".",
+                             {"unknown_section", full, near});
           }
         const std::string name =
           dealii::Utilities::trim(full.substr(kind.size()));

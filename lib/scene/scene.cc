@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/expressions.h>
 #include <base/units.h>
 #include <problems/clearance.h>
 #include <problems/impact.h>
@@ -89,7 +90,7 @@ namespace Ricochet
     parameters.declare_entry("Dimension",
                              std::to_string(dim),
                              Patterns::Selection("2|3"),
-                             "Of the space: 2 or 3.");
+                             "Dimension of the space: 2 or 3.");
     parameters.add_parameter(
       "Units",
       units_text,
@@ -190,6 +191,28 @@ namespace Ricochet
           std::max(velocity_force, part.material.velocity_force());
       }
     const SchemeTraits scheme = scheme_traits(impact.scheme.name);
+    if (const auto interference = contact.make_interference())
+      {
+        const auto refuse = [](const std::string &why) {
+          throw InputError("Interference " + why);
+        };
+        if (!touching.obstacles.empty() || touching.is_self)
+          refuse(
+            "is there between bodies only; an obstacle can be made larger.");
+        if (contact.parameters.coupling != "points")
+          refuse("needs Coupling = points.");
+        const auto names = names_in(contact.interference);
+        const bool is_constant =
+          std::find(names.begin(), names.end(), "t") == names.end();
+        if (scheme.has_inertia && !is_constant)
+          refuse(
+            "that depends on t needs Time/Scheme = static: in motion its work is not "
+            "known.");
+        if (scheme.has_inertia && start_from.empty() && interference(0.) != 0.)
+          refuse(
+            "of " + to_text(interference(0.)) +
+            " at the start would be a penetration; let a static phase raise it from 0.");
+      }
     check_combination(contact.parameters,
                       scheme,
                       redistributed_mass,
@@ -217,7 +240,7 @@ namespace Ricochet
         "There is no body: the parameter file needs a section "
         "'subsection Body NAME'.");
     Units{units_text};
-    impact.validate_times();
+    impact.time.validate();
     for (const BodySection<dim> &body : bodies)
       if (!body.acceleration.empty())
         parse_vector_field<dim>(body.acceleration,
@@ -246,7 +269,9 @@ namespace Ricochet
           {
             // Number of the named one.
             throw InputError(contact.section.where + ", " +
-                             contact.section.full_name() + ": " + error.what());
+                               contact.section.full_name() + ": " +
+                               error.what(),
+                             error.details);
           }
         if (!touching.obstacles.empty() && uses_stress(contact.parameters))
           for (const auto &surface : touching.slave)
@@ -258,7 +283,7 @@ namespace Ricochet
       }
     ImpactSetup<dim> setup{parts.front().material.template make<dim>()};
     for (const ConditionSection<dim> &condition : conditions)
-      condition.add_to(surfaces, setup);
+      condition.add_to(surfaces, first_part, setup);
     for (const ProbeSection<dim> &probe : probes)
       probe.find_body(surfaces);
   }

@@ -6,7 +6,7 @@
 #include <contact/obstacles/obstacle_shape.h>
 #include <contact/surfaces/closest_point.h>
 #include <problems/impact.h>
-#include <output/node_probe.h>
+#include <discretization/nearest_vertex.h>
 #include <output/obstacle_surfaces.h>
 #include <scene/scene.h>
 

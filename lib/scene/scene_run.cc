@@ -70,6 +70,8 @@ namespace Ricochet
                  slave,
                  touching.is_self ? slave : touching.master,
                  touching.is_self}}});
+            setup.contacts.back().pairs.front().interference =
+              contact.make_interference();
           }
         // Contacts with rigid obstacles, one for each body and obstacle: a body
         // has its own stress, and a boundary may touch several.
@@ -86,7 +88,7 @@ namespace Ricochet
             }
       }
     for (const ConditionSection<dim> &condition : conditions)
-      condition.add_to(surfaces, setup);
+      condition.add_to(surfaces, first_part, setup);
     return setup;
   }
 
@@ -364,7 +366,7 @@ namespace Ricochet
       body.keep_mesh(folder);
     loop.run(initial_state);
     folder.log("pictures: ricochet-plot " + folder.file("") +
-               (impact.time.fields_every > 0 ? " --fields" : ""));
+               (impact.time.wants_fields() ? " --fields" : ""));
   }
 
 

@@ -61,6 +61,13 @@ namespace Ricochet
     std::string
     name_of(const dealii::types::boundary_id id) const;
 
+    /// Boundaries of all bodies; their numbers are below.
+    dealii::types::boundary_id
+    n_boundaries() const
+    {
+      return n_ids;
+    }
+
     /// Names of all bodies, for messages.
     std::vector<std::string>
     body_names() const;

@@ -30,7 +30,8 @@ namespace Ricochet
       {condensed_restarted, "condensed iterations begun anew"},
       {condensed_failed, "whole system instead of the condensed one"},
       {iterative_failed, "factored instead of iterated"},
-      {stage_repeated, "stage begun again from the last state"}};
+      {stage_repeated, "stage begun again from the last state"},
+      {pseudo_transient, "pseudo-transient continuation"}};
     return list;
   }
 

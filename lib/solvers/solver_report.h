@@ -38,7 +38,10 @@ namespace Ricochet
       iterative_failed = 128,
       /// Fallback: Newton's method failed, and the stage was restarted from the last
       /// state.
-      stage_repeated = 256
+      stage_repeated = 256,
+      /// Fallback: Newton's method found no equilibrium from the last one, and
+      /// pseudo-transient continuation did, see StaticEquilibrium.
+      pseudo_transient = 512
     };
 
     /// Sum of #Strategy.

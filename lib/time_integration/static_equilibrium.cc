@@ -17,10 +17,42 @@ namespace Ricochet
                           const double        time_step,
                           State              &new_state)
   {
+    return step(system,
+                old_state,
+                time_step,
+                /* is_last_resort */ false,
+                new_state);
+  }
+
+
+
+  StepReport
+  StaticEquilibrium::step_of_last_resort(SemiDiscreteSystem &system,
+                                         const State        &old_state,
+                                         const double        time_step,
+                                         State              &new_state)
+  {
+    return step(system,
+                old_state,
+                time_step,
+                /* is_last_resort */ true,
+                new_state);
+  }
+
+
+
+  StepReport
+  StaticEquilibrium::step(SemiDiscreteSystem &system,
+                          const State        &old_state,
+                          const double        time_step,
+                          const bool          is_last_resort,
+                          State              &new_state)
+  {
     new_state                = old_state;
     new_state.time           = old_state.time + time_step;
     stage.end_time           = new_state.time;
     stage.is_near_last_state = false;
+    stage.inertia            = 0.;
     // With the imposed displacements, which have no imbalance and a share in round-off.
     copy_values(old_state.solution, stage.inertia_origin);
     if (system.unknowns.impose)
@@ -36,9 +68,13 @@ namespace Ricochet
     // The guess goes on as in the last step.
     new_state.solution.add(time_step, old_state.mean_velocity);
     StepReport report;
-    report.solver = system.unknowns.unheld.bodies.empty()
-      ? system.solve_stage(stage, old_state, new_state)
-      : find_rest(system, old_state, new_state);
+    if (is_last_resort)
+      copy_values(stage.inertia_origin, new_state.solution);
+    report.solver = is_last_resort || !system.unknowns.unheld.bodies.empty()
+      ? find_rest(system, old_state, new_state)
+      : system.solve_stage(stage, old_state, new_state);
+    if (is_last_resort)
+      report.solver.add(SolverReport::pseudo_transient);
 
     copy_values(new_state.solution, increment);
     increment -= old_state.solution;
@@ -71,7 +107,7 @@ namespace Ricochet
     // c M, over that of the body; and displacements of a pass, over the size of a cell.
     constexpr double smallest_imbalance = 1e-11, smallest_stiffness = 1e-11,
                      first_move = 1e-2, good_move = .25, largest_move = 1e3;
-    constexpr unsigned int most_passes = 200, most_failures = 8;
+    constexpr unsigned int most_passes = 200, most_failures = 30;
 
     const auto &[bodies, cell_size] = system.unknowns.unheld;
     // The last unknowns of a rank are multipliers.
@@ -87,7 +123,7 @@ namespace Ricochet
     // The first pass moves by a small part of a cell.
     force.reinit(old_state.solution, true);
     increment.reinit(old_state.solution, true);
-    system.total_force(old_state.solution,
+    system.total_force(stage.inertia_origin,
                        old_state.contact_force,
                        stage.end_time,
                        force);
@@ -96,7 +132,7 @@ namespace Ricochet
       std::max(of_body, largest_displacement() / (first_move * cell_size));
 
     SolverReport report;
-    double       last_imbalance = 0., share = 1.;
+    double       last_imbalance = 0., share = 1., smallest_part = .01;
     unsigned int n_failures = 0;
     for (unsigned int pass = 0; pass < most_passes; ++pass)
       {
@@ -109,7 +145,8 @@ namespace Ricochet
             if (++n_failures > most_failures)
               throw;
             copy_values(stage.inertia_origin, new_state.solution);
-            stage.inertia *= 10.;
+            stage.inertia *= 4.;
+            smallest_part = std::min(.5, 2. * smallest_part);
             continue;
           }
         copy_values(new_state.solution, increment);
@@ -129,15 +166,20 @@ namespace Ricochet
           break;
         const double part =
           last_imbalance > 0. ? imbalance / last_imbalance : 1.;
-        stage.inertia =
-          std::max(of_body,
-                   stage.inertia *
-                     std::clamp(std::min(part, move / good_move), .01, .5));
+        stage.inertia  = std::max(of_body,
+                                 stage.inertia *
+                                   std::clamp(std::min(part, move / good_move),
+                                              smallest_part,
+                                              .5));
         last_imbalance = imbalance;
       }
     std::string names;
     for (const std::string &name : bodies)
       names += (names.empty() ? "'" : ", '") + name + "'";
+    if (names.empty())
+      throw NewtonFailure(
+        "No equilibrium was found, near the last one or elsewhere: " +
+        to_text(share) + " of the forces are not balanced.\n");
     throw ComputationError(
       "No support holds " + names +
       ", and no equilibrium was found: " + to_text(share) +

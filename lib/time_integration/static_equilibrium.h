@@ -23,7 +23,10 @@ namespace Ricochet
    *     c M (x_k - x_(k-1)) + F(x_k) = 0,
    *
    * in which c falls with the imbalance c M (x_k - x_(k-1)): pseudo-transient continuation
-   * (Kelley and Keyes, SIAM Journal on Numerical Analysis 35, 1998).
+   * (Kelley and Keyes, SIAM Journal on Numerical Analysis 35, 1998). It is the last resort
+   * of bodies that are held, too, where there is no equilibrium near the last one: an arch
+   * snaps through, a node slips off an edge. The energy that a motion would
+   * take away then is in the same column.
    */
   class StaticEquilibrium : public TimeScheme
   {
@@ -62,8 +65,30 @@ namespace Ricochet
          const double        time_step,
          State              &new_state) override;
 
+    /// @throws NewtonFailure where no equilibrium is found.
+    StepReport
+    step_of_last_resort(SemiDiscreteSystem &system,
+                        const State        &old_state,
+                        const double        time_step,
+                        State              &new_state) override;
+
+    bool
+    has_last_resort() const override
+    {
+      return true;
+    }
+
   private:
-    /// Solve #stage for bodies that no support holds. @throws ComputationError
+    /// @param is_last_resort by pseudo-transient continuation.
+    StepReport
+    step(SemiDiscreteSystem &system,
+         const State        &old_state,
+         const double        time_step,
+         const bool          is_last_resort,
+         State              &new_state);
+
+    /// Solve #stage by pseudo-transient continuation. @throws NewtonFailure, and
+    /// ComputationError where bodies that nothing holds find no rest.
     SolverReport
     find_rest(SemiDiscreteSystem &system,
               const State        &old_state,

@@ -2,6 +2,7 @@
 #ifndef ricochet_time_integration_time_scheme_h
 #define ricochet_time_integration_time_scheme_h
 
+#include <base/exceptions.h>
 #include <base/own_parameter.h>
 #include <base/parameter_file.h>
 #include <time_integration/scheme_traits.h>
@@ -102,6 +103,24 @@ namespace Ricochet
          const State        &old_state,
          const double        time_step,
          State              &new_state) = 0;
+
+    /// Whether there is step_of_last_resort().
+    virtual bool
+    has_last_resort() const
+    {
+      return false;
+    }
+
+    /// A step by other means, where the shortest step() that is allowed has failed.
+    /// @throws NewtonFailure
+    virtual StepReport
+    step_of_last_resort(SemiDiscreteSystem & /* system */,
+                        const State & /* old_state */,
+                        const double /* time_step */,
+                        State & /* new_state */)
+    {
+      throw NewtonFailure("There is no last resort.");
+    }
 
     /// Whether a step consists of many steps of another integrator, without
     /// stages.

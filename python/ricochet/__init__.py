@@ -28,6 +28,7 @@ from .errors import (
 from .measures import ContactMeasures, Summary
 from .programs import Outcome, find_program, parameters_of, run, sweep
 from .results import FieldFile, Run
+from .sampling import dataset, samples
 from .tables import Table, read_table
 
 __all__ = [
@@ -44,9 +45,11 @@ __all__ = [
     "Run",
     "Summary",
     "Table",
+    "dataset",
     "find_program",
     "parameters_of",
     "read_table",
     "run",
+    "samples",
     "sweep",
 ]

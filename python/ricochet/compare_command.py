@@ -2,7 +2,8 @@
 """Run one case with several methods on all cores, and lay their numbers beside each other.
 
 The case is a parameter file that names its program (`set Program = NAME`). Methods are all
-combinations of the treatments and schemes that are given; without them that of the file. A name
+combinations of the treatments and schemes that are given, and of the values of other parameters
+(--vary); without them that of the file. A name
 that the program does not know ends the command before any run; a combination that it refuses is
 in the table with the reason. The table is printed, and FOLDER, without -o
 output/compare/CASE, has it as index.html with figures, and as table.csv.
@@ -10,6 +11,7 @@ output/compare/CASE, has it as index.html with figures, and as table.csv.
 The columns:
   energy lost          (first energy + work from outside - last energy) / first energy, or over
                        the largest energy of bodies that begin at rest
+  to contact, ...      the parts of it
   restitution          - (velocity after) / (velocity before), along the normal of contact
   largest force        of all contacts together (their sum at a time)
   largest penetration  of any contact
@@ -17,6 +19,9 @@ The columns:
   ms per step          of wall time in the steps, while as many runs as jobs use the machine
   error of ...         root of the mean square of the difference from the finest run with the same
                        method, over the first energy, or over the range of the displacement
+
+Where --vary gives three or more numbers, the last three of which have one ratio, the observed order
+of each quantity follows: "none" where the values do not converge in one direction.
 
 With --impact-positions the initial gap is shifted so that the impact falls at N places evenly
 spread over a time step, as this position changes the results of a method. A number is then the
@@ -74,6 +79,14 @@ def command_line(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     )
     parser.add_argument("--schemes", metavar="A,B,...", type=_list, default=[], help="time schemes")
     parser.add_argument(
+        "--vary",
+        metavar='"Section/Name=a,b,..."',
+        action="append",
+        default=[],
+        help="values of any parameter (between semicolons where they have commas); may be "
+        "repeated: all combinations",
+    )
+    parser.add_argument(
         "--impact-positions",
         metavar="N",
         type=int,
@@ -117,6 +130,25 @@ def _settings(texts: Sequence[str]) -> dict[str, str]:
         if ("/" in value or "." in value) and pathlib.Path(value).is_file():
             values[name] = str(pathlib.Path(value).resolve())
     return values
+
+
+def variations(texts: Sequence[str]) -> list[dict[str, str]]:
+    """All combinations of the values of parameters, each given as "Section/Name=a,b,...".
+
+    Raises:
+        RicochetError: a text has another form, or a parameter is there twice.
+    """
+    names, lists = [], []
+    for text in texts:
+        name, values = prm.parse_assignment(text)
+        parts = [part.strip() for part in values.split(";" if ";" in values else ",")]
+        if "" in parts or len(set(parts)) < len(parts):
+            raise RicochetError(f"--vary {text}: a value is empty, or there twice.")
+        if name in names:
+            raise RicochetError(f"--vary {text}: {name} is varied already.")
+        names.append(name)
+        lists.append(parts)
+    return [dict(zip(names, values)) for values in itertools.product(*lists)]
 
 
 @dataclass(frozen=True)
@@ -213,9 +245,11 @@ def compare(options: argparse.Namespace) -> Comparison:
     sections = prm.contact_sections(prm.read(case))
 
     methods = [
-        Method(treatment, scheme)
-        for treatment, scheme in itertools.product(
-            dict.fromkeys(options.treatments or [None]), dict.fromkeys(options.schemes or [None])
+        Method(treatment, scheme, dict(varied))
+        for treatment, scheme, varied in itertools.product(
+            dict.fromkeys(options.treatments or [None]),
+            dict.fromkeys(options.schemes or [None]),
+            variations(options.vary),
         )
     ]
     jobs = options.jobs or os.cpu_count() or 1

@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from . import curves, measures
-from .comparison import Comparison, number, quantities
+from .comparison import Comparison, number, orders, quantities
 from .tables import Array, Table
 
 import matplotlib.pyplot as plt
@@ -146,6 +146,7 @@ def _table(comparison: Comparison) -> list[str]:
                 lines.append(f'<td class="number">{shown}</td>')
         lines.append("</tr>")
     lines.append("</table></div>")
+    lines += [f"<p>{text(line)}</p>" for line in orders(comparison)]
     return lines
 
 

@@ -21,6 +21,8 @@ class Method:
 
     treatment: str | None
     scheme: str | None
+    #: Other parameters of it, by their names.
+    varied: dict[str, str] = field(default_factory=dict)
     #: One for each position of the impact, and of each position (a part of a step).
     outcomes: list[Outcome] = field(default_factory=list)
     positions: list[float | None] = field(default_factory=list)
@@ -29,7 +31,8 @@ class Method:
     @property
     def name(self) -> str:
         """Name in tables."""
-        return ", ".join(filter(None, (self.treatment, self.scheme))) or "as in the file"
+        varied = (f"{name.rpartition('/')[2]} = {value}" for name, value in self.varied.items())
+        return ", ".join(filter(None, (self.treatment, self.scheme, *varied))) or "as in the file"
 
     def overrides(self, contact_sections: Sequence[str]) -> dict[str, object]:
         """The parameters that make it; the treatment is that of all contacts."""
@@ -38,7 +41,7 @@ class Method:
             result.update({f"{name}/Treatment": self.treatment for name in contact_sections})
         if self.scheme:
             result["Time/Scheme"] = self.scheme
-        return result
+        return {**result, **self.varied}
 
     @property
     def runs(self) -> list[Run]:
@@ -110,6 +113,14 @@ class Comparison:
 
 # Numbers ------------------------------------------------------------------------------
 
+#: Quantities that depend on the machine, and those that are round-off.
+NOT_COMPARED = (
+    "largest balance residual",
+    "largest promise residual",
+    "Newton iterations",
+    "ms per step",
+)
+
 
 def quantities(comparison: Comparison) -> list[Quantity]:
     """The columns of the table, with the values of all runs of each method."""
@@ -137,6 +148,10 @@ def quantities(comparison: Comparison) -> list[Quantity]:
 
     result = [
         Quantity("energy lost", "%", each(lambda run: 100 * measures.energy_lost(run.table))),
+        *(
+            Quantity(f"to {what}", "%", each(lambda run, what=what: 100 * measures.part_lost(run.table, what)))
+            for what in measures.LOSSES
+        ),
         Quantity("restitution", "", each(lambda run: run.summary().restitution)),
         Quantity("largest force", unit("contact_force_"), each(force)),
         Quantity("largest penetration", unit("penetration_"), each(penetration)),
@@ -166,8 +181,13 @@ def quantities(comparison: Comparison) -> list[Quantity]:
                 error = function(shown.table, fine.table) if shown and fine else float("nan")
                 values[method.name] = [100 * error] if np.isfinite(error) else []
             result.append(Quantity(name, "%", values))
-    # A quantity without any value has no column.
-    return [q for q in result if any(q.values.values())]
+    # A quantity without any value, and a loss that no run has, have no column.
+    return [
+        q
+        for q in result
+        if any(q.values.values())
+        and not (q.name.startswith("to ") and not any(map(any, q.values.values())))
+    ]
 
 
 def cell(values: Sequence[float]) -> str:
@@ -217,6 +237,8 @@ def print_table(comparison: Comparison) -> None:
             print(f"{method.name}: {method.problem}")
         if method.runs and method.finest and method.finest.error:
             print(f"{method.name}, the finest run: {method.finest.error.sentence}")
+    for line in orders(comparison):
+        print(line)
 
 
 def write_csv(comparison: Comparison, path: pathlib.Path) -> None:
@@ -234,3 +256,70 @@ def write_csv(comparison: Comparison, path: pathlib.Path) -> None:
                 values = q.values[method.name]
                 line += [np.mean(values), min(values), max(values)] if values else ["", "", ""]
             writer.writerow(line)
+
+
+# Orders -------------------------------------------------------------------------------
+
+#: Parameters that are numbers of cells or nodes: the mesh is finer where they are larger.
+COUNTS = ("Nodes", "Nodes around", "Nodes across", "Boundary nodes", "Cells", "Elements")
+
+
+def order(sizes: Sequence[float], values: Sequence[float]) -> float | None:
+    """The observed order of values at three sizes (of a step, of cells) in one ratio, the finest
+    last: log(|q1 - q2| / |q2 - q3|) / log(ratio). None where the values do not converge in one
+    direction, or no longer change.
+    """
+    first, second = values[0] - values[1], values[1] - values[2]
+    if abs(second) <= 1e-9 * max(abs(value) for value in values) or first * second <= 0:
+        return None
+    result = float(np.log(first / second) / np.log(sizes[0] / sizes[1]))
+    return result if result > 0 else None
+
+
+def orders(comparison: Comparison) -> list[str]:
+    """Sentences on the observed orders, for each parameter that has three or more numbers as
+    values, the last three of which have one ratio.
+    """
+    lines = []
+    columns = [q for q in quantities(comparison) if q.name not in NOT_COMPARED]
+    for name in dict.fromkeys(n for method in comparison.methods for n in method.varied):
+        groups: dict[tuple[object, ...], list[tuple[float, Method]]] = {}
+        for method in comparison.methods:
+            try:
+                size = float(method.varied[name])
+            except ValueError:
+                break
+            others = tuple((n, v) for n, v in method.varied.items() if n != name)
+            groups.setdefault((method.treatment, method.scheme, *others), []).append((size, method))
+        for key, group in groups.items():
+            # Finer is smaller, of numbers of cells larger.
+            group.sort(key=lambda one: -one[0])
+            if name.rpartition("/")[2] in COUNTS:
+                group.reverse()
+            sizes = [one[0] for one in group[-3:]]
+            if (
+                len(group) < 3
+                or 0.0 in sizes
+                or abs(sizes[0] * sizes[2] / sizes[1] ** 2 - 1.0) > 1e-6
+            ):
+                continue
+            found = []
+            for q in columns:
+                values = [q.values[one[1].name] for one in group[-3:]]
+                if not all(values) or q.values[group[-1][1].name] == [0.0]:
+                    continue
+                if name.rpartition("/")[2] in COUNTS:
+                    own = order([1.0 / s for s in sizes], [float(np.mean(v)) for v in values])
+                else:
+                    own = order(sizes, [float(np.mean(v)) for v in values])
+                found.append(f"{q.name} {'none' if own is None else f'{own:.2g}'}")
+            others = ", ".join(
+                part if isinstance(part, str) else f"{part[0]} = {part[1]}"
+                for part in key
+                if part is not None
+            )
+            lines.append(
+                f"Observed orders in {name} ({', '.join(f'{s:g}' for s in sizes)})"
+                f"{': ' + others if others else ''}: {', '.join(found)}."
+            )
+    return lines

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import difflib
 from dataclasses import dataclass
 from typing import Any
 
@@ -65,8 +66,10 @@ def array(grid: Any, name: str) -> Array:
     data = grid.GetPointData()
     values = data.GetArray(name)
     if values is None:
-        names = ", ".join(data.GetArrayName(i) for i in range(data.GetNumberOfArrays()))
-        raise RicochetError(f"The fields have no '{name}'; there are {names}.")
+        names = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
+        nearest = difflib.get_close_matches(name, names, 1)
+        meant = f" Is '{nearest[0]}' meant?" if nearest else ""
+        raise RicochetError(f"The fields have no '{name}'.{meant} There are {', '.join(names)}.")
     result = np.asarray(vtk_to_numpy(values), dtype=float)
     return result.reshape(len(result), -1)
 
@@ -120,3 +123,19 @@ def area(grid: Any) -> float:
     sizes.ComputeVertexCountOff()
     sizes.Update()
     return float(vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Area")).sum())
+
+
+def joined_points(grid: Any) -> tuple[Any, Any]:
+    """The nodes of a grid, whose cells have points of their own: points that are the same in
+    different cells of one body are one node.
+
+    Returns:
+        for each node one of its points, and for each point the number of its node.
+    """
+    places = array_of_points(grid)
+    size = np.ptp(places, axis=0).max() or 1.0
+    keys = np.round(places / (1e-9 * size))
+    if grid.GetPointData().GetArray("part") is not None:
+        keys = np.column_stack([keys, array(grid, "part")[:, 0]])
+    _, first, number = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    return first, number.reshape(-1)

@@ -105,6 +105,25 @@ def energy_lost(table: Table) -> float:
     return lost / scale if scale > 0 else float("nan")
 
 
+#: Columns of what takes energy; their sum is what is lost.
+LOSSES: dict[str, tuple[str, ...]] = {
+    "contact": ("contact_work", "obstacle_work"),
+    "friction": ("friction_work",),
+    "viscosity": ("viscous_dissipation",),
+    "scheme": ("numerical_dissipation",),
+}
+
+
+def part_lost(table: Table, what: str) -> float:
+    """The part of the energy that one of LOSSES has taken, over the scale of energy_lost().
+
+    That of contact has what its potential still stores.
+    """
+    scale = energy_scale(table)
+    taken = sum(float(table[column][-1]) for column in LOSSES[what] if column in table)
+    return taken / scale if scale > 0 else float("nan")
+
+
 def duration(table: Table, name: str | None = None) -> float:
     """The length of all steps at whose end there is force in a contact, together."""
     return float(np.diff(table["time"])[touching(table, name)[1:]].sum())
@@ -323,6 +342,7 @@ SOLVERS = {
     64: "whole system instead of the condensed one",
     128: "factored instead of iterated",
     256: "stage begun again from the last state",
+    512: "pseudo-transient continuation",
 }
 
 

@@ -201,10 +201,14 @@ def _stands_on_zero(run: Run, dim: int, size: float) -> bool:
     return abs(height - float(run.table[column][0])) < 1e-3 * size
 
 
+def palette() -> list[tuple[float, ...]]:
+    """Red, green and blue of the colours that stand for values, from the least to the largest."""
+    return [tuple(map(float, c[:3])) for c in plt.get_cmap(COLOUR_MAP)(np.linspace(0, 1, 256))]
+
+
 def _render(scene: _Scene, files: Sequence[FieldFile], folder: pathlib.Path) -> list[Array]:
     """The pictures of some files, as arrays of red, green and blue."""
     images = [folder / f"{number:06}.png" for number in range(len(files))]
-    palette = [tuple(map(float, c[:3])) for c in plt.get_cmap(COLOUR_MAP)(np.linspace(0, 1, 256))]
     job = render.Job(
         [
             (str(f.path.resolve()), str(f.obstacles.resolve()) if f.obstacles else None, str(image))
@@ -212,7 +216,7 @@ def _render(scene: _Scene, files: Sequence[FieldFile], folder: pathlib.Path) -> 
         ],
         scene.colour,
         scene.limits,
-        palette,  # type: ignore[arg-type]
+        palette(),  # type: ignore[arg-type]
         scene.view,
         scene.edges,
         scene.cut,

@@ -39,6 +39,11 @@ def command_line(arguments: Sequence[str] | None = None) -> argparse.Namespace:
         "--animation", choices=("gif", "mp4"), help="the bodies in motion; mp4 needs ffmpeg"
     )
     parser.add_argument(
+        "--html",
+        action="store_true",
+        help="the bodies in motion and the energies as one page for a browser, below 10 MB",
+    )
+    parser.add_argument(
         "--colour",
         choices=tuple(COLOURS),
         help="what bodies are coloured by (default: von_mises; of bars stress)",
@@ -48,7 +53,7 @@ def command_line(arguments: Sequence[str] | None = None) -> argparse.Namespace:
         type=int,
         default=100,
         metavar="N",
-        help="an animation has at most so many frames (default: 100)",
+        help="an animation or a page has at most so many frames (default: 100)",
     )
     return parser.parse_args(arguments)
 
@@ -60,17 +65,19 @@ def plot(
     animation: str | None = None,
     colour: str | None = None,
     frames: int = 100,
+    as_page: bool = False,
 ) -> list[pathlib.Path]:
     """Draw runs into a folder; return the files. `colour` is one of `fields.COLOURS`.
 
     Raises:
         RicochetError: a run cannot be read, or something that draws is missing.
     """
-    from . import curves, pictures
+    from . import curves, page, pictures
 
     if animation == "mp4":
         pictures.check_ffmpeg()
-    colours = [pictures.check_colour(run, colour) if fields or animation else "" for run in runs]
+    needs_fields = fields or animation or as_page
+    colours = [pictures.check_colour(run, colour) if needs_fields else "" for run in runs]
     lines = curves.lines_of(runs)
     folder.mkdir(parents=True, exist_ok=True)
     files = []
@@ -91,6 +98,9 @@ def plot(
             if animation:
                 path = folder / f"animation_{shown}{ending}.{animation}"
                 files.append(pictures.animate(run, shown, path, title, frames))
+            if as_page:
+                path = folder / f"run{ending}.html"
+                files.append(page.write(run, path, shown, pictures.palette(), frames))
     return files
 
 
@@ -155,7 +165,13 @@ def _draw(options: argparse.Namespace) -> int:
         runs = [Run(folder) for folder in options.runs if pathlib.Path(folder) not in setups]
         folder = options.output or runs[0].folder / "plots"
         for file in plot(
-            runs, folder, options.fields, options.animation, options.colour, options.frames
+            runs,
+            folder,
+            options.fields,
+            options.animation,
+            options.colour,
+            options.frames,
+            options.html,
         ):
             print(file)
     except (RicochetError, OSError) as error:

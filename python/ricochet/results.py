@@ -17,6 +17,7 @@ import numpy as np
 
 from . import measures, prm
 from .errors import BadParameterFile, NotARun, RicochetError
+from .fields import array, array_of_points, joined_points
 from .tables import Array, Table, read_table
 
 if TYPE_CHECKING:
@@ -253,6 +254,34 @@ class Run:
             NotARun: there are no fields of that step, or the file is damaged.
         """
         return read_vtu(self.field_file(at).path)
+
+
+    def nodes(self, at: int | float = -1) -> Array:
+        """Initial positions of the nodes, (n, 3), each once for each body that has it.
+
+        Raises:
+            NotARun: as fields().
+        """
+        grid = self.fields(at)
+        return array_of_points(grid)[joined_points(grid)[0]]
+
+    def field(self, name: str, at: int | float = -1) -> Array:
+        """Values of a field at the nodes(), (n, components): `displacement`, `velocity`,
+        `contact_force` (N), `contact_pressure`, `von_mises`, ...
+
+        Where cells have different values, as of stress, their mean. The sum of `contact_force`
+        over the nodes of a body is that of the columns `resultant_...` of its contacts. VTU files
+        have seven digits.
+
+        Raises:
+            NotARun: as fields().
+            RicochetError: there is no such field; the message has the nearest name.
+        """
+        grid = self.fields(at)
+        number = joined_points(grid)[1]
+        values = array(grid, name)
+        count = np.bincount(number)
+        return np.column_stack([np.bincount(number, column) / count for column in values.T])
 
 
 def read_vtu(path: str | os.PathLike[str]) -> Any:

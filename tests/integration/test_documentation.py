@@ -250,6 +250,13 @@ class Parameters(unittest.TestCase):
         self.assertEqual(
             of_sphere["Start/Initial velocity"].allowed, "3 values, each a number"
         )
+        # Parameters of ricochet in both dimensions.
+        of_scenes = {each.name: each for each in parameters.declared(programs / "ricochet")}
+        self.assertEqual(of_scenes["Body NAME/Rotation axis"].only, "3D")
+        self.assertEqual(of_scenes["Body NAME/Nodes around"].only, "2D")
+        self.assertIn("ball, block", of_scenes["Body NAME/Shape"].allowed_in_space)
+        self.assertEqual(of_scenes["Body NAME/Size"].default_in_space, "1, 1, 1")
+        self.assertIsNone(of_scenes["Body NAME/Density"].allowed_in_space)
         # Neither the words of deal.II nor the numbers of compilers.
         for each in [*of_bar.values(), *of_sphere.values()]:
             self.assertNotRegex(each.allowed, "MAX|2147483647|4294967295|such that")

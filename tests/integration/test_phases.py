@@ -307,7 +307,7 @@ class Phases(ProgramTest):
                 (["Phase hut/Time/Until=time > 1"], "there is no section 'Phase hut'"),
                 (["Phase hit/Time/Untill=time > 1"], "Phase hit: --set"),
                 (["Output/Checkpoint every=0"], "each of which begins at the last checkpoint"),
-                (["Phase hit/Time/Until=time >"], "Phase hit: Time/Until cannot be read"),
+                (["Phase hit/Time/Until=time >"], "Phase hit: Time/Until, a condition on columns"),
                 (["Phase hit/Time/Until=rand() > .5"], "random numbers"),
                 # Before the first phase is made.
                 (["Phase hit/Body block/Young modulus=-1"], "Phase hit: "),

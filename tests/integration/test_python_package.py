@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The Python package: numbers of a run against its files, refused input, commands."""
 
+import csv
 import math
 import re
 import xml.etree.ElementTree as ElementTree
@@ -391,6 +392,80 @@ class PythonPackage(ProgramTest):
         self.assertEqual(page.count("data:image/png;base64,"), 4)
         self.assertNotIn("src=\"http", page)
         self.assertIn("cannot be combined", page)
+
+    def test_dataset(self):
+        """Samples fill their ranges evenly, are the same for a seed, and are not computed twice;
+        rows have what the summaries have."""
+        ranges = {"Start/Initial gap": (.0305, .0405), "Time/Time step": [1e-3, 2e-3],
+                  "Contact/Treatment": ["Nitsche", "Signorini active set", "no treatment"]}
+        draws = ricochet.samples(ranges, 8, 5)
+        self.assertEqual(draws, ricochet.samples(ranges, 8, 5))
+        self.assertNotEqual(draws, ricochet.samples(ranges, 8, 6))
+        self.assertEqual(sorted(int((draw["Start/Initial gap"] - .0305) / .01 * 8)
+                                for draw in draws), list(range(8)))
+        folder = self.folder / "set"
+        os.environ["RICOCHET_PROGRAMS"] = program_path("")
+        count = []
+        rows = ricochet.dataset(self.case, ranges, 8, 5, output=folder,
+                                progress=lambda *_: count.append(1))
+        self.assertEqual(len(count), 8)
+        self.assertEqual(len({row["hash"] for row in rows}), 8)
+        states = {row["state"] for row in rows}
+        self.assertEqual(states, {"complete", "refused"})
+        for row, draw in zip(rows, draws):
+            self.assertEqual(row["state"] == "refused", draw["Contact/Treatment"] == "no treatment")
+            if row["state"] == "complete":
+                self.assertIs(row["balance_closes"], True)
+                result = ricochet.Run(folder / row["hash"]).result
+                self.assertEqual(row["lost_to_contact"], result["energy"]["lost"]["contact"])
+                self.assertEqual(row["largest_force_foundation"],
+                                 result["contacts"]["foundation"]["largest_force"]["value"])
+        again = []
+        self.assertEqual(ricochet.dataset(self.case, ranges, 8, 5, output=folder,
+                                          progress=lambda *_: again.append(1)), rows)
+        # Refused samples are asked again.
+        self.assertEqual(len(again), sum(row["state"] == "refused" for row in rows))
+        with open(folder / "dataset.csv", newline="") as file:
+            self.assertEqual([row["hash"] for row in csv.DictReader(file)],
+                             [row["hash"] for row in rows])
+        for bad in ({}, {"A/B": (2, 1)}, {"A/B": []}):
+            with self.assertRaises(ricochet.RicochetError):
+                ricochet.dataset(self.case, bad, 2, 1, output=folder)
+
+    def test_compare_by_parameters(self):
+        """Parts of the loss add up to it; the observed order is that of the numbers."""
+        from ricochet import comparison
+        self.assertAlmostEqual(comparison.order([.4, .2, .1], [17., 5., 2.]), 2.)
+        self.assertAlmostEqual(comparison.order([.4, .2, .1], [5., 3., 2.]), 1.)
+        self.assertIsNone(comparison.order([.4, .2, .1], [1., 2., 1.5]))
+        self.assertIsNone(comparison.order([.4, .2, .1], [1., 1., 1.]))
+        folder = self.folder / "varied"
+        code, out, error = self.script(
+            "ricochet-compare", self.case, "--vary", "Time/Time step=2e-3,1e-3,5e-4", "--vary",
+            "Contact/Treatment=Signorini active set,penalty", "--schemes", "Crank-Nicolson",
+            "-o", folder)
+        self.assertEqual(code, 0, msg=out + error)
+        rows = [line for line in out.splitlines() if line.startswith("Crank-Nicolson, Time step")]
+        self.assertEqual(len(rows), 6)
+        with open(folder / "table.csv", newline="") as file:
+            table = list(csv.DictReader(file))
+        for row in table:
+            parts = sum(float(row[f"mean to {what} (%)"]) for what in ("contact", "scheme")
+                        if f"mean to {what} (%)" in row)
+            self.assertAlmostEqual(parts, float(row["mean energy lost (%)"]), delta=1e-7)
+        lines = [line for line in out.splitlines() if line.startswith("Observed orders in")]
+        self.assertEqual(len(lines), 2)
+        self.assertIn("(0.002, 0.001, 0.0005): Crank-Nicolson, Contact/Treatment = penalty: "
+                      "energy lost", lines[1])
+        self.assertIn("Observed orders", (folder / "index.html").read_text())
+        for words, sentence in ((["--vary", "Time/Time step"], "not of the form"),
+                                (["--vary", "Time/Time step=1,,2"], "a value is empty"),
+                                (["--vary", "Time/Time step=1,1"], "there twice"),
+                                (["--vary", "A/B=1", "--vary", "A/B=2"], "varied already")):
+            code, _, error = self.script("ricochet-compare", self.case, *words, "-o",
+                                         self.folder / "refused")
+            self.assertEqual(code, 2)
+            self.assertIn(sentence, error)
 
     def test_compare_with_a_misspelt_method(self):
         """Nothing is run, and the nearest name is suggested."""

@@ -135,6 +135,59 @@ end
 """ + STEPS
 
 
+# A shallow arch of thickness 0.02 whose middle line rises by 0.1 over a chord of 2.
+ARCH_GEOMETRY = """
+n = 20;
+For k In {0:n}
+  x = -1 + 2*k/n;
+  Point(1 + k) = {x, 0.1*(1 - x*x) + 0.01, 0};
+  Point(1001 + k) = {x, 0.1*(1 - x*x) - 0.01, 0};
+  Line(2001 + k) = {1 + k, 1001 + k};
+EndFor
+For k In {1:n}
+  Line(k) = {k, k + 1};
+  Line(1000 + k) = {1000 + k, 1001 + k};
+  Curve Loop(k) = {k, 2001 + k, -(1000 + k), -(2000 + k)};
+  Plane Surface(k) = {k};
+  Transfinite Surface {k};
+  Recombine Surface {k};
+EndFor
+Transfinite Curve {1:n, 1001:1000 + n, 2001:2001 + n} = 2;
+Physical Curve("top") = {1:n};
+Physical Curve("feet") = {2001, 2001 + n};
+Physical Surface("arch") = {1:n};
+"""
+
+ARCH = """
+set Program   = ricochet
+set Dimension = 2
+subsection Body arch
+  set File          = arch.geo
+  set Law           = neo-Hookean
+  set Young modulus = 1e6
+  set Density       = 1000
+end
+subsection Condition feet
+  set Boundary = arch: feet
+end
+subsection Condition load
+  set Boundary = arch: top
+  set Kind     = traction
+  set Value    = 0; -10*min(t,2-t)
+end
+subsection Probe middle
+  set Body  = arch
+  set Point = 0, 0.11
+end
+subsection Mesh
+  set Degree = 2
+end
+subsection Output
+  set Fields every = 0
+end
+"""
+
+
 class Static(ProgramTest):
 
     def compute(self, text, folder="run", parameters=(), code=0, ranks=1):
@@ -262,6 +315,29 @@ class Static(ProgramTest):
         self.assertIn("does not exist", self.compute(
             BLOCK.format(more=FOOT, scheme="static", end=1, step=1), "other",
             [f"Start/From={self.folder / 'nowhere'}"], code=1))
+
+    def test_snap_through(self):
+        """A shallow arch under a dead load that it cannot bear: the last resort finds the
+        inverted state, in which the arch also comes to rest in motion with damping; without load
+        it snaps back, and what was lost is the work of the load."""
+        (self.folder / "arch.geo").write_text(ARCH_GEOMETRY)
+        scene = self.folder / "arch.prm"
+        scene.write_text(ARCH)
+        static = self.run_program("ricochet", ["Time/Scheme=static", "Time/Final time=2",
+                                               "Time/Time step=0.5"], prm=scene)
+        there, back = static["time"].index(1.), len(static["time"]) - 1
+        middle = static["middle_displacement_y"]
+        self.assertLess(middle[there], -.1)
+        self.assertAlmostEqual(middle[back], 0., delta=1e-9)
+        self.assertIn(512, [int(value) & 512 for value in static["solver"]])
+        self.assertGreater(static["external_work"][back], .1)
+        self.assertAlmostEqual(static["numerical_dissipation"][back],
+                               static["external_work"][back], delta=1e-9)
+        moving = self.run_program(
+            "ricochet", ["Time/Scheme=midpoint", "Time/Final time=9", "Time/Time step=0.05",
+                         "Body arch/Mass damping=3", "Condition load/Value=0; -10"],
+            prm=scene, folder=self.folder / "moving")
+        self.assertAlmostEqual(moving["middle_displacement_y"][-1], middle[there], delta=1e-5)
 
     def test_resumed_digit_for_digit(self):
         text = BLOCK.format(more=PRESSED.format(value="-0.05*t"), scheme="static", end=1, step=.25)

@@ -20,6 +20,8 @@ namespace Ricochet
   SurfacePair<dim>::SurfacePair(const Body<dim> &body, const ContactPair &pair)
     : is_self(pair.is_self)
     , overlap(pair.overlap)
+    , interference(pair.interference)
+    , gap_offset(pair.overlap)
     , slave(body, pair.slave, pair.multiplier_set)
     , master(body, pair.master, pair.multiplier_set)
     , communicator(body.communicator)

@@ -242,18 +242,34 @@ namespace Ricochet
       return gaps[p].is_before_facet;
     }
 
-    /// Gap at the beginning of the step, plus ContactPair::overlap (m).
+    /// Count gaps with ContactPair::interference at @p time (s) until the next call.
+    void
+    set_interference(const double time)
+    {
+      if (interference)
+        gap_offset = overlap - interference(time);
+    }
+
+    /// Gap at the beginning of the step, plus ContactPair::overlap, less its interference
+    /// (m).
     double
     old_gap(const unsigned int p) const
+    {
+      return gaps[p].old_gap + gap_offset;
+    }
+
+    /// The same without the interference: negative behind a facet (m).
+    double
+    old_gap_without_interference(const unsigned int p) const
     {
       return gaps[p].old_gap + overlap;
     }
 
-    /// The same at the state of the last evaluate() (m).
+    /// Gap at the state of the last evaluate() (m).
     double
     new_gap(const unsigned int p) const
     {
-      return gaps[p].new_gap + overlap;
+      return gaps[p].new_gap + gap_offset;
     }
 
     /// The coverage, see above; 1 for classes without.
@@ -274,7 +290,7 @@ namespace Ricochet
     double
     predicted_gap(const unsigned int p) const
     {
-      return gaps[p].predicted_gap + overlap;
+      return gaps[p].predicted_gap + gap_offset;
     }
 
     /// The multipliers of a node at the last begin_step() or evaluate() (Pa).
@@ -484,8 +500,11 @@ namespace Ricochet
     may_touch(const Point &point) const;
 
     const bool is_self;
-    /// ContactPair::overlap (m).
-    const double overlap;
+    /// ContactPair::overlap (m), and ContactPair::interference.
+    const double                              overlap;
+    const std::function<double(const double)> interference;
+    /// Sum of both at the time of the last set_interference() (m).
+    double gap_offset;
     /// See leave_out_slip().
     bool needs_slip = true;
     /// See keep_facets().

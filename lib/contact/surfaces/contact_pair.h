@@ -4,6 +4,7 @@
 
 #include <deal.II/base/types.h>
 
+#include <functional>
 #include <set>
 #include <string>
 
@@ -30,6 +31,10 @@ namespace Ricochet
     /// Gaps are counted from this depth on: by so much facets that are chords of arcs overlap
     /// before any displacement where one surface fits into the other (m).
     double overlap = 0.;
+
+    /// Interference (m) at a time (s), by which gaps are smaller: a bore that is too narrow;
+    /// empty for none. Treatments that act over a step need one that is constant.
+    std::function<double(const double time)> interference = {};
 
     /// The set of multipliers of the slave's nodes, see Body.
     unsigned int multiplier_set = 0;

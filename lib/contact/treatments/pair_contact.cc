@@ -262,7 +262,8 @@ namespace Ricochet
         // open points.
         const bool was_pressed =
           !law_of(state) && is_pressed(state, pair.multipliers(p)[0]);
-        state.old_state.gap = state.begin_gap = pair.old_gap(p);
+        state.old_state.gap = pair.old_gap(p);
+        state.begin_gap     = pair.old_gap_without_interference(p);
         // The predictor leads away from a surface that is not flat, and pressed
         // points would be released.
         if (!law_of(state) && method.condition == ClosingCondition::persistent)
@@ -303,6 +304,7 @@ namespace Ricochet
     for (const auto &pair : pairs)
       {
         pair->keep_facets(false);
+        pair->set_interference(start.end_time);
         pair->begin_step(start);
       }
     std::atomic<bool> changed = false;
@@ -1530,7 +1532,10 @@ namespace Ricochet
     // Force and velocity are not used in an instant.
     const ContactStart start{solution, solution, solution, 0., time};
     for (const auto &pair : pairs)
-      pair->begin_step(start);
+      {
+        pair->set_interference(start.end_time);
+        pair->begin_step(start);
+      }
     for (PointState &state : states)
       {
         state.candidate = pair_of(state).is_before_facet(state.point) &&

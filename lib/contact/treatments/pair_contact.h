@@ -192,7 +192,7 @@ namespace Ricochet
       double energy = 0.;
       /// The normal force of a corner in the last evaluation (N).
       double corner_force = 0.;
-      /// The gap at the beginning of the step or stage (m).
+      /// The gap at the beginning of the step or stage, without interference (m).
       double begin_gap = 0.;
       /// The constraint, where there is no law.
       FrictionalConstraint<n_tangents> constraint;

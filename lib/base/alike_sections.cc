@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/alike_sections.h>
+#include <base/exceptions.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace Ricochet
+{
+  namespace
+  {
+    using Assignment = ParameterText::Assignment;
+
+    bool
+    is_like(const Assignment &assignment)
+    {
+      return assignment.path.size() == 2 && assignment.path[1] == "Like" &&
+        assignment.path[0].find(' ') != std::string::npos;
+    }
+
+    /// "Body" of "Body ball".
+    std::string
+    kind_of(const std::string &section)
+    {
+      return section.substr(0, section.find(' '));
+    }
+  } // namespace
+
+
+
+  ParameterText
+  with_alike_sections(const ParameterText &text)
+  {
+    std::map<std::string, const Assignment *>      models;
+    std::map<std::string, std::vector<Assignment>> settings;
+    for (const Assignment &assignment : text.assignments)
+      if (is_like(assignment))
+        models[assignment.path[0]] = &assignment;
+      else
+        settings[assignment.path[0]].push_back(assignment);
+    if (models.empty())
+      return text;
+    std::set<std::string> sections;
+    for (const ParameterText::Section &section : text.sections)
+      sections.insert(section.path[0]);
+
+    ParameterText result;
+    result.sections = text.sections;
+    // Settings of a section itself follow, and count.
+    for (const auto &entry : models)
+      {
+        // From the section to its model, and on to that one's.
+        std::vector<std::string> chain = {entry.first};
+        for (auto next = models.find(chain.back()); next != models.end();
+             next      = models.find(chain.back()))
+          {
+                 const Assignment &like = *next->second;
+                 chain.push_back(kind_of(like.path[0]) + " " + like.value);
+                 if (sections.count(chain.back()) == 0)
+              {
+                     std::vector<std::string> candidates;
+                     for (const std::string &section : sections)
+                  if (kind_of(section) == kind_of(chain.back()))
+                    candidates.push_back(section);
+                std::string message = like.where + ": there is no section '" +
+                       chain.back().substr(0, 100) +
+                       "' that this one could be like.";
+                     for (const std::string &near :
+                     nearest_names(chain.back(), candidates, 1))
+                  message += " Is '" + near + "' meant?";
+                throw InputError(message);
+              }
+            // Far beyond any use, but for sections that are like each other.
+                 if (chain.size() > std::min<std::size_t>(models.size(), 100) + 1)
+              throw InputError(like.where + ": '" + entry.first +
+                               "' is like itself, or like too many in a row.");
+          }
+        for (auto model = chain.rbegin(); model + 1 != chain.rend(); ++model)
+          for (Assignment assignment : settings[*model])
+            {
+              assignment.path[0] = entry.first;
+              result.assignments.push_back(assignment);
+            }
+      }
+    for (const Assignment &assignment : text.assignments)
+      if (!is_like(assignment))
+        result.assignments.push_back(assignment);
+    return result;
+  }
+} // namespace Ricochet
