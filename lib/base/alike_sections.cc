@@ -25,6 +25,40 @@ namespace Ricochet
     {
       return section.substr(0, section.find(' '));
     }
+
+    /// The section @p name, its model, that one's model and so on. @throws InputError
+    std::vector<std::string>
+    chain_of(const std::string                               &name,
+             const std::map<std::string, const Assignment *> &models,
+             const std::set<std::string>                     &sections)
+    {
+      // Far beyond any use, but for sections that are like each other.
+      const std::size_t longest = std::min<std::size_t>(models.size(), 100);
+      std::vector<std::string> chain = {name};
+      while (models.count(chain.back()) > 0)
+        {
+          const Assignment &like = *models.at(chain.back());
+          const std::string kind = kind_of(like.path[0]);
+          chain.push_back(kind + " " + like.value);
+          if (sections.count(chain.back()) == 0)
+            {
+              std::vector<std::string> candidates;
+              for (const std::string &section : sections)
+                if (kind_of(section) == kind)
+                  candidates.push_back(section);
+              std::string message = like.where + ": there is no section '" +
+                chain.back().substr(0, 100) + "' that this one could be like.";
+              for (const std::string &near :
+                   nearest_names(chain.back(), candidates, 1))
+                message += " Is '" + near + "' meant?";
+              throw InputError(message);
+            }
+          if (chain.size() > longest + 1)
+            throw InputError(like.where + ": '" + name +
+                             "' is like itself, or like too many in a row.");
+        }
+      return chain;
+    }
   } // namespace
 
 
@@ -50,32 +84,7 @@ namespace Ricochet
     // Settings of a section itself follow, and count.
     for (const auto &entry : models)
       {
-        // From the section to its model, and on to that one's.
-        std::vector<std::string> chain = {entry.first};
-        for (auto next = models.find(chain.back()); next != models.end();
-             next      = models.find(chain.back()))
-          {
-                 const Assignment &like = *next->second;
-                 chain.push_back(kind_of(like.path[0]) + " " + like.value);
-                 if (sections.count(chain.back()) == 0)
-              {
-                     std::vector<std::string> candidates;
-                     for (const std::string &section : sections)
-                  if (kind_of(section) == kind_of(chain.back()))
-                    candidates.push_back(section);
-                std::string message = like.where + ": there is no section '" +
-                       chain.back().substr(0, 100) +
-                       "' that this one could be like.";
-                     for (const std::string &near :
-                     nearest_names(chain.back(), candidates, 1))
-                  message += " Is '" + near + "' meant?";
-                throw InputError(message);
-              }
-            // Far beyond any use, but for sections that are like each other.
-                 if (chain.size() > std::min<std::size_t>(models.size(), 100) + 1)
-              throw InputError(like.where + ": '" + entry.first +
-                               "' is like itself, or like too many in a row.");
-          }
+        const auto chain = chain_of(entry.first, models, sections);
         for (auto model = chain.rbegin(); model + 1 != chain.rend(); ++model)
           for (Assignment assignment : settings[*model])
             {

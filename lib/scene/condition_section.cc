@@ -40,6 +40,22 @@ namespace Ricochet
         return value;
       };
     }
+
+    /// The vector field of @p dim functions.
+    template <int dim>
+    VectorField<dim>
+    vector_field(
+      const std::function<double(const unsigned int,
+                                 const double      time,
+                                 const Point<dim> &place)> &components)
+    {
+      return [components](const double time, const Point<dim> &place) {
+        Tensor<1, dim> result;
+        for (unsigned int c = 0; c < dim; ++c)
+          result[c] = components(c, time, place);
+        return result;
+      };
+    }
   } // namespace
 
 
@@ -48,14 +64,7 @@ namespace Ricochet
   VectorField<dim>
   parse_vector_field(const std::string &text, const std::string &name)
   {
-    return
-      [field = parse_field<dim>(text, name, dim)](const double      time,
-                                                  const Point<dim> &place) {
-        Tensor<1, dim> result;
-        for (unsigned int c = 0; c < dim; ++c)
-          result[c] = field(c, time, place);
-        return result;
-      };
+    return vector_field<dim>(parse_field<dim>(text, name, dim));
   }
 
 
@@ -284,25 +293,16 @@ namespace Ricochet
                        "give them a condition of their own.");
     const std::set<types::boundary_id> ids =
       find_ids(surfaces, first_part, setup);
-    const std::array<bool, dim> which     = which_components();
-    const auto                  vector_of = [](const Field &components) {
-      return VectorField<dim>(
-        [components](const double time, const Point<dim> &place) {
-          Tensor<1, dim> result;
-          for (unsigned int c = 0; c < dim; ++c)
-            result[c] = components(c, time, place);
-          return result;
-        });
-    };
-    const auto add_traction = [&](const types::boundary_id id,
+    const std::array<bool, dim> which        = which_components();
+    const auto                  add_traction = [&](const types::boundary_id id,
                                   const VectorField<dim>  &own) {
       VectorField<dim> &traction = setup.tractions[id];
       traction                   = traction
-                          ? [first = traction,
+                                           ? [first = traction,
            own](const double time,
                 const Point<dim>
                   &place) { return first(time, place) + own(time, place); }
-                          : own;
+                                           : own;
     };
 
     if (kind == "fixed")
@@ -310,14 +310,14 @@ namespace Ricochet
         prescribe(id, {}, setup);
     else if (kind == "displacement")
       for (const auto id : ids)
-        prescribe(id, vector_of(field(dim)), setup);
+        prescribe(id, vector_field<dim>(field(dim)), setup);
     else if (kind == "traction")
       for (const auto id : ids)
-        add_traction(id, vector_of(field(dim)));
+        add_traction(id, vector_field<dim>(field(dim)));
     else if (kind == "force")
       setup.resultants.push_back(
         {ids,
-         [force = vector_of(field(dim))](const double time) {
+         [force = vector_field<dim>(field(dim))](const double time) {
            return force(time, Point<dim>());
          },
          {}});
@@ -346,7 +346,7 @@ namespace Ricochet
           // The traction k (Value - u) in two terms.
           if (has_value && stiffness > 0.)
             add_traction(id,
-                         [ends = vector_of(field(dim)),
+                         [ends = vector_field<dim>(field(dim)),
                           which,
                           k = stiffness](const double      time,
                                          const Point<dim> &place) {

@@ -146,10 +146,13 @@ def quantities(comparison: Comparison) -> list[Quantity]:
     def penetration(run: Run) -> float:
         return run.summary().largest_penetration
 
+    def part_lost(what: str) -> Callable[[Run], float]:
+        return lambda run: 100 * measures.part_lost(run.table, what)
+
     result = [
         Quantity("energy lost", "%", each(lambda run: 100 * measures.energy_lost(run.table))),
         *(
-            Quantity(f"to {what}", "%", each(lambda run, what=what: 100 * measures.part_lost(run.table, what)))
+            Quantity(f"to {what}", "%", each(part_lost(what)))
             for what in measures.LOSSES
         ),
         Quantity("restitution", "", each(lambda run: run.summary().restitution)),
@@ -293,25 +296,22 @@ def orders(comparison: Comparison) -> list[str]:
             groups.setdefault((method.treatment, method.scheme, *others), []).append((size, method))
         for key, group in groups.items():
             # Finer is smaller, of numbers of cells larger.
-            group.sort(key=lambda one: -one[0])
-            if name.rpartition("/")[2] in COUNTS:
-                group.reverse()
-            sizes = [one[0] for one in group[-3:]]
+            is_count = name.rpartition("/")[2] in COUNTS
+            last = sorted(group, key=lambda one: one[0], reverse=not is_count)[-3:]
+            numbers = [one[0] for one in last]
             if (
-                len(group) < 3
-                or 0.0 in sizes
-                or abs(sizes[0] * sizes[2] / sizes[1] ** 2 - 1.0) > 1e-6
+                len(last) < 3
+                or 0.0 in numbers
+                or abs(numbers[0] * numbers[2] / numbers[1] ** 2 - 1.0) > 1e-6
             ):
                 continue
+            sizes = [1.0 / one for one in numbers] if is_count else numbers
             found = []
             for q in columns:
-                values = [q.values[one[1].name] for one in group[-3:]]
-                if not all(values) or q.values[group[-1][1].name] == [0.0]:
+                values = [q.values[method.name] for _, method in last]
+                if not all(values) or values[-1] == [0.0]:
                     continue
-                if name.rpartition("/")[2] in COUNTS:
-                    own = order([1.0 / s for s in sizes], [float(np.mean(v)) for v in values])
-                else:
-                    own = order(sizes, [float(np.mean(v)) for v in values])
+                own = order(sizes, [float(np.mean(v)) for v in values])
                 found.append(f"{q.name} {'none' if own is None else f'{own:.2g}'}")
             others = ", ".join(
                 part if isinstance(part, str) else f"{part[0]} = {part[1]}"
@@ -319,7 +319,7 @@ def orders(comparison: Comparison) -> list[str]:
                 if part is not None
             )
             lines.append(
-                f"Observed orders in {name} ({', '.join(f'{s:g}' for s in sizes)})"
+                f"Observed orders in {name} ({', '.join(f'{one:g}' for one in numbers)})"
                 f"{': ' + others if others else ''}: {', '.join(found)}."
             )
     return lines

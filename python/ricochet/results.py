@@ -255,7 +255,6 @@ class Run:
         """
         return read_vtu(self.field_file(at).path)
 
-
     def nodes(self, at: int | float = -1) -> Array:
         """Initial positions of the nodes, (n, 3), each once for each body that has it.
 

@@ -122,10 +122,11 @@ def dataset(
         except NotARun:
             return None
 
+    runs = {name: known(name) for name in names}
     missing = {
         name: Task(name, program, path, {"Output/Log every": 0, **settings}, folder / name)
         for name, settings in zip(names, all_settings)
-        if known(name) is None
+        if runs[name] is None
     }
     outcomes = dict(
         zip(missing, run_tasks(list(missing.values()), jobs or os.cpu_count(), progress))
@@ -133,7 +134,7 @@ def dataset(
     rows = []
     for name, settings in zip(names, all_settings):
         outcome = outcomes.get(name)
-        run = known(name) if outcome is None else outcome.run
+        run = outcome.run if outcome else runs[name]
         if run is not None:
             state = "open" if run.is_open else "complete"
         else:
