@@ -89,7 +89,7 @@ def scene(dim, body, places, speed, treatment, steps, radius=None):
 
 
 def disks(rings, n_bodies, radius=None):
-    """The scene of disks with so many rings of nodes, 200 steps of 1 ms."""
+    """The scene of disks with a number of rings of nodes, 200 steps of 1 ms."""
     body = DISK.format(around=6 * rings, nodes=3 * rings * (rings + 1) + 1)
     return scene(2, body, (1.01, -1.01)[:n_bodies], 1, PERSISTENT, (1e-3, 200), radius)
 

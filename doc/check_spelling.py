@@ -3,8 +3,8 @@
 """Check the spelling of the site's prose with aspell, British English, and its idioms.
 
     doc/check_spelling.py output/doc          spelling and idioms of the site
-    doc/check_spelling.py --sources [ROOT]    idioms of the sources: comments, docstrings and
-                                              Markdown; seconds, without a site
+    doc/check_spelling.py --sources [ROOT]    idioms of the sources: comments, docstrings,
+                                              messages and Markdown; seconds, without a site
 
 Code and formulas are left out, and so is the API. doc/words.txt has the words that aspell does
 not know: names, and terms of the field; one on a line, in order. doc/idioms.txt has the idioms
@@ -31,8 +31,9 @@ LEFT_OUT = ("api/", "files/", "genindex.html", "search.html")
 HISTORY = ("how_to/speed.html",)
 # Folders and files whose idioms are checked.
 SOURCES = (
-    "CONTRIBUTING.md", "README.md", "benchmarks", "doc", "examples", "figures", "lib",
-    "parameter_files", "python", "scripts", "steps", "tests",
+    ".github", "CODE_OF_CONDUCT.md", "CONTRIBUTING.md", "README.md", "SECURITY.md", "benchmarks",
+    "doc", "examples", "figures", "lib", "packaging", "paper", "parameter_files", "python",
+    "scripts", "steps", "tests",
 )  # fmt: skip
 
 
@@ -68,12 +69,12 @@ def idioms() -> list[tuple[re.Pattern[str], str]]:
 def findings(text: str, is_comment: bool) -> list[str]:
     """The idioms in a paragraph, each with the words to use instead.
 
-    is_comment: expressions for the beginning of comments apply, too.
+    is_comment: expressions for the beginning of comments apply, those for users do not.
     """
     return [
         f"'{match[0]}': {instead}"
         for expression, instead in idioms()
-        if is_comment or not expression.pattern.startswith("^")
+        if not expression.pattern.startswith("(?#user)" if is_comment else "^")
         for match in expression.finditer(text)
     ]
 
@@ -87,8 +88,13 @@ def check_sources(root: pathlib.Path) -> int:
             if path.suffix not in source_text.READERS:
                 continue
             n_files += 1
-            for line, text in source_text.read(path):
-                for finding in findings(text, path.suffix in (".cc", ".h", ".py")):
+            is_code = path.suffix in (".cc", ".h", ".py")
+            found = [(line, text, is_code) for line, text in source_text.read(path)]
+            if name in ("lib", "steps") and path.suffix in (".cc", ".h"):
+                content = path.read_text(encoding="utf-8")
+                found += [(*each, False) for each in source_text.messages(content)]
+            for line, text, is_comment in sorted(found):
+                for finding in findings(text, is_comment):
                     print(f"{path.relative_to(root)}:{line}: {finding}", file=sys.stderr)
                     number += 1
     print(f"{n_files} source files, {number} idioms")

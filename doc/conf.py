@@ -56,6 +56,14 @@ html_show_copyright = False
 nbsphinx_requirejs_path = ""
 nbsphinx_execute = "always"
 nbsphinx_timeout = 300
+# The file as it is in doc/notebooks, without results.
+nbsphinx_prolog = """
+.. raw:: html
+
+    {% set file = env.docname.split("/")[-1] ~ ".ipynb" %}
+    <p><a href="{{ file }}" download>Download this notebook, <code>{{ file }}</code></a>. It looks for
+    the source of Ricochet in the folders above its own.</p>
+"""
 
 
 class ParameterFile(RegexLexer):

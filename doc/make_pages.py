@@ -16,6 +16,7 @@ import shutil
 import sys
 import time
 
+import make_cheat_sheet
 from generate import (
     api,
     examples,
@@ -25,6 +26,7 @@ from generate import (
     parameters,
     results,
     site,
+    slides,
     steps,
 )
 
@@ -58,6 +60,7 @@ def copy_notebooks(made: site.Site) -> None:
         target = made.target / "notebooks" / path.name
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(path, target)
+        made.copy(path, f"notebooks/{path.name}")  # to be downloaded
 
 
 def write_pages(arguments: argparse.Namespace) -> None:
@@ -70,10 +73,13 @@ def write_pages(arguments: argparse.Namespace) -> None:
         ("tutorials", lambda: steps.make(made, gallery)),
         ("parameters", lambda: parameters.make(made)),
         ("figures", lambda: figures.make(made, gallery)),
+        ("slides", lambda: slides.make(made, gallery)),
         ("examples", lambda: examples.make(made)),
         ("methods", lambda: methods.make(made, gallery)),
         ("results", lambda: results.make(made)),
         ("pages by hand", lambda: how_to.make(made)),
+        ("cheat sheet", lambda: make_cheat_sheet.write(
+            made.programs / "ricochet", made.extra("teaching/conserves.pdf"))),
         ("pictures", lambda: copy_pictures(made)),
         ("notebooks", lambda: copy_notebooks(made)),
         ("MathJax", lambda: copy_mathjax(made)),

@@ -17,6 +17,7 @@ CPP = re.compile(
     r"|(?P<line>//[^\n]*)|(?P<block>/\*.*?\*/)",
     re.DOTALL,
 )
+LITERALS = re.compile(r'(?:"(?:\\.|[^"\\\n])*"\s*)+')
 # A line of Markdown or of a docstring with which a paragraph begins.
 BEGINNING = re.compile(r"[-*] |\d+\. |\||#|@|\\")
 
@@ -48,6 +49,21 @@ def cpp(text: str) -> list[str]:
             for index, line in enumerate(match["block"].removesuffix("*/").split("\n")):
                 lines[first + index] = re.sub(r"^\s*/?\*+[!<]*", "", line)
     return lines
+
+
+def messages(text: str) -> list[tuple[int, str]]:
+    """Literals of C++ with several words, each with its line; adjacent ones are one."""
+    found = []
+    for match in LITERALS.finditer(CPP.sub(lambda each: _without_comment(each[0]), text)):
+        words = "".join(re.findall(r'"((?:\\.|[^"\\\n])*)"', match[0]))
+        if words.count(" ") > 1:
+            found.append((text.count("\n", 0, match.start()) + 1, words))
+    return found
+
+
+def _without_comment(token: str) -> str:
+    """A string as it is, a comment as blanks."""
+    return token if token[0] in "\"'R" else re.sub(r"[^\n]", " ", token)
 
 
 def python(text: str) -> list[str]:

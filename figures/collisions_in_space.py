@@ -4,7 +4,7 @@
 
     figures/collisions_in_space.py [--build-dir build/release] [--output output/collisions]
 
-Runs that are there already are taken as they are. The tori take some minutes, the spheres seconds.
+Runs in the output folder are taken as they are. The tori take some minutes, the spheres seconds.
 """
 
 import argparse

@@ -34,7 +34,7 @@ import numpy as np  # noqa: E402
 
 from ricochet import read_table  # noqa: E402
 from ricochet.fields import array, array_of_points  # noqa: E402
-from ricochet.results import read_vtu  # noqa: E402
+from ricochet.results import read_fields  # noqa: E402
 
 FILES = CHECKOUT / "parameter_files"
 
@@ -63,7 +63,7 @@ def run(program, file, parameters=(), look_at=None):
 def radius_and_pressure(folder, radius):
     """Radius and peak of the half ellipsoid that fits the pressure of step 23, in nodes within @p
     radius (m)."""
-    grid = read_vtu(folder / "solution/step-000023.vtu")
+    grid = read_fields(folder / "solution/step-000023.vtu")
     pressure = array(grid, "contact_pressure")[:, 0]
     points = array_of_points(grid)
     distance = np.hypot(points[:, 1], points[:, 2])

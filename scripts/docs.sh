@@ -9,7 +9,8 @@
 #   docs.sh --without-api ...   all but the pages of the API, and links to them
 #
 # Warnings are errors, and so are broken links, misspelt words (doc/words.txt has those that are
-# right all the same) and the idioms of doc/idioms.txt.
+# right all the same), the idioms of doc/idioms.txt, and formulas that are wider than a narrow
+# screen (with Debian's chromium, where it is there).
 
 api=yes
 [ "${1:-}" != "--without-api" ] || { api=no; shift; }
@@ -44,4 +45,5 @@ else
   $python doc/check_links.py output/doc api
 fi
 $python doc/check_spelling.py output/doc
+$python doc/check_width.py output/doc
 echo "output/doc/index.html, $((SECONDS - begin)) s"

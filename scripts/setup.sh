@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Sourced by demo.sh, test.sh and sanitize.sh: packages, configure, build.
+# Sourced by demo.sh, test.sh and others, and by the recipes for containers: packages, configure,
+# build.
 
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# Debian 12 packages that Ricochet needs. OpenBLAS replaces the reference BLAS, which
+# Debian packages that Ricochet needs. OpenBLAS replaces the reference BLAS, which
 # is five times slower in factorisations.
 packages="cmake ninja-build g++ ccache libdeal.ii-dev libeigen3-dev libsuitesparse-dev
   libgmsh-dev libboost-dev
   libhdf5-openmpi-dev libsundials-dev libopenblas0-pthread openmpi-bin
   perl python3 python3-matplotlib python3-numpy python3-h5py
   python3-pandas python3-vtk9 xvfb xauth libgl1-mesa-dri"
+# The deal.II of Debian 13 links with mold, which is not among its dependencies.
+[[ "$(cat /etc/debian_version 2>/dev/null)" != 13* ]] || packages="$packages mold"
 
 install_packages()
 {
@@ -19,13 +22,18 @@ install_packages()
     dpkg -s "$package" >/dev/null 2>&1 || missing="$missing $package"
   done
   [ -z "$missing" ] && return
-  echo "Installing:$missing"
   local as_root=""
-  if [ "$(id -u)" -ne 0 ]; then
-    as_root="sudo"
-    command -v sudo >/dev/null ||
-      { echo "Installing them needs root, and there is no sudo." >&2; exit 1; }
+  [ "$(id -u)" -eq 0 ] || as_root="sudo"
+  if ! command -v apt-get >/dev/null; then
+    echo "These packages of Debian are missing, and there is no apt-get to install them:$missing" >&2
+    echo "doc/how_to/install.md says how to install Ricochet elsewhere." >&2
+    exit 1
+  elif ! $as_root true 2>/dev/null; then
+    echo "Packages are missing, and this user is neither root nor allowed to use sudo." >&2
+    echo "An administrator has to run: apt-get install$missing" >&2
+    exit 1
   fi
+  echo "Installing:$missing"
   $as_root apt-get update -qq
   $as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends $missing >/dev/null

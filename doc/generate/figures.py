@@ -257,7 +257,8 @@ def make(made: site.Site, gallery: Gallery) -> None:
         f"{n_checks} numbers were checked, {failed or 'none'} of them {'is' if failed == 1 else 'are'} "
         "off. `figures/make.py all` makes "
         "all, `figures/make.py C-6` one of them, with the runs that it needs. Letters A, B and C "
-        "are the papers; figures with other letters are our own.",
+        "are the papers; figures with other letters are our own. Those that have been made are also "
+        f"{text.anchor('slides.html', 'slides')}, to be shown or printed.",
     ]
     for group in gallery.groups():
         page = f"{FOLDER}/{group}"

@@ -11,10 +11,11 @@ import textwrap
 
 import ricochet
 
-from . import site, text
+from . import references, site, text
 
 # Order of the pages.
 ORDER = (
+    "install",
     "run",
     "scenes",
     "choose",
@@ -90,6 +91,7 @@ def hand_written(name: str) -> str:
     """A page of doc/ without its licence, its links being those of the site."""
     content = (site.DOC / f"{name}.md").read_text(encoding="utf-8")
     content = re.sub(r"\A<!-- SPDX.*?-->\s*", "", content, flags=re.DOTALL)
+    content = references.with_references(content, name)
     folder = pathlib.PurePosixPath("doc", name).parent.as_posix()
     return text.with_links(content, name, folder)
 
@@ -100,13 +102,13 @@ def notebooks() -> list[pathlib.Path]:
 
 
 def make(made: site.Site) -> None:
-    """Write the pages of doc/how_to, of the library, and the first one."""
+    """Write the pages of doc/how_to and doc/teaching, of the library, and the first one."""
     names = [path.stem for path in (site.DOC / "how_to").glob("*.md") if path.stem != "index"]
     names.sort(key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name))
-    for name in names:
-        page = f"how_to/{name}"
+    teaching = [f"teaching/{path.stem}" for path in sorted((site.DOC / "teaching").glob("*.md"))]
+    for page in [*(f"how_to/{name}" for name in names), *teaching]:
         content = text.with_headers(text.with_includes(hand_written(page), page), page)
-        if name == "python":
+        if page == "how_to/python":
             content += "\n\n" + python_reference()
         made.page(page, content)
     own_step = site.ROOT / "examples" / "own_step" / "own_step.cc"
@@ -114,8 +116,9 @@ def make(made: site.Site) -> None:
     index = hand_written("how_to/index")
     made.page("how_to/index", "\n\n".join([index, text.toctree(names, hidden=False)]))
 
-    for page in ("benchmarks", "combinations", "verification"):
+    for page in ("benchmarks", "certificate", "combinations", "literature", "verification"):
         made.page(page, text.with_headers(hand_written(page), page))
+    made.copy(site.DOC / "verification.csv", "verification.csv")
     library = text.with_includes(hand_written("library"), "library")
     made.page("library", text.with_headers(library, "library"))
     listed = [f"notebooks/{path.stem}" for path in notebooks()]
@@ -124,9 +127,9 @@ def make(made: site.Site) -> None:
         "\n\n".join(
             [
                 text.with_includes(hand_written("index"), "index"),
-                text.toctree(("steps/index", *listed), "Learn"),
+                text.toctree(("steps/index", *listed, *teaching), "Learn"),
                 text.toctree(
-                    ("gallery/index", "examples/index", "benchmarks", "verification"), "Look"
+                    ("gallery/index", "examples/index", "benchmarks", "verification", "certificate"), "Look"
                 ),
                 text.toctree(
                     (
@@ -135,6 +138,7 @@ def make(made: site.Site) -> None:
                         "parameters/index",
                         "files/index",
                         "results/index",
+                        "literature",
                     ),
                     "Look up",
                 ),

@@ -24,7 +24,7 @@ from dataclasses import dataclass
 
 from ricochet import Run, curves, prm
 
-from . import api, figures, parameters, site, text
+from . import api, figures, parameters, references, site, text
 
 FOLDER = "methods"
 
@@ -182,7 +182,8 @@ def _page(made: site.Site, method: Method, runs: dict[str, Run]) -> str:
             return ""
         return _curve(made, method.page, name, runs[name])
 
-    body = text.with_includes(method.body, method.page)
+    body = references.with_references(method.body, method.page)
+    body = text.with_includes(body, method.page)
     body = text.with_pictures(body, method.page, posixpath.dirname(method.page))
     body = text.with_headers(body, method.page)
     body = _CURVE.sub(lambda match: curve(match[1]), body)

@@ -15,8 +15,6 @@ from ricochet import prm
 
 from . import site, text
 
-# Answer of a program to a value that no pattern except "anything" allows.
-
 
 @dataclass(frozen=True)
 class Parameter:
@@ -27,7 +25,7 @@ class Parameter:
     default: str
     allowed: str = "a text"
     #: Default and allowed values of a program in 3D, where they are others than in 2D; a parameter
-    #: that is there in one dimension only has `only`.
+    #: of one dimension has `only`.
     default_in_space: str | None = None
     allowed_in_space: str | None = None
     only: str = ""
@@ -151,7 +149,38 @@ def in_words(pattern: str) -> str:
         return "one of: " + pattern.removeprefix("Any one of ")
     if pattern.startswith("A boolean value"):
         return "true or false"
-    return pattern[:1].lower() + pattern[1:]
+    words = pattern[:1].lower() + pattern[1:]
+    if words in _NAMES:
+        return _NAMES[words]
+    words = _NUMBER.sub(lambda match: _readable(match[0]), words)
+    several = re.fullmatch(r"(any number of|[\d to]+) values, each a (whole )?number(.*)", words)
+    if several:
+        count = several[1].removeprefix("any number of")
+        words = f"{count} {several[2] or ''}numbers{several[3]}, separated by commas".strip()
+    return words
+
+
+_NAMES = {
+    "a directory name": "a folder",
+    "an input filename": "a file",
+    "a whole number from 1 to 2": "1 or 2",
+}
+_NUMBER = re.compile(r"-?\d[\d.]*(e[-+]\d+)?")
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def _readable(number: str) -> str:
+    """A number of a program as in a text: 10⁻⁶, 1/3, 100 000."""
+    sign, number = ("−", number[1:]) if number.startswith("-") else ("", number)
+    if number == "0.333333":
+        return f"{sign}1/3"
+    digits, exponent, power = number.partition("e")
+    if exponent:
+        base = "" if digits == "1" else f"{digits}·"
+        return f"{sign}{base}10{str(int(power)).translate(_SUPERSCRIPTS)}"
+    if number.isdigit() and len(number) > 4:
+        number = f"{int(number):,}".replace(",", "\u202f")
+    return sign + number
 
 
 # Parameter files ------------------------------------------------------------
@@ -256,7 +285,7 @@ def _page(program: str, parameters: list[Parameter], says: str) -> str:
     ):
         if parameter.section != here:
             here = parameter.section
-            pieces.append(f"## {text.plain(here) if here else 'Outside of all sections'}")
+            pieces.append(f"## {text.plain(here) if here else 'At the top level'}")
         default = f"<code>{text.escape(parameter.default)}</code>" if parameter.default else "empty"
         rows = [("default", default)]
         if parameter.unit:
@@ -267,8 +296,8 @@ def _page(program: str, parameters: list[Parameter], says: str) -> str:
         if parameter.allowed_in_space is not None:
             rows.append(("allowed in 3D", text.escape(parameter.allowed_in_space)))
         if parameter.only:
-            rows.append(("is there", f"in {parameter.only}"))
-        rows.append(("set by", _set_by(program, parameter, sections, page)))
+            rows.append(("available", f"in {parameter.only} only"))
+        rows.append(("set in", _set_by(program, parameter, sections, page)))
         pieces += [
             f"({anchor_of(parameter)}-of-{text.slug(program)})=\n### {text.plain(parameter.last)}",
             text.plain(parameter.meaning),
@@ -294,9 +323,9 @@ def _index(of: dict[str, list[Parameter]]) -> str:
     return "\n\n".join(
         [
             "# Parameters",
-            "What a program reads from its parameter file, or from `--set "
-            '"Section/Name=value"` on the command line. The pages are made of what the programs '
-            "print of themselves. Where a text names a unit, the default is in this unit; the "
+            "Values that a program reads from its parameter file, or from `--set "
+            '"Section/Name=value"` on the command line. The pages are made of the output of '
+            "`--print-parameters`. Where a text names a unit, the default is in this unit; the "
             "program `ricochet` takes any consistent units.",
             text.toctree((f"{name} <{name}>" for name in of), hidden=False),
             "## All names",
@@ -308,7 +337,7 @@ def _index(of: dict[str, list[Parameter]]) -> str:
 def _files_page(program: str) -> str:
     pieces = [
         f"# Parameter files of `{program}`",
-        "A file that begins with `include` has the values of the included file, but for those "
+        "A file that begins with `include` has the values of the included file, except for those "
         "that it sets.",
     ]
     folder = None
@@ -341,7 +370,7 @@ def make(made: site.Site) -> None:
         "\n\n".join(
             [
                 "# Parameter files",
-                "Each curve of a figure is a small file that says what differs from the default.",
+                "Each curve of a figure is a small file with its changes to the default.",
                 text.toctree((f"{name} <{name}>" for name in with_files), hidden=False),
             ]
         ),

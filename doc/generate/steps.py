@@ -8,7 +8,7 @@ import pathlib
 import re
 from dataclasses import dataclass, field
 
-from . import figures, site, text
+from . import figures, run_pages, site, text
 
 FOLDER = "steps"
 
@@ -126,7 +126,7 @@ def _own_text(step: Step) -> tuple[str, str]:
     )
 
 
-def page_text(step: Step, gallery: figures.Gallery) -> str:
+def page_text(step: Step, gallery: figures.Gallery, made: site.Site) -> str:
     """The whole page of a step."""
     results, exercises = _own_text(step)
     shown = [results]
@@ -158,6 +158,11 @@ def page_text(step: Step, gallery: figures.Gallery) -> str:
             )
             if (site.ROOT / "parameter_files" / step.name).is_dir()
             else ("parameter files", "none; its defaults are the case"),
+            *(
+                [("to turn and play", text.anchor(site.link(step.page, run), "a run in the browser"))]
+                if (run := run_pages.write(made, step.name))
+                else []
+            ),
         ]
     )
     page = "\n\n".join(
@@ -180,7 +185,7 @@ def make(made: site.Site, gallery: figures.Gallery) -> None:
     names = site.steps()
     for name in names:
         step = read(name)
-        made.page(step.page, page_text(step, gallery))
+        made.page(step.page, page_text(step, gallery, made))
     rows = [
         (
             text.anchor(f"{name}.html", f"<code>{name}</code>"),

@@ -238,6 +238,12 @@ def with_links(text: str, page: str, folder: str = "") -> str:
         path = posixpath.normpath(posixpath.join(folder, target))
         if path.startswith("doc/") and path.endswith(".md"):
             return anchor(site.page_link(page, path[4:-3]) + sharp + part, label)
+        if path.startswith("doc/static/"):
+            return anchor(site.link(page, f"_static/{path[11:]}"), label)
+        if path.startswith("doc/notebooks/"):
+            return anchor(site.page_link(page, path[4:].removesuffix(".ipynb")), label)
+        if path.startswith("doc/") and path.endswith((".html", ".pdf", ".csv")):
+            return anchor(site.link(page, path[4:]), label)
         if path in PAGES_OF_FILES:
             return anchor(site.page_link(page, PAGES_OF_FILES[path]), label)
         shown = path.startswith(("parameter_files/", "examples/"))

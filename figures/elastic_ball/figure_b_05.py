@@ -55,7 +55,7 @@ def impulse_row(method):
     impulse = 1e-3 * table["contact_force_foundation"].sum()
     error = abs(impulse / (table["momentum_y"][-1] - table["momentum_y"][0]) - 1)
     return check(
-        f"{method.name}: impulse of the ledger's contact force / change of momentum - 1",
+        f"{method.name}: impulse of the table's contact force / change of momentum - 1",
         f"{error:.1e}",
         error < 1e-9,
         "< 1e-9: Newton's tolerance",

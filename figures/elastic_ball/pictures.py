@@ -58,7 +58,7 @@ def checks_picture():
                 f"sum of the arrows {label} the impact (N)",
                 f"{force[1]:.4e}",
                 bool(good),
-                "the ledger's contact force within 1e-5; some during the impact only",
+                "the table's contact force within 1e-5; some during the impact only",
                 exact=f"{ledger:.4e}",
             )
         )

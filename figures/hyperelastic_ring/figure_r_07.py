@@ -62,7 +62,7 @@ def checks():
                 "between both, or all within 10 %: it rolls",
             )
         )
-    # A coefficient that falls while what slips comes to rest, which has several solutions in a step.
+    # A coefficient that falls while slipping nodes come to rest, which has several solutions in a step.
     falling = RUNS[CASES[1]][1]
     halved = int(falling.read()["step_halvings"][-1])
     rows.append(check("a = 0.3, b = 0.1: steps halved", f"{halved}", halved < 12, "below 2 %"))

@@ -68,7 +68,7 @@ def checks_picture(one, steps):
     error = max(abs(ours - ledger) / max(ledger, 1) for ours, ledger in sums)
     return [
         check(
-            "sum of the arrows against the ledger's contact force, relative",
+            "sum of the arrows against the table's contact force, relative",
             f"{error:.1e}",
             error < 1e-5,
             "< 1e-5: fields have single precision",

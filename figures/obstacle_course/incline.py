@@ -12,7 +12,7 @@ from .common import run
 COS, SIN = 2 / np.sqrt(5), 1 / np.sqrt(5)
 INCLINE_NODES = 256  # of the disks
 BLOCK_STRESS = 8.0  # kPa, the largest shown in a block
-# Pictures at the start and at the end, after so many steps, are enough.
+# Pictures at the start and at the end, with its number of steps, are enough.
 LAST = {"block_slides": 200, "block_sticks": 200, "disk_rolls": 60, "disk_slips": 60}
 INCLINE = {
     key: run("O-1", key, key, (f"Output/Fields every={last}",), 70 if "disk" in key else 6)

@@ -9,12 +9,12 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from ricochet.fields import array, array_of_points
-from ricochet.results import read_vtu
+from ricochet.results import read_fields
 
 
 def read(path):
     """Vertices (n, 2), triangles (m, 3) and a dictionary of fields: (n,) or (n, components)."""
-    grid = read_vtu(path)
+    grid = read_fields(path)
     points = vtk_to_numpy(grid.GetPoints().GetData())[:, :2].astype(float)
     cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
     cells = cells.reshape(grid.GetNumberOfCells(), -1)
@@ -38,7 +38,7 @@ def read(path):
 
 def read_bar(path):
     """A bar: its nodes, their displacements and velocities, and the stress of each cell."""
-    grid = read_vtu(path)
+    grid = read_fields(path)
     x = array_of_points(grid)[:, 0]
     order = np.argsort(x[::2], kind="stable")
 

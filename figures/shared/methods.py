@@ -45,7 +45,7 @@ SCALE = ("#56B4E9", "#0072B2", "#009E73", "#E69F00", "#D55E00", "#882255")
 
 
 def gap(steps, position, time_step):
-    """The initial gap (m) for an impact `position` of a step after so many steps."""
+    """The initial gap (m) for an impact `position` of a step after a number of steps."""
     return round((steps + position) * SPEED * time_step, 12)
 
 

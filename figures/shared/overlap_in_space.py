@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ricochet.fields import array, array_of_points
-from ricochet.results import read_vtu
+from ricochet.results import read_fields
 
 # Faces of VTK's hexahedron, seen anticlockwise from outside.
 FACES = ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7))
@@ -26,7 +26,7 @@ class Overlap:
 
 def read(path):
     """Vertices before any displacement (n, 3), where they are, hexahedra (m, 8)."""
-    grid = read_vtu(path)
+    grid = read_fields(path)
     points = array_of_points(grid).astype(float)
     moved = points + array(grid, "displacement").astype(float)
     cells = np.array([[grid.GetCell(c).GetPointId(i) for i in range(8)]

@@ -32,7 +32,7 @@ namespace Ricochet
              const std::map<std::string, const Assignment *> &models,
              const std::set<std::string>                     &sections)
     {
-      // Far beyond any use, but for sections that are like each other.
+      // Far beyond any use, except for sections that are like each other.
       const std::size_t longest = std::min<std::size_t>(models.size(), 100);
       std::vector<std::string> chain = {name};
       while (models.count(chain.back()) > 0)

@@ -16,7 +16,7 @@ namespace Ricochet
    * with its parent.
    *
    * @param who does the task, such as "Gmsh", for messages.
-   * @param seconds by the clock after which the process is ended; 0 for never.
+   * @param seconds of wall time after which the process is ended; 0 for never.
    * @throws InputError with the message of an exception in the task, or saying how the
    * process ended otherwise.
    */

@@ -59,6 +59,20 @@ namespace Ricochet
 
 
 
+    /// Refuse a @p text that is too long: the time to read it grows with the square of its
+    /// length. @param what it is, for the message. @throws InputError
+    void
+    check_length(const std::string &text, const std::string &what)
+    {
+      constexpr std::size_t max_length = 2000;
+      if (text.size() > max_length)
+        throw InputError(what + " has " + std::to_string(text.size()) +
+                         " characters; there may be " +
+                         std::to_string(max_length) + ".");
+    }
+
+
+
     /// Whether random numbers are asked for: rand() or rand_seed().
     bool
     is_random(const std::string &text)
@@ -80,6 +94,8 @@ namespace Ricochet
                            const std::string              &what,
                            const bool                      of_time)
   {
+    for (const std::string &text : texts)
+      check_length(text, "One of the expressions of " + what);
     for (const std::string &text : texts)
       if (is_random(text))
         throw InputError("One of the expressions of " + what +
@@ -171,12 +187,16 @@ namespace Ricochet
       return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
     };
     static const std::regex number(
-      "^([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?");
+      "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?");
     std::vector<std::string> list;
     for (auto at = expression.begin(); at != expression.end();)
       {
         std::smatch match;
-        if (std::regex_search(at, expression.end(), match, number))
+        if (std::regex_search(at,
+                              expression.end(),
+                              match,
+                              number,
+                              std::regex_constants::match_continuous))
           at += match.length();
         else if (!is_of_word(*at))
           ++at;
@@ -201,6 +221,7 @@ namespace Ricochet
            const std::map<std::string, double> &constants,
            const std::string                   &what)
   {
+    check_length(expression, what);
     if (is_random(expression))
       throw InputError(what +
                        " has random numbers, with which no run could be "

@@ -14,6 +14,11 @@ namespace Ricochet
   class JsonWriter
   {
   public:
+    /// @param on_one_line without line breaks, for files with an object on each line.
+    explicit JsonWriter(const bool on_one_line = false)
+      : on_one_line(on_one_line)
+    {}
+
     /// Members up to end_object() belong to the member @p name.
     void
     begin_object(const std::string &name)
@@ -104,7 +109,7 @@ namespace Ricochet
     std::string
     finished() const
     {
-      return text + "\n}\n";
+      return text + (on_one_line ? "}\n" : "\n}\n");
     }
 
   private:
@@ -125,7 +130,8 @@ namespace Ricochet
     void
     begin_line()
     {
-      text += "\n" + std::string(2 * depth, ' ');
+      if (!on_one_line)
+        text += "\n" + std::string(2 * depth, ' ');
     }
 
     void
@@ -156,6 +162,7 @@ namespace Ricochet
       return result + "\"";
     }
 
+    const bool   on_one_line;
     std::string  text     = "{";
     unsigned int depth    = 1;
     bool         is_empty = true;

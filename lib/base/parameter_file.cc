@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -370,6 +371,13 @@ namespace Ricochet
 
           const std::string keyword = line.substr(0, line.find_first_of(" \t"));
           const std::string rest    = trim(line.substr(keyword.size()));
+          constexpr std::size_t max_name = 200;
+          if (keyword == "subsection" && rest.size() > max_name)
+            throw InputError(where + ": the name of the section has " +
+                               std::to_string(rest.size()) +
+                               " characters; there may be " +
+                               std::to_string(max_name) + ".",
+                             {"syntax"});
           if (keyword == "subsection" && !rest.empty())
             {
               section.push_back(rest);
@@ -434,6 +442,15 @@ namespace Ricochet
     char text[40];
     std::snprintf(text, sizeof(text), "%.10g", number);
     return text;
+  }
+
+
+
+  std::string
+  exact_text(const double number)
+  {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof(text), number).ptr};
   }
 
 

@@ -140,6 +140,10 @@ namespace Ricochet
   std::string
   to_text(const double number);
 
+  /// The shortest text that is read as the same number.
+  std::string
+  exact_text(const double number);
+
   /**
    * The names in @p candidates that are closest to @p name by edit distance,
    * best first, at most @p n_names, none that is further away than half of

@@ -165,7 +165,7 @@ namespace Ricochet
         phase.name = name_in(heading, section.where);
         if (!headings.insert(heading).second)
           throw InputError(section.where + ": '" + heading +
-                           "' is there already. Give one of both another name, "
+                           "' exists already. Give one of both another name, "
                            "or put them together.");
         std::string name = phase.name;
         std::replace(name.begin(), name.end(), ' ', '_');

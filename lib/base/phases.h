@@ -25,8 +25,8 @@ namespace Ricochet
   /**
    * The phases of @p text: for each `subsection Phase NAME`, in their order, the rest of
    * the file with what this section sets in its place; a file without such sections is
-   * one phase. Within it are the sections of the file, of which it needs only what
-   * differs, and
+   * one phase. Within it are the sections of the file, of which it needs only the
+   * changes, and
    *
    *     set Without = Condition lid; Contact press
    *

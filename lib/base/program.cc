@@ -2,12 +2,14 @@
 #include <base/exceptions.h>
 #include <base/alike_sections.h>
 #include <base/commit.h>
+#include <base/certificate.h>
 #include <base/json_writer.h>
 #include <base/last_meeting.h>
 #include <base/parameter_file.h>
 #include <base/parameter_schema.h>
 #include <base/one_rank.h>
 #include <base/program.h>
+#include <base/refinement.h>
 #include <base/threads.h>
 #include <base/variables.h>
 
@@ -28,121 +30,8 @@
 
 namespace Ricochet
 {
-  CommandLine
-  parse_command_line(const int argc, char **argv)
-  {
-    CommandLine command_line;
-
-    int        i          = 1;
-    const auto next_value = [&](const std::string &option) {
-      if (i + 1 >= argc)
-        throw InputError("The option " + option + " needs a value after it.");
-      const std::string value = argv[++i];
-      if (value.empty() || value.compare(0, 2, "--") == 0)
-        throw InputError("The option " + option +
-                         " needs a value after it, not '" + value + "'.");
-      return value;
-    };
-    for (; i < argc; ++i)
-      {
-        const std::string argument = argv[i];
-        if (argument == "--set")
-          command_line.assignments.push_back(next_value(argument));
-        else if (argument == "--output-dir")
-          command_line.output_dir = next_value(argument);
-        else if (argument == "--resume")
-          command_line.resume = true;
-        else if (argument == "--overwrite")
-          command_line.overwrite = true;
-        else if (argument == "--validate")
-          command_line.validate_only = true;
-        else if (argument == "--print-parameters")
-          command_line.print_parameters = true;
-        else if (argument == "--promises" || argument == "--combinations")
-          command_line.table = argument;
-        else if (argument == "--quiet")
-          command_line.quiet = true;
-        else if (argument == "--json")
-          command_line.json = true;
-        else if (argument == "--help" || argument == "-h")
-          command_line.help = true;
-        else if (argument == "--version")
-          command_line.version = true;
-        else if (argument.empty())
-          throw InputError("The name of the parameter file is empty.");
-        else if (argument[0] == '-')
-          {
-            std::string message = "There is no option '" + argument + "'.";
-            const auto  names   = nearest_names(argument,
-                                             {"--set",
-                                                 "--output-dir",
-                                                 "--overwrite",
-                                                 "--resume",
-                                                 "--validate",
-                                                 "--print-parameters",
-                                                 "--promises",
-                                                 "--combinations",
-                                                 "--quiet",
-                                                 "--json",
-                                                 "--help",
-                                                 "--version"},
-                                             1);
-            if (!names.empty())
-              message += " Is " + names[0] + " meant?";
-            throw InputError(message + " See --help.",
-                             {"unknown_option", argument, names});
-          }
-        else if (command_line.parameter_file.empty())
-          command_line.parameter_file = argument;
-        else
-          throw InputError("Two parameter files were given, '" +
-                           command_line.parameter_file + "' and '" + argument +
-                           "'; a run has one. Use 'include' in a file to "
-                           "combine several.");
-      }
-    if (command_line.resume && command_line.overwrite)
-      throw InputError(
-        "--resume goes on with the run in the folder, "
-        "--overwrite takes its place: give one of them.");
-    return command_line;
-  }
-
-
-
   namespace
   {
-    std::string
-    help_text(const Program &program)
-    {
-      std::string of_tables;
-      for (const Program::Table &table : program.tables)
-        of_tables += "  " + table.option +
-          std::string(28 - table.option.size(), ' ') + table.description + "\n";
-      return program.description + "\n\n" + "Usage: " + program.name +
-        " [FILE.prm] [options]\n"
-        "  --set \"Section/Name=value\"  override one parameter; may be "
-        "repeated\n"
-        "  --output-dir DIR            folder for all output (default: "
-        "Output/Folder)\n"
-        "  --overwrite                 take the place of the run of another "
-        "file in it\n"
-        "  --resume                    continue from the checkpoint in the "
-        "output folder\n"
-        "  --validate                  check the parameters and stop\n"
-        "  --print-parameters          print all parameters with their "
-        "documentation\n" +
-        of_tables +
-        "  --quiet                     no lines on the console (log.txt has "
-        "them)\n"
-        "  --json                      refusals, --validate and --print-parameters as JSON\n"
-        "  --help, --version\n"
-        "Without FILE.prm all parameters have their default values.\n"
-        "In parallel: mpirun -n N " +
-        program.name + " FILE.prm ...\n";
-    }
-
-
-
     /// Print the requested text, on rank 0. @throws ComputationError
     void
     print(const std::string &text)
@@ -259,15 +148,108 @@ namespace Ricochet
 
 
 
-    /// All parameters with their documentation, for `--print-parameters`.
-    std::string
-    table_of_parameters(const Input &input)
+    /// Names of the sections of @p parameters, each once.
+    std::vector<std::string>
+    names_of_sections(const std::vector<ParameterValue> &parameters)
     {
+      std::vector<std::string> names;
+      for (const ParameterValue &parameter : parameters)
+        if (parameter.path.size() > 1 &&
+            (names.empty() || names.back() != parameter.path[0]))
+          names.push_back(parameter.path[0]);
+      return names;
+    }
+
+
+
+    /// Whether @p name is a section that @p wanted means: "Contact" means "Contact NAME", too.
+    bool
+    is_meant(const std::string &name, const std::string &wanted)
+    {
+      return wanted.empty() || name == wanted ||
+        name.compare(0, wanted.size() + 1, wanted + " ") == 0;
+    }
+
+
+
+    /// The subsections of a parameter file @p text with @p name.
+    std::string
+    only_section(const std::string &text, const std::string &name)
+    {
+      std::istringstream lines(text);
+      std::string        line, result;
+      bool               is_inside = false;
+      while (std::getline(lines, line))
+        {
+          const std::string begin = "subsection ";
+          if (line.compare(0, begin.size(), begin) == 0)
+            is_inside = is_meant(line.substr(begin.size()), name);
+          if (is_inside)
+            result += line + "\n";
+          if (is_inside && line == "end")
+            result += "\n";
+          is_inside = is_inside && line != "end";
+        }
+      return result;
+    }
+
+
+
+    /// All parameters, or those of a @p section, with their documentation, for
+    /// `--print-parameters`. @throws InputError where there is no such section.
+    std::string
+    table_of_parameters(const Input &input, const std::string &section)
+    {
+      const auto parameters = list_parameters(input.parameters);
+      const auto names      = names_of_sections(parameters);
+      if (std::none_of(names.begin(), names.end(), [&](const auto &name) {
+            return is_meant(name, section);
+          }))
+        {
+          const auto  nearest = nearest_names(section, names, 1);
+          std::string message = "There is no section '" + section + "'.";
+          if (!nearest.empty())
+            message += " Is '" + nearest[0] + "' meant?";
+          throw InputError(message, {"unknown_section", section, nearest});
+        }
       std::string allowed;
-      for (const ParameterValue &parameter : list_parameters(input.parameters))
-        if (!parameter.allowed.empty())
+      for (const ParameterValue &parameter : parameters)
+        if (!parameter.allowed.empty() && is_meant(parameter.path[0], section))
           allowed += "#   " + parameter.name + ": " + parameter.allowed + "\n";
-      return input.all_parameters + "\n# What is allowed:\n" + allowed;
+      return (section.empty() ? input.all_parameters + "\n"
+                              : only_section(input.all_parameters, section)) +
+        "# What is allowed:\n" + allowed;
+    }
+
+
+
+    /// One line for each parameter, for `--list`.
+    std::string
+    list_of_parameters(const Input &input)
+    {
+      std::string lines;
+      for (const ParameterValue &parameter : list_parameters(input.parameters))
+        lines += parameter.name + " = " + parameter.value +
+          (parameter.allowed.empty() ? "" : "  (" + parameter.allowed + ")") +
+          "\n";
+      return lines;
+    }
+
+
+
+    /// The answer to `--completion`.
+    std::string
+    completion(const Program &program, const std::string &shell)
+    {
+      const auto parameters =
+        list_parameters(Input(program, ParameterText()).parameters);
+      std::vector<std::string> names;
+      for (const ParameterValue &parameter : parameters)
+        names.push_back(parameter.name);
+      return completion_script(program,
+                               shell,
+                               names,
+                               names_of_sections(parameters));
     }
 
 
@@ -384,6 +366,31 @@ namespace Ricochet
 
 
 
+    /// The settings of these runs. @throws InputError where one of them is not valid.
+    std::vector<ParameterText>
+    texts_of_certificate(const Program &program, const ParameterText &text)
+    {
+      const Input input(program, text);
+      input.validate(program);
+      const auto                 unused = program.unused_parameters
+                        ? program.unused_parameters()
+                        : std::vector<UnusedParameter>();
+      std::vector<ParameterText> texts;
+      for (const Refinement &refinement : refinements_of_certificate)
+        {
+          texts.push_back(text);
+          for (const auto &setting :
+               refined_parameters(list_parameters(input.parameters),
+                                  unused,
+                                  refinement))
+            texts.back().assignments.push_back(setting);
+          Input(program, texts.back()).validate(program);
+        }
+      return texts;
+    }
+
+
+
     /// The program with all that is the same in each phase of a run.
     class Runs
     {
@@ -427,6 +434,56 @@ namespace Ricochet
         return open;
       }
 
+      /// The runs of a certificate, of which @p texts are the settings, and the certificate.
+      /// @return what is open. @throws OneRankSuffices to be called again.
+      std::vector<std::string>
+      run_certified(const std::vector<ParameterText> &texts,
+                    const std::vector<std::string>   &notes,
+                    const std::string                &note_of_ranks)
+      {
+        RunFolder   folder(options, OneRank::communicator());
+        const Input first(program, texts[0]);
+        first.validate(program);
+        run(first, notes, note_of_ranks, folder);
+        open                                            = folder.what_is_open();
+        std::vector<std::vector<RunResult>> all_results = {folder.results};
+        for (unsigned int k = 1; k < texts.size(); ++k)
+          {
+            const std::string name = refinements_of_certificate[k].name;
+            ParameterText     text = texts[k];
+            // The last step may pass the final time, by less if it is shorter.
+            if (first.parameters.get({"Time"}, "Until").empty())
+              text.assignments.push_back(
+                {{"Time", "Final time"}, folder.end_time, "--certify", "."});
+            RunFolder::Options own = options;
+            own.path =
+              (std::filesystem::path(options.path) / "certificate" / name)
+                .string();
+            own.resume    = false;
+            own.overwrite = true;
+            own.quiet     = true;
+            const Input input(program, text);
+            input.validate(program);
+            RunFolder finer(own, OneRank::communicator());
+            folder.log("certificate: run " + std::to_string(k) + " of " +
+                       std::to_string(texts.size() - 1) +
+                       ", in the folder certificate/" + name);
+            run(input, {}, note_of_ranks, finer);
+            for (const std::string &line : finer.what_is_open())
+              open.push_back("certificate, " + name + ": " + line);
+            all_results.push_back(finer.results);
+          }
+        const auto bars =
+          error_bars({{all_results[0], all_results[1], all_results[2]}});
+        for (const std::string &line : lines_of_certificate(bars))
+          folder.log(line);
+        on_first_rank(folder.communicator, [&]() {
+          write_atomically(folder.file("certificate.json"),
+                           certificate_as_json(bars, all_results));
+        });
+        return open;
+      }
+
     private:
       void
       run(const Input                    &input,
@@ -443,8 +500,17 @@ namespace Ricochet
                    " MPI rank(s)" + note_of_ranks);
         for (const std::string &note : notes)
           folder.log(note);
+        const auto event = [&](const std::string &name) {
+          JsonWriter json(/* on one line */ true);
+          json.add("event", name);
+          json.add("program", program.name);
+          json.add("folder", folder.options.path);
+          folder.report_progress(json);
+        };
+        event("begin");
         program.run(folder);
         folder.end();
+        event("end");
       }
 
       void
@@ -498,6 +564,32 @@ namespace Ricochet
 
 
 
+    /// The answer to an option that asks about the program itself; nothing without one.
+    std::optional<std::string>
+    answer_without_input(const CommandLine &command_line,
+                         const Program     &program)
+    {
+      if (command_line.help)
+        return help_text(program);
+      if (command_line.manual)
+        return manual_page(program);
+      if (!command_line.completion.empty())
+        return completion(program, command_line.completion);
+      if (command_line.version)
+        return program.name + " of Ricochet " + RICOCHET_VERSION + " (" +
+          RICOCHET_BUILD_TYPE + "), commit " + commit() + ", deal.II " +
+          DEAL_II_PACKAGE_VERSION + "\n";
+      if (command_line.table.empty())
+        return {};
+      for (const Program::Table &table : program.tables)
+        if (table.option == command_line.table)
+          return table.text();
+      throw InputError("There is no option '" + command_line.table + "' of " +
+                       program.name + "; ricochet has it.");
+    }
+
+
+
     /// @return what is open at the end of the run, see RunFolder::leave_open(); nothing on
     /// ranks that leave the run to the first one.
     std::optional<std::vector<std::string>>
@@ -507,35 +599,16 @@ namespace Ricochet
       const std::vector<std::string> no_run;
 
       const CommandLine command_line = parse_command_line(argc, argv);
-      if (command_line.help)
+      if (const auto text = answer_without_input(command_line, program))
         {
-          print(help_text(program));
+          print(*text);
           return no_run;
         }
-      if (!command_line.table.empty())
-        {
-          for (const Program::Table &table : program.tables)
-            if (table.option == command_line.table)
-              {
-                print(table.text());
-                return no_run;
-              }
-          throw InputError("There is no option '" + command_line.table +
-                           "' of " + program.name + "; ricochet has it.");
-        }
-      if (command_line.version)
-        {
-          print(program.name + " of Ricochet " + RICOCHET_VERSION + " (" +
-                RICOCHET_BUILD_TYPE + "), commit " + commit() + ", deal.II " +
-                DEAL_II_PACKAGE_VERSION + "\n");
-          return no_run;
-        }
-
       if (command_line.json && command_line.print_parameters &&
-          !command_line.parameter_file.empty())
+          !(command_line.parameter_file + command_line.section).empty())
         throw InputError(
           "--print-parameters --json describes all sections that a file may "
-          "have, and takes none.");
+          "have, and takes neither a file nor a section.");
       ParameterText text;
       if (!command_line.parameter_file.empty())
         text = parse_parameter_file(command_line.parameter_file);
@@ -575,13 +648,18 @@ namespace Ricochet
               (fs::path(output_dir) / phases[k].folder).string());
           if (!phases[k].name.empty() && !command_line.json)
             answer += std::string(k > 0 ? "\n" : "") +
-              (command_line.print_parameters ? "# " : "") + "Phase " +
-              phases[k].name + "\n";
+              (command_line.print_parameters || command_line.list ? "# " : "") +
+              "Phase " + phases[k].name + "\n";
           if (command_line.print_parameters)
             {
               answer += command_line.json
                 ? schema_of_parameters(program, phases[k].text)
-                : table_of_parameters(*checked);
+                : table_of_parameters(*checked, command_line.section);
+              return;
+            }
+          if (command_line.list)
+            {
+              answer += list_of_parameters(*checked);
               return;
             }
           notes = checked->validate(program);
@@ -604,10 +682,19 @@ namespace Ricochet
           json_answer.end_object();
         });
       json_answer.end_object();
+      const bool                 has_phases = !phases.front().name.empty();
+      std::vector<ParameterText> certified;
+      if (command_line.certify && has_phases)
+        throw InputError(
+          "--certify is for runs without phases, each of which begins where the one before it "
+          "has ended: certify each as a run of its own, with Start/From.");
+      if (command_line.certify)
+        certified = texts_of_certificate(program, phases.front().text);
       if (command_line.validate_only)
         answer = command_line.json ? json_answer.finished()
                                    : "The parameters are valid.\n" + answer;
-      if (command_line.validate_only || command_line.print_parameters)
+      if (command_line.validate_only || command_line.print_parameters ||
+          command_line.list)
         {
           print(answer);
           return no_run;
@@ -625,12 +712,15 @@ namespace Ricochet
                        command_line.resume,
                        command_line.overwrite,
                        command_line.quiet,
+                       command_line.json_progress,
                        version,
                        {argv, argv + argc}});
-      const bool has_phases = !phases.front().name.empty();
-      const auto run        = [&](const std::string &note_of_ranks) {
-        return has_phases ? runs.run_phases(note_of_ranks)
-                                 : runs.run_only(*checked, notes, note_of_ranks);
+      const auto run = [&](const std::string &note_of_ranks) {
+        if (has_phases)
+          return runs.run_phases(note_of_ranks);
+        if (!certified.empty())
+          return runs.run_certified(certified, notes, note_of_ranks);
+        return runs.run_only(*checked, notes, note_of_ranks);
       };
       try
         {
@@ -665,6 +755,8 @@ namespace Ricochet
           return;
       ::setenv("OMPI_MCA_ess_singleton_isolated", "1", /* overwrite */ 0);
       ::setenv("OMPI_MCA_orte_create_session_dirs", "0", /* overwrite */ 0);
+      // In this folder would be the common pointer of files that MPI writes; HDF5 needs none.
+      ::setenv("OMPI_MCA_sharedfp", "^sm", /* overwrite */ 0);
     }
   } // namespace
 

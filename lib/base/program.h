@@ -2,6 +2,7 @@
 #ifndef ricochet_base_program_h
 #define ricochet_base_program_h
 
+#include <base/command_line.h>
 #include <base/parameter_file.h>
 #include <base/phases.h>
 #include <base/run_folder.h>
@@ -17,28 +18,6 @@
 
 namespace Ricochet
 {
-  /// The arguments of the command line. See run_program() for the options.
-  struct CommandLine
-  {
-    std::string              parameter_file;
-    std::vector<std::string> assignments;
-    std::string              output_dir;
-    bool                     resume           = false;
-    bool                     overwrite        = false;
-    bool                     validate_only    = false;
-    bool                     print_parameters = false;
-    bool                     help             = false;
-    bool                     version          = false;
-    bool                     quiet            = false;
-    bool                     json             = false;
-    /// An option of Program::tables; empty for none.
-    std::string table;
-  };
-
-  /// Parse the arguments of main(). @throws InputError on an unknown option.
-  CommandLine
-  parse_command_line(const int argc, char **argv);
-
   /// The results of a phase of a run.
   struct PhaseResult
   {
@@ -92,8 +71,9 @@ namespace Ricochet
    * then validate and run.
    *
    *     NAME [FILE.prm] [--set "Section/Name=value"]... [--output-dir DIR]
-   *          [--overwrite] [--resume] [--validate] [--print-parameters]
-   *          [--quiet] [--json] [--help] [--version]
+   *          [--overwrite] [--resume] [--certify] [--validate]
+   *          [--print-parameters [SECTION]] [--list] [--quiet] [--progress json]
+   *          [--json] [--completion SHELL] [--manual] [--help] [--version]
    *
    * A parameter without effect is refused when it is set on the command line, and
    * noted in the log when a file sets it: files set what belongs together.

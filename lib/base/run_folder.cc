@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/json_writer.h>
 #include <base/run_folder.h>
 
 #include <deal.II/base/mpi.h>
@@ -21,12 +22,15 @@ namespace Ricochet
     const std::string all_values                   = "parameters.prm";
     const std::string all_values_of_resumed        = "parameters.resumed.prm";
     const std::vector<std::string> lists_of_fields = {"solution.pvd",
-                                                      "obstacles.pvd"};
+                                                      "obstacles.pvd",
+                                                      "solution.xdmf"};
     const std::vector<std::string> result_files    = {checkpoint_file,
                                                       "energy.csv",
                                                       "energy.h5",
                                                       lists_of_fields[0],
                                                       lists_of_fields[1],
+                                                      lists_of_fields[2],
+                                                      "certificate.json",
                                                       "log.txt",
                                                       "summary.json",
                                                       all_values,
@@ -48,7 +52,7 @@ namespace Ricochet
     fields_of(const std::string &list)
     {
       static const std::regex entry(
-        "file=\"(solution/(step|obstacles)-[0-9]+\\.vtu)\"");
+        "[\">\\s](solution/(step|obstacles)-[0-9]+\\.(vtu|h5))[\":]");
       std::vector<std::string> names;
       for (std::sregex_iterator match(list.begin(), list.end(), entry), end;
            match != end;
@@ -173,8 +177,8 @@ namespace Ricochet
     const auto refuse = [&](const std::string &whose) {
       throw InputError("The output folder '" + options.path +
                        "' holds the results of " + whose +
-                       ". Name another folder with --output-dir, or take "
-                       "their place with --overwrite.");
+                       ". Name another folder with --output-dir, or "
+                       "replace them with --overwrite.");
     };
     if (!exists(file(identity_file)))
       {
@@ -210,7 +214,7 @@ namespace Ricochet
         (options.parameter_file.empty() ? "program" : "file") + " that " +
         (state == resumed ? "was resumed" : "did not come to its end") +
         " and has a checkpoint. Go on with it with --resume, name another folder "
-        "with --output-dir, or take its place with --overwrite.");
+        "with --output-dir, or replace it with --overwrite.");
   }
 
 
@@ -225,6 +229,12 @@ namespace Ricochet
     for (const auto &one : fs::directory_iterator(options.path))
       if (std::regex_match(one.path().filename().string(), mesh))
         names.push_back(one.path().filename().string());
+    std::error_code         no_folder;
+    static const std::regex contact("step-[0-9]{6,}\\.h5");
+    for (const auto &one : fs::directory_iterator(file("contact"), no_folder))
+      if (const std::string name = one.path().filename().string();
+          std::regex_match(name, contact))
+        names.push_back("contact/" + name);
     for (const std::string &list : lists_of_fields)
       if (exists(file(list)))
         for (const std::string &name : fields_of(read_file(file(list))))
@@ -311,12 +321,21 @@ namespace Ricochet
   void
   RunFolder::log(const std::string &line)
   {
-    if (is_root && !options.quiet)
+    if (is_root && !options.quiet && !options.json_progress)
       std::cout << line << std::endl;
     if (!begun)
       early_lines += line + "\n";
     else
       on_first_rank(communicator, [&]() { log_file.append(line + "\n"); });
+  }
+
+
+
+  void
+  RunFolder::report_progress(const JsonWriter &json) const
+  {
+    if (is_root && options.json_progress)
+      std::cout << json.finished() << std::flush;
   }
 
 

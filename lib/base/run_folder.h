@@ -2,6 +2,7 @@
 #ifndef ricochet_base_run_folder_h
 #define ricochet_base_run_folder_h
 
+#include <base/error_bars.h>
 #include <base/files.h>
 
 #include <string>
@@ -9,6 +10,8 @@
 
 namespace Ricochet
 {
+  class JsonWriter;
+
   /**
    * The folder a run writes to, and its log. It holds `log.txt`, the parameter
    * file as it was given, `parameters.prm` with the values of all parameters,
@@ -33,6 +36,8 @@ namespace Ricochet
       bool        resume    = false;
       bool        overwrite = false;
       bool        quiet     = false;
+      /// See report_progress().
+      bool json_progress = false;
       /// For the summary: that of Ricochet and deal.II, and how the program was called.
       std::string              version      = "";
       std::vector<std::string> command_line = {};
@@ -60,6 +65,11 @@ namespace Ricochet
     /// @throws ComputationError when the disk is full.
     void
     log(const std::string &line);
+
+    /// With Options::json_progress, print @p json on the console, which then has no other
+    /// lines.
+    void
+    report_progress(const JsonWriter &json) const;
 
     /// The run is complete, but the checks that @p lines describe have failed:
     /// the program ends with code 4.
@@ -103,6 +113,11 @@ namespace Ricochet
 
     /// The columns of the energy table that are sums over the run.
     std::vector<std::string> sums;
+
+    /// Set at the end of a run: the numbers of its summary, and the time of its end with all
+    /// digits.
+    std::vector<RunResult> results;
+    std::string            end_time;
 
   private:
     /// @throws InputError where the parameter file is one of the files that the run writes.

@@ -14,25 +14,35 @@ namespace Ricochet
 {
   namespace
   {
-    /// The numbers in a @p line; empty if it has something else.
-    std::vector<double>
-    numbers_in(std::string line)
+    struct Line
+    {
+      std::vector<double> numbers;
+      /// Whether each word is a number, and whether none is.
+      bool is_row = true, is_heading = true;
+    };
+
+    Line
+    read(std::string text)
     {
       std::replace_if(
-        line.begin(),
-        line.end(),
+        text.begin(),
+        text.end(),
         [](const char c) { return c == ',' || c == ';' || c == '\t'; },
         ' ');
-      std::vector<double> numbers;
-      std::istringstream  words(line);
+      Line               line;
+      std::istringstream words(text);
       for (std::string word; words >> word;)
         {
-          char *end = nullptr;
-          numbers.push_back(std::strtod(word.c_str(), &end));
-          if (*end != '\0' || !std::isfinite(numbers.back()))
-            return {};
+          char        *end    = nullptr;
+          const double number = std::strtod(word.c_str(), &end);
+          // A word may have zeros in it, at which it does not end.
+          const bool is_number =
+            end == word.c_str() + word.size() && std::isfinite(number);
+          line.numbers.push_back(number);
+          line.is_row     = line.is_row && is_number;
+          line.is_heading = line.is_heading && !is_number;
         }
-      return numbers;
+      return line;
     }
   } // namespace
 
@@ -52,13 +62,17 @@ namespace Ricochet
     for (std::string line; std::getline(lines, line);)
       {
         const std::string where = "line " + std::to_string(++number);
-        line                    = dealii::Utilities::trim(line);
+        // Spreadsheets begin a file with a mark of its encoding.
+        if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
+          line.erase(0, 3);
+        line = dealii::Utilities::trim(line);
         if (line.empty() || line[0] == '#')
           continue;
-        const std::vector<double> row = numbers_in(line);
-        if (row.empty() && number == 1)
+        const Line found = read(line);
+        if (found.is_heading && times.empty())
           continue;
-        if (row.size() < 2)
+        const std::vector<double> &row = found.numbers;
+        if (!found.is_row || row.size() < 2)
           refuse(where + " should have a time and its values.");
         if (!times.empty() && row.size() != values.size() + 1)
           refuse(where + " has another number of values than those above.");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/expressions.h>
+#include <base/parameter_file.h>
 #include <base/variables.h>
 
 #include <algorithm>
@@ -23,20 +24,6 @@ namespace Ricochet
     is_variable(const Assignment &assignment)
     {
       return assignment.path.size() == 2 && assignment.path[0] == section_name;
-    }
-
-    /// The shortest text that is read as the same number.
-    std::string
-    exact_text(const double number)
-    {
-      char text[40];
-      for (const int digits : {15, 16, 17})
-        {
-          std::snprintf(text, sizeof(text), "%.*g", digits, number);
-          if (std::strtod(text, nullptr) == number)
-            break;
-        }
-      return text;
     }
 
     /// The variables of a text, each computed when it is first needed.

@@ -5,6 +5,7 @@
 #include <base/types.h>
 #include <contact/kinematics/point_evaluator.h>
 
+#include <functional>
 #include <limits>
 #include <map>
 #include <vector>
@@ -45,6 +46,21 @@ namespace Ricochet
     unite(const ContactSummary &other);
   };
 
+  /// A contact point of this rank at an instant, for output.
+  struct ContactPointValues
+  {
+    dealii::types::boundary_id boundary_id = 0;
+    /// With the displacement (m).
+    dealii::Tensor<1, 3> position;
+    /// m
+    double gap = 0.;
+    /// Normal force, positive in compression (N).
+    double force = 0.;
+    /// Part of the contact boundary that the point stands for (m^(dim-1)); 1 in 1D.
+    double area      = 0.;
+    bool   is_active = false;
+  };
+
   /// A solved state, as far as reports on contact depend on it.
   struct ContactInstant
   {
@@ -58,6 +74,9 @@ namespace Ricochet
     /// The parts of contact_force that belong to several contacts; null where
     /// there is only one.
     const std::vector<Vector> *shares = nullptr;
+    /// Called by ContactReport::summary() for each point of this rank that has a gap: the sums
+    /// of what it gets are those of the summary. May be left out.
+    std::function<void(const ContactPointValues &)> report = {};
   };
 
   /// Summaries by boundary id.

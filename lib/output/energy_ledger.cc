@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <output/energy_ledger.h>
+#include <output/hdf5_image.h>
 
 #include <deal.II/base/utilities.h>
 
-#include <hdf5.h>
 
 #include <charconv>
 #include <cmath>
@@ -74,44 +74,6 @@ namespace Ricochet
       return row;
     }
 
-
-
-    /// A handle of HDF5 that is closed at the end.
-    class Handle
-    {
-    public:
-      Handle(const hid_t id, herr_t (*close)(hid_t))
-        : id(id)
-        , close(close)
-      {
-        check(id);
-      }
-
-      ~Handle()
-      {
-        close(id);
-      }
-
-      Handle(const Handle &) = delete;
-      Handle &
-      operator=(const Handle &) = delete;
-
-      operator hid_t() const
-      {
-        return id;
-      }
-
-      static void
-      check(const long long result)
-      {
-        if (result < 0)
-          throw ComputationError("HDF5 cannot make the energy table.");
-      }
-
-    private:
-      const hid_t id;
-      herr_t (*const close)(hid_t);
-    };
   } // namespace
 
 
@@ -150,7 +112,7 @@ namespace Ricochet
   EnergyLedger::column_number(const std::string &name) const
   {
     const auto number = find_column(name);
-    AssertThrow(number, ExcMessage("The ledger has no column " + name));
+    AssertThrow(number, ExcMessage("The energy table has no column " + name));
     return *number;
   }
 
@@ -275,54 +237,15 @@ namespace Ricochet
   EnergyLedger::write_hdf5() const
   {
     on_first_rank(folder.communicator, [&]() {
-      // Memory for the start of HDF5, which crashes where it does not get any.
-      std::vector<char>(8 << 20);
-      // The file is made in memory: HDF5 itself does not always notice that a
-      // disk is full.
-      std::string image;
-      {
-        const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-        Handle::check(H5Pset_fapl_core(access, 1 << 16, /* on disk */ false));
-        const Handle file(
-          H5Fcreate("energy.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access),
-          H5Fclose);
-        const hsize_t n_rows = row_list.size();
-        const Handle  rows(H5Screate_simple(1, &n_rows, nullptr), H5Sclose);
-        const Handle  scalar(H5Screate(H5S_SCALAR), H5Sclose);
-        const Handle  text(H5Tcopy(H5T_C_S1), H5Tclose);
-        Handle::check(H5Tset_size(text, H5T_VARIABLE));
-        std::vector<double> values(row_list.size());
-        for (unsigned int i = 0; i < column_list.size(); ++i)
-          {
-            for (unsigned int r = 0; r < row_list.size(); ++r)
-              values[r] = row_list[r][i];
-            const Handle data(H5Dcreate2(file,
-                                         column_list[i].name.c_str(),
-                                         H5T_NATIVE_DOUBLE,
-                                         rows,
-                                         H5P_DEFAULT,
-                                         H5P_DEFAULT,
-                                         H5P_DEFAULT),
-                              H5Dclose);
-            Handle::check(H5Dwrite(data,
-                                   H5T_NATIVE_DOUBLE,
-                                   H5S_ALL,
-                                   H5S_ALL,
-                                   H5P_DEFAULT,
-                                   values.data()));
-            const Handle unit(
-              H5Acreate2(data, "unit", text, scalar, H5P_DEFAULT, H5P_DEFAULT),
-              H5Aclose);
-            const char *const unit_text = column_list[i].unit.c_str();
-            Handle::check(H5Awrite(unit, text, &unit_text));
-          }
-        Handle::check(H5Fflush(file, H5F_SCOPE_GLOBAL));
-        const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-        Handle::check(size);
-        image.resize(size);
-        Handle::check(H5Fget_file_image(file, image.data(), image.size()));
-      }
-      write_atomically(folder.file("energy.h5"), image);
+      Hdf5Image           image;
+      std::vector<double> values(row_list.size());
+      for (unsigned int i = 0; i < column_list.size(); ++i)
+        {
+          for (unsigned int r = 0; r < row_list.size(); ++r)
+            values[r] = row_list[r][i];
+          image.add(column_list[i].name, values, 1, column_list[i].unit);
+        }
+      write_atomically(folder.file("energy.h5"), image.bytes());
     });
   }
 

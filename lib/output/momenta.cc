@@ -98,6 +98,19 @@ namespace Ricochet
 
 
   template <int dim>
+  double
+  Momenta<dim>::mass_of_body() const
+  {
+    move_rigidly();
+    double sum = 0.;
+    for (const PartNode<dim> &node : nodes)
+      sum += of_translations[0](node.indices[0]);
+    return Utilities::MPI::sum(sum, communicator);
+  }
+
+
+
+  template <int dim>
   Tensor<1, dim>
   Momenta<dim>::linear(const Vector &velocity) const
   {

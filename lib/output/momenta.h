@@ -30,6 +30,10 @@ namespace Ricochet
             const unsigned int begin   = 0,
             const unsigned int end     = dealii::numbers::invalid_unsigned_int);
 
+    /// kg; as a body in 2D, per length of its thickness.
+    double
+    mass_of_body() const;
+
     /// kg m/s
     dealii::Tensor<1, dim>
     linear(const Vector &velocity) const;

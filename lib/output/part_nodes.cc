@@ -45,6 +45,11 @@ namespace Ricochet
   }
 
 
+  template std::vector<PartNode<1>>
+  nodes_of_parts(const Body<1> &,
+                 const unsigned int,
+                 const unsigned int,
+                 const unsigned int);
   template std::vector<PartNode<2>>
   nodes_of_parts(const Body<2> &,
                  const unsigned int,

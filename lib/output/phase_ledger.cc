@@ -2,8 +2,11 @@
 #include <base/exceptions.h>
 #include <output/energy_ledger.h>
 #include <output/phase_ledger.h>
+#include <output/xdmf_list.h>
 
 #include <deal.II/base/data_out_base.h>
+
+#include <boost/algorithm/string/replace.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -47,6 +50,31 @@ namespace Ricochet
            ++match)
         files.emplace_back(begin + std::stod((*match)[1]),
                            folder + "/" + (*match)[2].str());
+    }
+
+    /// Add the entries of the HDF5 files of a phase, which begins at the time @p begin (s).
+    void
+    add_entries(const PhaseResult        &phase,
+                const double              begin,
+                std::vector<std::string> &entries)
+    {
+      static const std::regex time("<Time Value=\"([^\"]*)\"");
+      const std::string folder = std::filesystem::path(phase.path).filename();
+      for (std::string entry : XdmfList::read(file_of(phase, XdmfList::name)))
+        {
+          std::smatch match;
+          if (std::regex_search(entry, match, time))
+            {
+              std::ostringstream now;
+              now.precision(17);
+              now << begin + std::stod(match[1]);
+              entry.replace(match.position(1), match.length(1), now.str());
+            }
+          boost::replace_all(entry,
+                             "solution/step-",
+                             folder + "/solution/step-");
+          entries.push_back(entry);
+        }
     }
 
     void
@@ -96,15 +124,17 @@ namespace Ricochet
     // Time and sums at the end of the phases before; no other values go on.
     constexpr double    nothing = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> carried(ledger.columns().size(), nothing);
-    carried[time] = carried[change] = 0.;
-    double     last_energy          = nothing;
-    FieldFiles solution, obstacles;
+    carried[time] = carried[change]      = 0.;
+    double                   last_energy = nothing;
+    FieldFiles               solution, obstacles;
+    std::vector<std::string> entries;
     for (unsigned int p = 0; p < phases.size(); ++p)
       {
         const EnergyTable &table  = tables[p];
         const unsigned int energy = table.column_number("energy");
         add_fields(phases[p], "solution.pvd", carried[time], solution);
         add_fields(phases[p], "obstacles.pvd", carried[time], obstacles);
+        add_entries(phases[p], carried[time], entries);
         carried[number] = p + 1;
         if (p > 0)
           carried[change] += table.rows.front()[energy] - last_energy;
@@ -130,6 +160,9 @@ namespace Ricochet
     on_first_rank(whole.communicator, [&]() {
       write_list(whole, "solution.pvd", solution);
       write_list(whole, "obstacles.pvd", obstacles);
+      if (!entries.empty())
+        write_atomically(whole.file(XdmfList::name),
+                         XdmfList::text_of(entries));
     });
   }
 } // namespace Ricochet

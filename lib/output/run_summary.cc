@@ -2,7 +2,10 @@
 #include <base/commit.h>
 #include <base/files.h>
 #include <base/json_writer.h>
+#include <base/parameter_file.h>
 #include <output/run_summary.h>
+
+#include <deal.II/base/tensor.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +13,7 @@
 #include <ctime>
 #include <limits>
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 namespace Ricochet
@@ -36,6 +40,16 @@ namespace Ricochet
       ::gmtime_r(&time, &parts);
       std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &parts);
       return text;
+    }
+
+    /// The checksum of the library, in which nearly all of a program is.
+    std::string
+    checksum_of_program()
+    {
+      Dl_info library;
+      if (::dladdr(reinterpret_cast<const void *>(&commit), &library) == 0)
+        return "";
+      return hexadecimal(checksum(read_file(library.dli_fname)));
     }
 
     /// Name of this machine.
@@ -80,25 +94,80 @@ namespace Ricochet
 
 
 
+  double
+  RunSummary::largest_of_means(const unsigned int number) const
+  {
+    const auto &rows   = ledger.rows();
+    double      result = nothing;
+    for (std::size_t end = n_of_mean; end <= rows.size(); ++end)
+      {
+        double sum = 0.;
+        for (std::size_t k = end - n_of_mean; k < end; ++k)
+          sum += rows[k][number];
+        if (std::isfinite(sum) && !(sum / n_of_mean <= result))
+          result = sum / n_of_mean;
+      }
+    return result;
+  }
+
+
+
+  double
+  RunSummary::restitution(const Rebound     &rebound,
+                          const unsigned int row_before,
+                          const unsigned int row_after) const
+  {
+    const auto velocity = [&](const unsigned int row) {
+      dealii::Tensor<1, 3> result;
+      for (unsigned int b = 0; b < rebound.bodies.size(); ++b)
+        for (unsigned int c = 0; c < 3; ++c)
+          result[c] += (b == 0 ? 1. : -1.) *
+            ledger.value(ledger.rows()[row],
+                         std::string("momentum_") + "xyz"[c] +
+                           rebound.bodies[b].suffix) /
+            rebound.bodies[b].mass;
+      return result;
+    };
+    const auto   before = velocity(row_before), after = velocity(row_after);
+    const auto   change = after - before;
+    const double coming = -(before * change);
+    return coming > 0. ? (after * change) / coming : nothing;
+  }
+
+
+
   RunSummary::OfContact
   RunSummary::of_contact(const std::string &name) const
   {
     const unsigned int time  = ledger.column_number("time"),
                        force = ledger.column_number("contact_force_" + name);
-    OfContact result{largest(force),
-                     largest(ledger.column_number("penetration_" + name)),
+    const unsigned int depth = ledger.column_number("penetration_" + name);
+    OfContact          result{largest(force),
+                     largest(depth),
+                     largest_of_means(force),
+                     largest_of_means(depth),
                      nothing,
                      nothing,
                      0.,
+                     0.,
+                     nothing,
                      {}};
-    double    before = nothing;
-    for (const auto &row : ledger.rows())
+    double             before    = nothing;
+    unsigned int       first_row = 0, last_row = 0;
+    for (unsigned int k = 0; k < ledger.rows().size(); ++k)
       {
+        const auto &row = ledger.rows()[k];
+        if (!std::isnan(before) && std::isfinite(row[force]))
+          result.impulse_of_force += row[force] * (row[time] - before);
         if (row[force] > 0.)
           {
             if (std::isnan(result.first_touch))
-              result.first_touch = row[time];
+              {
+                result.first_touch = row[time];
+                first_row          = k;
+              }
             result.last_touch = row[time];
+            last_row          = k;
             if (!std::isnan(before))
               result.touching += row[time] - before;
           }
@@ -108,6 +177,10 @@ namespace Ricochet
       if (const auto column = std::string("impulse_") + component + "_" + name;
           ledger.find_column(column))
         result.impulse.push_back(last(column));
+    for (const Rebound &rebound : rebounds)
+      if (rebound.contact == name && first_row > 0 &&
+          last_row + 1 < ledger.rows().size())
+        result.restitution = restitution(rebound, first_row - 1, last_row + 1);
     return result;
   }
 
@@ -164,9 +237,78 @@ namespace Ricochet
                         " from t = " + units.text(contact.first_touch, "s") +
                         " to " + units.text(contact.last_touch, "s") +
                         ", deepest penetration " +
-                        units.text(contact.depth.value, "m"));
+                        units.text(contact.depth.value, "m") +
+                        (std::isnan(contact.restitution)
+                           ? ""
+                           : ", restitution " + to_text(contact.restitution)));
       }
     return lines;
+  }
+
+
+
+  std::vector<RunResult>
+  RunSummary::results(const Circumstances &circumstances) const
+  {
+    std::vector<RunResult> list;
+    // Energies are exact to this.
+    const double energy_scale =
+      EnergyCheck::bound * largest(ledger.column_number("energy")).value;
+    const auto energy = [&](const std::string &name, const double value) {
+      list.push_back(
+        {"energy." + name, units.name("J"), value, nothing, energy_scale});
+    };
+    energy("at_end.kinetic", last("kinetic_energy"));
+    energy("at_end.elastic", last("elastic_energy"));
+    energy("at_end.all", last("energy"));
+    energy("work_from_outside.loads", last("external_work"));
+    energy("work_from_outside.imposed_displacements", last("imposed_work"));
+    energy("work_from_outside.obstacles", last("obstacle_work"));
+    energy("lost.contact", lost_in_contact());
+    energy("lost.friction", last("friction_work"));
+    energy("lost.viscosity", last("viscous_dissipation"));
+    energy("lost.time_scheme", last("numerical_dissipation"));
+    for (const std::string &name : contacts)
+      {
+        const OfContact   contact = of_contact(name);
+        const std::string begin   = "contacts." + name + ".";
+        list.push_back({begin + "largest_force",
+                        units.name("N"),
+                        contact.force.value,
+                        contact.force_of_means});
+        list.push_back({begin + "deepest_penetration",
+                        units.name("m"),
+                        contact.depth.value,
+                        contact.depth_of_means});
+        list.push_back({begin + "impulse_of_force",
+                        units.name("N s"),
+                        contact.impulse_of_force});
+        list.push_back({begin + "restitution", "1", contact.restitution});
+        for (const auto &[what, value] :
+             {std::pair<std::string, double>{"first_touch",
+                                             contact.first_touch},
+              {"last_touch", contact.last_touch},
+              {"time_in_touch", contact.touching}})
+          list.push_back({begin + what,
+                          units.name("s"),
+                          value,
+                          nothing,
+                          circumstances.time_step});
+      }
+    if (circumstances.may_end_earlier)
+      list.push_back({"steps.end",
+                      units.name("s"),
+                      last("time"),
+                      nothing,
+                      circumstances.time_step});
+    // A number that does not exist needs no bar.
+    list.erase(std::remove_if(list.begin(),
+                              list.end(),
+                              [](const RunResult &result) {
+                                return std::isnan(result.value);
+                              }),
+               list.end());
+    return list;
   }
 
 
@@ -187,6 +329,7 @@ namespace Ricochet
     json.add("checksum_of_parameters",
              hexadecimal(checksum(folder.all_parameters)));
     json.add("checksum_of_mesh", circumstances.mesh_checksum);
+    json.add("checksum_of_program", checksum_of_program());
     json.end_object();
 
     json.begin_object("run");
@@ -282,6 +425,8 @@ namespace Ricochet
         json.add("first_touch", contact.first_touch);
         json.add("last_touch", contact.last_touch);
         json.add("time_in_touch", contact.touching);
+        json.add("impulse_of_force", contact.impulse_of_force);
+        json.add("restitution", contact.restitution);
         if (!contact.impulse.empty())
           {
             json.begin_object("impulse");
@@ -296,6 +441,18 @@ namespace Ricochet
                                        "entered_points"})
           if (ledger.find_column(what + "_" + name))
             json.add(what, last(what + "_" + name));
+        json.end_object();
+      }
+    json.end_object();
+
+    json.begin_object("largest_of_written_fields");
+    for (const FieldExtreme &extreme : field_extremes)
+      {
+        json.begin_object(extreme.name);
+        json.add("value", extreme.value);
+        json.add("unit", units.name(extreme.unit));
+        json.add("time", extreme.time);
+        json.add("place", extreme.place);
         json.end_object();
       }
     json.end_object();

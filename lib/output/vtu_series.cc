@@ -100,6 +100,68 @@ namespace Ricochet
       const std::vector<Material<dim>> materials;
     };
 
+    /// The components of the Cauchy stress one by one, as deal.II's HDF5 files have no tensors.
+    template <int dim>
+    class StressComponents : public DataPostprocessor<dim>
+    {
+    public:
+      explicit StressComponents(const std::vector<Material<dim>> &materials)
+        : tensor(materials)
+      {}
+
+      std::vector<std::string>
+      get_names() const override
+      {
+        std::vector<std::string> names;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = i; j < dim; ++j)
+            names.push_back(std::string("stress_") + "xyz"[i] + "xyz"[j]);
+        return names;
+      }
+
+      std::vector<DataComponentInterpretation::DataComponentInterpretation>
+      get_data_component_interpretation() const override
+      {
+        return {SymmetricTensor<2, dim>::n_independent_components,
+                DataComponentInterpretation::component_is_scalar};
+      }
+
+      UpdateFlags
+      get_needed_update_flags() const override
+      {
+        return tensor.get_needed_update_flags();
+      }
+
+      void
+      evaluate_vector_field(
+        const DataPostprocessorInputs::Vector<dim> &inputs,
+        std::vector<dealii::Vector<double>>        &stresses) const override
+      {
+        std::vector<dealii::Vector<double>> whole(
+          stresses.size(),
+          dealii::Vector<double>(Tensor<2, dim>::n_independent_components));
+        tensor.evaluate_vector_field(inputs, whole);
+        for (unsigned int p = 0; p < stresses.size(); ++p)
+          {
+            unsigned int k = 0;
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = i; j < dim; ++j)
+                stresses[p][k++] = whole[p][i * dim + j];
+          }
+      }
+
+      void
+      evaluate_scalar_field(
+        const DataPostprocessorInputs::Scalar<dim> &inputs,
+        std::vector<dealii::Vector<double>>        &stresses) const override
+      {
+        tensor.evaluate_scalar_field(inputs, stresses);
+      }
+
+    private:
+      const StressPostprocessor<dim> tensor;
+    };
+
     /// The distance of each point to the nearest obstacle.
     template <int dim>
     class Gap : public DataPostprocessorScalar<dim>
@@ -204,6 +266,78 @@ namespace Ricochet
       }
     };
 
+    /// @throws ComputationError when the disk is full.
+    template <int dim>
+    void
+    write_hdf5(const PieceOfFile<dim> &data_out,
+               const Body<dim>        &body,
+               const RunFolder        &folder,
+               XdmfList               &list,
+               const unsigned int      step,
+               const double            time)
+    {
+      const std::string name = XdmfList::file_of(step),
+                        file = folder.file(name);
+      // Points of different cells stay apart: so do bodies that touch each other, and stresses.
+      DataOutBase::DataOutFilter filter(
+        DataOutBase::DataOutFilterFlags(/* filter duplicates */ false,
+                                        /* for XDMF */ true));
+      std::string entry;
+      try
+        {
+          data_out.write_filtered_data(filter);
+          data_out.write_hdf5_parallel(filter,
+                                       file + unfinished,
+                                       folder.communicator);
+          const XDMFEntry xdmf =
+            data_out.create_xdmf_entry(filter, name, time, folder.communicator);
+#if DEAL_II_VERSION_GTE(9, 5, 0)
+          entry = xdmf.get_xdmf_content(3);
+#else
+          const auto types =
+            body.dof_handler().get_triangulation().get_reference_cells();
+          entry = xdmf.get_xdmf_content(3, types.front());
+#endif
+        }
+      catch (const ExceptionBase &)
+        {
+          throw ComputationError("The file '" + file + "' cannot be written.");
+        }
+      on_first_rank(folder.communicator, [&]() {
+        std::error_code error;
+        std::filesystem::rename(file + unfinished, file, error);
+        if (error)
+          throw ComputationError("The file '" + file + "' cannot be written: " +
+                                 error.message() + ".");
+      });
+      list.append(step, entry);
+    }
+
+    /// @param flags with the time. @throws ComputationError when the disk is full.
+    template <int dim>
+    void
+    write_vtu(const PieceOfFile<dim>      &data_out,
+              const RunFolder             &folder,
+              FieldList                   &list,
+              const unsigned int           step,
+              const DataOutBase::VtkFlags &flags)
+    {
+      // One file, to which each rank gives the part between header and footer.
+      std::ostringstream header, footer;
+      DataOutBase::write_vtu_header(header, flags);
+      DataOutBase::write_vtu_footer(footer);
+      const unsigned int rank =
+        Utilities::MPI::this_mpi_process(folder.communicator);
+      const unsigned int n_ranks =
+        Utilities::MPI::n_mpi_processes(folder.communicator);
+      write_atomically(folder.file(list.file_of(step)),
+                       (rank == 0 ? header.str() : "") +
+                         data_out.text(flags, /* may be empty */ rank > 0) +
+                         (rank + 1 == n_ranks ? footer.str() : ""),
+                       folder.communicator);
+      list.append(step, flags.time);
+    }
+
     /// In 1D a field of one component is a scalar to VTU files.
     template <int dim>
     std::vector<DataComponentInterpretation::DataComponentInterpretation>
@@ -223,15 +357,18 @@ namespace Ricochet
                             const std::vector<Material<dim>> &materials,
                             ContactOperator                  &contact,
                             const Obstacles                  &obstacles,
-                            RunFolder                        &folder)
+                            RunFolder                        &folder,
+                            const FieldFormat                 format)
     : body(body)
     , materials(materials)
     , contact(contact)
     , obstacles(obstacles)
     , surfaces(obstacles)
     , folder(folder)
+    , format(format)
     , list(folder, "solution.pvd", "solution/step-")
     , obstacle_list(folder, "obstacles.pvd", "solution/obstacles-")
+    , xdmf_list(folder)
   {}
 
 
@@ -254,6 +391,7 @@ namespace Ricochet
                                                      &state.contact_shares}));
 
     const StressPostprocessor<dim> stress(materials);
+    const StressComponents<dim>    stress_components(materials);
     const FirstComponent<dim>      contact_pressure("contact_pressure");
     const Gap<dim>                 gap(obstacles, state.time);
     const VonMises<dim>            von_mises(materials);
@@ -269,7 +407,12 @@ namespace Ricochet
     add(velocity, "velocity");
     add(acceleration, "acceleration");
     add(force_on_body, "contact_force");
-    data_out.add_data_vector(body.dof_handler(), displacement, stress);
+    if (format == FieldFormat::vtu)
+      data_out.add_data_vector(body.dof_handler(), displacement, stress);
+    else
+      data_out.add_data_vector(body.dof_handler(),
+                               displacement,
+                               stress_components);
     if constexpr (dim > 1)
       data_out.add_data_vector(body.dof_handler(), displacement, von_mises);
     data_out.add_data_vector(body.dof_handler(), pressure, contact_pressure);
@@ -286,17 +429,6 @@ namespace Ricochet
                            body.is_curved() ? DataOut<dim>::curved_inner_cells
                                             : DataOut<dim>::curved_boundary);
 
-    // One file, to which each rank gives the part between header and footer.
-    DataOutBase::VtkFlags flags;
-    flags.time                = state.time;
-    flags.print_date_and_time = false;
-    std::ostringstream header, footer;
-    DataOutBase::write_vtu_header(header, flags);
-    DataOutBase::write_vtu_footer(footer);
-    const unsigned int rank =
-      Utilities::MPI::this_mpi_process(folder.communicator);
-    const unsigned int n_ranks =
-      Utilities::MPI::n_mpi_processes(folder.communicator);
     on_first_rank(folder.communicator, [&]() {
       std::error_code error;
       std::filesystem::create_directories(folder.file("solution"), error);
@@ -304,13 +436,13 @@ namespace Ricochet
         throw ComputationError("The folder '" + folder.file("solution") +
                                "' cannot be made: " + error.message() + ".");
     });
-    write_atomically(folder.file(list.file_of(step)),
-                     (rank == 0 ? header.str() : "") +
-                       data_out.text(flags, /* may be empty */ rank > 0) +
-                       (rank + 1 == n_ranks ? footer.str() : ""),
-                     folder.communicator);
-
-    list.append(step, state.time);
+    DataOutBase::VtkFlags flags;
+    flags.time                = state.time;
+    flags.print_date_and_time = false;
+    if (format == FieldFormat::vtu)
+      write_vtu(data_out, folder, list, step, flags);
+    else
+      write_hdf5(data_out, body, folder, xdmf_list, step, state.time);
     if constexpr (dim > 1)
       if (!surfaces.empty())
         write_obstacles(displacement, step, flags);

@@ -5,8 +5,10 @@
 #include <base/run_folder.h>
 #include <discretization/body.h>
 #include <materials/material.h>
+#include <output/field_format.h>
 #include <output/field_list.h>
 #include <output/obstacle_surfaces.h>
+#include <output/xdmf_list.h>
 #include <time_integration/semi_discrete_system.h>
 
 namespace Ricochet
@@ -17,32 +19,21 @@ namespace Ricochet
    * elastic Cauchy stress and von Mises stress (Pa), the contact force of each
    * node (N, on the body), the contact pressure (Pa), the gap (m; of all points
    * of the body, to the nearest obstacle, if there is one) and the number of the part
-   * (if there are several), as `solution/step-NNNNNN.vtu` with their
-   * time, and `solution.pvd` that lists them with their times. Rigid obstacles
+   * (if there are several), as `solution/step-NNNNNN.vtu` with `solution.pvd`, or as
+   * `solution/step-NNNNNN.h5` with `solution.xdmf`, which list them with their times. Rigid obstacles
    * are in `solution/obstacles-NNNNNN.vtu` and `obstacles.pvd`.
    */
   template <int dim>
   class VtuSeries
   {
   public:
-    VtuSeries(const Body<dim>     &body,
-              const Material<dim> &material,
-              ContactOperator     &contact,
-              const Obstacles     &obstacles,
-              RunFolder           &folder)
-      : VtuSeries(body,
-                  std::vector<Material<dim>>(1, material),
-                  contact,
-                  obstacles,
-                  folder)
-    {}
-
-    /// The same with the @p materials of several parts.
+    /// @param materials of the parts, or of the only body.
     VtuSeries(const Body<dim>                  &body,
               const std::vector<Material<dim>> &materials,
               ContactOperator                  &contact,
               const Obstacles                  &obstacles,
-              RunFolder                        &folder);
+              RunFolder                        &folder,
+              const FieldFormat                 format);
 
     /// Write @p state as step number @p step. A step that is written again,
     /// after a resumed run, replaces the old one.
@@ -63,7 +54,9 @@ namespace Ricochet
     const Obstacles                  obstacles;
     const ObstacleSurfaces<dim>      surfaces;
     RunFolder                       &folder;
+    const FieldFormat                format;
     FieldList                        list, obstacle_list;
+    XdmfList                         xdmf_list;
   };
 } // namespace Ricochet
 

@@ -40,7 +40,7 @@ namespace Ricochet
     /// Displacements of degree 1 need more of them for the same error.
     unsigned int degree;
 
-    /// Within so many elements they are of this size,
+    /// Number of elements within which they are of this size,
     double
     n_elements() const
     {

@@ -8,6 +8,7 @@
 #include <problems/gmsh_element_types.h>
 #include <problems/gmsh_file_check.h>
 #include <problems/gmsh_mesh.h>
+#include <problems/unv_groups.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -416,6 +417,103 @@ namespace Ricochet
         throw std::runtime_error("the mesh cannot be written to '" + file +
                                  "': there may be no space left.");
     }
+    /// The ending of a name, in small letters.
+    std::string
+    ending_of(const std::string &file_name)
+    {
+      std::string ending =
+        std::filesystem::path(file_name).extension().string();
+      for (char &c : ending)
+        c = std::tolower(static_cast<unsigned char>(c));
+      return ending;
+    }
+
+
+
+    /// Make the groups of a universal file physical ones, in a model that has the same mesh.
+    void
+    apply_groups(const UnvGroups &groups)
+    {
+      std::vector<std::size_t> nodes;
+      std::vector<double>      places, parameters;
+      gmsh::model::mesh::getNodes(nodes, places, parameters);
+      // Types of elements by dimension and group.
+      struct Elements
+      {
+        std::vector<std::size_t> numbers, nodes;
+      };
+      std::map<std::pair<int, int>, std::map<int, Elements>> entities;
+      std::vector<int>                                       types;
+      std::vector<std::vector<std::size_t>>                  numbers, corners;
+      gmsh::model::mesh::getElements(types, numbers, corners);
+      for (unsigned int t = 0; t < types.size(); ++t)
+        {
+          std::string         name;
+          int                 dimension, order, n, n_primary;
+          std::vector<double> unit_places;
+          gmsh::model::mesh::getElementProperties(types[t],
+                                                  name,
+                                                  dimension,
+                                                  order,
+                                                  n,
+                                                  unit_places,
+                                                  n_primary);
+          for (std::size_t e = 0; e < numbers[t].size(); ++e)
+            {
+              const auto group = groups.group_of_element.find(numbers[t][e]);
+              Elements  &own   = entities[{dimension,
+                                        group == groups.group_of_element.end()
+                                             ? 0
+                                             : group->second}][types[t]];
+              own.numbers.push_back(numbers[t][e]);
+              own.nodes.insert(own.nodes.end(),
+                               corners[t].begin() + e * n,
+                               corners[t].begin() + (e + 1) * n);
+            }
+        }
+      gmsh::model::add("with groups");
+      bool has_nodes = false;
+      for (const auto &[key, by_type] : entities)
+        {
+          const auto [dimension, group] = key;
+          const int entity = gmsh::model::addDiscreteEntity(dimension);
+          if (!has_nodes)
+            gmsh::model::mesh::addNodes(dimension, entity, nodes, places);
+          has_nodes = true;
+          for (const auto &[type, elements] : by_type)
+            gmsh::model::mesh::addElementsByType(entity,
+                                                 type,
+                                                 elements.numbers,
+                                                 elements.nodes);
+          if (group == 0)
+            continue;
+          gmsh::model::addPhysicalGroup(dimension, {entity}, group);
+          gmsh::model::setPhysicalName(dimension,
+                                       group,
+                                       groups.names.at(group));
+        }
+    }
+
+
+
+    /// Make the body that the triangles of a file of stereolithography enclose. Edges between
+    /// triangles that meet at more than 40 degrees separate parts of its boundary.
+    void
+    make_body_of_triangles()
+    {
+      gmsh::model::mesh::classifySurfaces(40. * numbers::PI / 180.,
+                                          /* boundary */ true,
+                                          /* for a new mesh of it */ true,
+                                          numbers::PI);
+      gmsh::model::mesh::createGeometry();
+      gmsh::vectorpair surfaces;
+      gmsh::model::getEntities(surfaces, 2);
+      std::vector<int> tags;
+      for (const auto &surface : surfaces)
+        tags.push_back(surface.second);
+      gmsh::model::geo::addVolume({gmsh::model::geo::addSurfaceLoop(tags)});
+      gmsh::model::geo::synchronize();
+    }
   } // namespace
 
 
@@ -543,6 +641,10 @@ namespace Ricochet
         for (const std::string bound : {"Min", "Max"})
           gmsh::option::setNumber("Mesh.MeshSize" + bound, mesh_size);
       gmsh::open(file_name);
+      if (ending_of(file_name) == ".unv")
+        apply_groups(read_unv_groups(read_file(file_name)));
+      if (dim == 3 && ending_of(file_name) == ".stl")
+        make_body_of_triangles();
       gmsh::vectorpair bodies;
       gmsh::model::getEntities(bodies, dim);
       if (bodies.empty())
@@ -596,16 +698,15 @@ namespace Ricochet
 
   namespace
   {
-    /// The ending of a name, in small letters.
-    std::string
-    ending_of(const std::string &file_name)
+    /// Whether Gmsh reads a file that has a mesh already.
+    bool
+    is_mesh_of_others(const std::string &file_name)
     {
-      std::string ending =
-        std::filesystem::path(file_name).extension().string();
-      for (char &c : ending)
-        c = std::tolower(static_cast<unsigned char>(c));
-      return ending;
+      const std::string ending = ending_of(file_name);
+      return ending == ".vtk" || ending == ".unv";
     }
+
+
 
     /// Meshes that Gmsh has made of files in this process, as texts in its format; by file
     /// name, contents and mesh size.
@@ -644,7 +745,8 @@ namespace Ricochet
   is_geometry(const std::string &file_name)
   {
     const std::string ending = ending_of(file_name);
-    return ending == ".geo" || ending == ".step" || ending == ".stp";
+    return ending == ".geo" || ending == ".step" || ending == ".stp" ||
+      ending == ".stl";
   }
 
 
@@ -679,10 +781,12 @@ namespace Ricochet
     };
     if (ending_of(file_name) == ".msh")
       return read_msh(file_name);
-    if (ending_of(file_name) != ".vtk" && !is_geometry(file_name))
-      throw InputError("The mesh file '" + file_name +
-                       "' should end with .msh, .vtk, .geo, .step or "
-                       ".stp.");
+    if (!is_geometry(file_name) && !is_mesh_of_others(file_name))
+      throw InputError(
+        "The mesh file '" + file_name +
+        "' should end with .msh, .vtk, .unv, .stl, .geo, .step or .stp. Of .inp and .med and many "
+        "others the free program meshio makes one: meshio convert '" +
+        file_name + "' mesh.msh --output-format gmsh22");
     if (!std::filesystem::exists(file_name))
       throw InputError("The mesh file '" + file_name + "' does not exist.");
     // Also that it is a file, and not a pipe whose end never comes.

@@ -496,7 +496,8 @@ namespace Ricochet
                                      materials,
                                      contact.pairs);
       else
-        throw InputError("Contact/Coupling = cut faces is there in 2D only.");
+        throw InputError(
+          "Contact/Coupling = cut faces is available in 2D only.");
     }
 
     template <int dim>
@@ -886,7 +887,7 @@ namespace Ricochet
               " at t = 0, and " + to_text(there) +
               " in the state from which this run starts, in the direction " +
               std::string(1, "xyz"[one.component]) +
-              ". Begin its Value with what is there.");
+              ". Begin its Value with the latter.");
         }
     Vector velocity = velocities_of_parts();
     velocity += motion.velocity;
@@ -934,9 +935,9 @@ namespace Ricochet
               found->second.max_penetration > 1e-6 * cell_size)
             throw InputError(
               "The contact '" + contacts[k].name +
-              "' begins here, and what touches in it overlaps by " +
+              "' begins here, and its surfaces overlap by " +
               to_text(found->second.max_penetration) +
-              " in the state from which this run starts. Move it "
+              " in the state from which this run starts. Move them "
               "apart before.");
   }
 

@@ -200,7 +200,7 @@ namespace Ricochet
     state_of_parts();
 
     /// The motion of another run, to which the velocities of the parts are added.
-    /// Displacements that conditions prescribe as zero stay what they are there.
+    /// Displacements that conditions prescribe as zero keep their values of that run.
     /// @throws InputError when others begin elsewhere, and what state_in_flight() throws.
     State
     state_from(const CheckpointMotion &motion);

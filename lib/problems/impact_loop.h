@@ -2,6 +2,8 @@
 #ifndef ricochet_problems_impact_loop_h
 #define ricochet_problems_impact_loop_h
 
+#include <output/contact_series.h>
+#include <output/field_extremes.h>
 #include <output/vtu_series.h>
 #include <problems/impact.h>
 
@@ -38,18 +40,34 @@ namespace Ricochet
                materials,
                *impact.contact,
                impact.obstacles,
-               folder)
+               folder,
+               parameters.field_format())
+      , extremes(impact.body, materials)
+      , contact_series(impact.body,
+                       *impact.contact,
+                       contact_names,
+                       folder,
+                       units)
     {
       write_fields = [this](const State &state, const unsigned int step) {
         fields.write(state, step);
+        extremes.update(state);
+      };
+      field_extremes = [this]() -> const std::vector<FieldExtreme> & {
+        return extremes.all();
+      };
+      write_contact = [this](const State &state, const unsigned int step) {
+        contact_series.write(state, step);
       };
     }
 
-    // The function above has the address of the loop.
+    // The functions above have the address of the loop.
     ImpactLoop(const ImpactLoop &) = delete;
 
   private:
-    VtuSeries<dim> fields;
+    VtuSeries<dim>     fields;
+    FieldExtremes<dim> extremes;
+    ContactSeries<dim> contact_series;
   };
 } // namespace Ricochet
 

@@ -50,7 +50,7 @@ namespace Ricochet
 
   /**
    * Bodies that are meshed already, side by side. Part p is @p bodies[p]; its boundary
-   * ids stay what they are, its vertices come after those of the parts before. Meshes
+   * ids are unchanged, its vertices come after those of the parts before. Meshes
    * must not be refined.
    *
    * @param keep_material_ids where bodies know already which part their cells are.

@@ -71,6 +71,7 @@ namespace Ricochet
                        std::vector<double>{0., 1.}),
                      vertical);
     const double total_mass = momenta.linear(vertical)[1];
+    loop.rebounds.push_back({"foundation", {{"", total_mass}}});
     loop.add_column("momentum_x", "kg m/s", [&momenta](const State &state) {
       return momenta.linear(state.velocity)[0];
     });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/json_writer.h>
 #include <base/last_meeting.h>
 #include <base/parameter_file.h>
 #include <base/stop_request.h>
@@ -50,8 +51,8 @@ namespace Ricochet
     parameters.enter_subsection("Output");
     parameters.add_parameter("Fields every",
                              fields_every,
-                             "Write VTU files every so many steps; 0 for "
-                             "never.",
+                             "Number of steps between VTU files; 0 for "
+                             "none.",
                              Patterns::Integer(0));
     parameters.add_parameter(
       "Fields at",
@@ -64,22 +65,36 @@ namespace Ricochet
       "Write VTU files also at the end of each step at which this condition on columns of "
       "energy.csv is true (see Time/Until), such as 'contact_force_floor > 0'.",
       Patterns::Anything());
-    parameters.add_parameter("Checkpoint every",
-                             checkpoint_every,
-                             "Write a checkpoint every so many steps and at "
-                             "the end; 0 for none but by the clock, after a "
-                             "failure or a signal.",
-                             Patterns::Integer(0));
-    parameters.add_parameter("Checkpoint every minutes",
-                             checkpoint_minutes,
-                             "Write a checkpoint when so much time of the "
-                             "clock has passed since the last one (min), and "
-                             "then at the end, too; 0 for never.",
-                             Patterns::Double(0.));
-    parameters.add_parameter("Log every",
-                             log_every,
-                             "Print a line every so many steps; 0 for never.",
-                             Patterns::Integer(0));
+    parameters.add_parameter(
+      "Fields format",
+      fields_format,
+      "vtu: a VTU file for each time. hdf5: an HDF5 file for each, and solution.xdmf for "
+      "ParaView; sooner written, not compressed. Both have seven digits.",
+      Patterns::Selection("vtu|hdf5"));
+    parameters.add_parameter(
+      "Contact every",
+      contact_every,
+      "Write gap and force of each contact point, and the nodal forces of each contact, to "
+      "contact/step-NNNNNN.h5 with this number of steps between; 0 for never.",
+      Patterns::Integer(0));
+    parameters.add_parameter(
+      "Checkpoint every",
+      checkpoint_every,
+      "Number of steps between checkpoints, of which one "
+      "is at the end; 0 for none except by wall time, after "
+      "a failure or a signal.",
+      Patterns::Integer(0));
+    parameters.add_parameter(
+      "Checkpoint every minutes",
+      checkpoint_minutes,
+      "Wall time between checkpoints (min), of which one is "
+      "then at the end, too; 0 for none.",
+      Patterns::Double(0.));
+    parameters.add_parameter(
+      "Log every",
+      log_every,
+      "Number of steps between lines of the log; 0 for none.",
+      Patterns::Integer(0));
     parameters.add_parameter("Newton table",
                              newton_table,
                              "Print each Newton iteration: residual over the "
@@ -835,6 +850,16 @@ namespace Ricochet
         force += value("contact_force_" + entry.first);
         active += value("active_points_" + entry.first);
       }
+    JsonWriter json(/* on one line */ true);
+    json.add("event", "step");
+    json.add("step", step);
+    json.add("of", n_steps);
+    for (const char *const name :
+         {"time", "energy", "balance_residual", "newton_iterations"})
+      json.add(name, value(name));
+    json.add("contact_force", force);
+    json.add("seconds_left", seconds * (n_steps - step) / (step - first_step));
+    folder.report_progress(json);
     char modified_energy[40] = "-";
     if (system.contact.traits().has_modified_energy)
       std::snprintf(modified_energy,
@@ -996,6 +1021,9 @@ namespace Ricochet
   {
     if (write_fields && are_fields_due(state, step))
       write_fields(state, step);
+    if (write_contact && parameters.contact_every > 0 &&
+        step % parameters.contact_every == 0)
+      write_contact(state, step);
   }
 
 
@@ -1076,7 +1104,12 @@ namespace Ricochet
     std::vector<std::string> names;
     for (const auto &entry : contact_names)
       names.push_back(entry.first);
-    return {ledger, names, check, units};
+    return {ledger,
+            names,
+            check,
+            units,
+            rebounds,
+            field_extremes ? field_extremes() : std::vector<FieldExtreme>()};
   }
 
 
@@ -1093,10 +1126,10 @@ namespace Ricochet
 
 
 
-  void
-  TimeLoop::write_summary(const std::string &state,
+  RunSummary::Circumstances
+  TimeLoop::circumstances(const std::string &state,
                           const std::string &reason,
-                          const double       wall_seconds)
+                          const double       wall_seconds) const
   {
     const std::uint64_t mesh_checksum = system.unknowns.mesh_checksum();
     char                text[24];
@@ -1104,21 +1137,32 @@ namespace Ricochet
                   sizeof(text),
                   "%016llx",
                   static_cast<unsigned long long>(mesh_checksum));
-    const std::string json =
-      summary().json({state,
-                      reason,
-                      parameters.final_time,
-                      parameters.time_step,
-                      wall_seconds,
-                      Utilities::MPI::sum(processor_seconds(),
-                                          folder.communicator),
-                      Utilities::MPI::n_mpi_processes(folder.communicator),
-                      text,
-                      system.linear_solver_description(),
-                      how_solved()},
-                     folder);
+    return {state,
+            reason,
+            parameters.final_time,
+            parameters.time_step,
+            until.exists(),
+            wall_seconds,
+            Utilities::MPI::sum(processor_seconds(), folder.communicator),
+            Utilities::MPI::n_mpi_processes(folder.communicator),
+            text,
+            system.linear_solver_description(),
+            how_solved()};
+  }
+
+
+
+  void
+  TimeLoop::write_summary(const std::string &state,
+                          const std::string &reason,
+                          const double       wall_seconds)
+  {
+    const auto       how     = circumstances(state, reason, wall_seconds);
+    const RunSummary results = summary();
+    folder.results           = results.results(how);
+    folder.end_time = exact_text(ledger.value(ledger.rows().back(), "time"));
     on_first_rank(folder.communicator, [&]() {
-      write_atomically(folder.file("summary.json"), json);
+      write_atomically(folder.file("summary.json"), results.json(how, folder));
     });
   }
 

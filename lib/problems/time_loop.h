@@ -8,6 +8,7 @@
 #include <output/checkpoint.h>
 #include <output/energy_check.h>
 #include <output/energy_ledger.h>
+#include <output/field_format.h>
 #include <output/run_summary.h>
 #include <time_integration/time_scheme.h>
 
@@ -40,6 +41,8 @@ namespace Ricochet
       std::vector<double> fields_at = {};
       /// and of each step at whose end this is true; see Condition.
       std::string  fields_when      = "";
+      std::string  fields_format    = "vtu";
+      unsigned int contact_every    = 0;
       unsigned int checkpoint_every = 0;
       /// min
       double       checkpoint_minutes = 10.;
@@ -54,6 +57,12 @@ namespace Ricochet
       /// go with each other.
       void
       validate() const;
+
+      FieldFormat
+      field_format() const
+      {
+        return fields_format == "hdf5" ? FieldFormat::hdf5 : FieldFormat::vtu;
+      }
 
       /// Whether fields are ever due.
       bool
@@ -120,6 +129,13 @@ namespace Ricochet
 
     /// Called with the state and the number of the step when fields are due.
     std::function<void(const State &, const unsigned int)> write_fields;
+
+    /// Called with the state and the number of the step when contact is due.
+    std::function<void(const State &, const unsigned int)> write_contact;
+
+    /// See RunSummary.
+    std::vector<RunSummary::Rebound>                   rebounds;
+    std::function<const std::vector<FieldExtreme> &()> field_extremes;
 
     /// The work of moving obstacles on the body from one state to the next, see
     /// ObstacleWork; the column obstacle_work is zero without. The contact
@@ -240,6 +256,7 @@ namespace Ricochet
     bool
     are_fields_due(const State &state, const unsigned int step) const;
 
+    /// Fields and contact.
     void
     write_fields_if_due(const State &state, const unsigned int step);
 
@@ -267,6 +284,11 @@ namespace Ricochet
 
     RunSummary
     summary() const;
+
+    RunSummary::Circumstances
+    circumstances(const std::string &state,
+                  const std::string &reason,
+                  const double       wall_seconds) const;
 
     /// Write summary.json, see RunSummary. @param state "complete", "stopped" or "failed", and
     /// the @p reason. @throws ComputationError Collective.

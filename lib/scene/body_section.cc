@@ -341,8 +341,8 @@ namespace Ricochet
     parameters.add_parameter(
       "File",
       file,
-      "Mesh file: of Gmsh (.msh, format 2.2 or 4.1), or .vtk, or a "
-      "geometry (.geo, .step) that Gmsh is to mesh. Boundaries are known by the "
+      "Mesh file: of Gmsh (.msh, format 2.2 or 4.1), universal (.unv) or .vtk, or a "
+      "geometry (.geo, .step, .stl) that Gmsh is to mesh. Boundaries are known by the "
       "numbers and names of physical groups. In a parameter file the path counts "
       "from the folder of that file.",
       Patterns::FileName());

@@ -100,7 +100,7 @@ namespace Ricochet
           {
             if (file_of(first->second) == file_of(section.where))
               throw InputError(
-                section.where + ": '" + full + "' is there already, in " +
+                section.where + ": '" + full + "' exists already, in " +
                 first->second +
                 ". Give one of both another name, or put them together.");
             continue;

@@ -90,7 +90,7 @@ namespace Ricochet
     parameters.declare_entry("Dimension",
                              std::to_string(dim),
                              Patterns::Selection("2|3"),
-                             "Dimension of the space: 2 or 3.");
+                             "Number of space dimensions: 2 or 3.");
     parameters.add_parameter(
       "Units",
       units_text,
@@ -197,8 +197,7 @@ namespace Ricochet
           throw InputError("Interference " + why);
         };
         if (!touching.obstacles.empty() || touching.is_self)
-          refuse(
-            "is there between bodies only; an obstacle can be made larger.");
+          refuse("works between bodies only; an obstacle can be made larger.");
         if (contact.parameters.coupling != "points")
           refuse("needs Coupling = points.");
         const auto names = names_in(contact.interference);

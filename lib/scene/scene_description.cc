@@ -82,7 +82,7 @@ namespace Ricochet
           lines.push_back(
             "note: " + contact.section.where + ": friction of the treatment '" +
             contact.parameters.treatment +
-            "' is regularised: what sticks creeps, with its tangential "
+            "' is regularised: points that stick creep, with its tangential "
             "traction over " +
             name + " (" + to_text(value) + " in the units of this file)" +
             (scheme_traits(impact.scheme.name).has_inertia
@@ -448,7 +448,7 @@ namespace Ricochet
       assembly.state_of_parts();
     else
       text << "starts from the last state in " << start_from
-           << "; what touches there is found when it begins\n";
+           << "; contacts there are found when it begins\n";
     for (const ProbeSection<dim> &probe : probes)
       probe.check(assembly, surfaces, first_part);
     const ObstacleSurfaces<dim> obstacle_surfaces(assembly.obstacles);

@@ -256,6 +256,51 @@ namespace Ricochet
 
 
 
+    /// Contacts between two bodies, or of one with an obstacle at rest, have a restitution.
+    template <int dim>
+    void
+    add_rebounds(TimeLoop                        &loop,
+                 const Impact<dim>               &assembly,
+                 const PartColumns<dim>          &columns,
+                 const std::vector<std::string>  &body_names,
+                 const std::vector<unsigned int> &first_part)
+    {
+      for (const Contact &contact : assembly.contacts)
+        {
+          std::set<types::boundary_id> ids;
+          bool                         is_at_rest = true;
+          for (const auto &[id, obstacle] : contact.obstacles)
+            {
+              ids.insert(id);
+              is_at_rest = is_at_rest && obstacle->motion().is_at_rest();
+            }
+          for (const ContactPair &pair : contact.pairs)
+            {
+              ids.insert(pair.slave.begin(), pair.slave.end());
+              ids.insert(pair.master.begin(), pair.master.end());
+            }
+          // The bodies of these parts.
+          std::set<unsigned int> numbers;
+          for (const unsigned int part : parts_behind(assembly.body, ids))
+            numbers.insert(
+              first_part.empty()
+                ? part
+                : std::upper_bound(first_part.begin(), first_part.end(), part) -
+                  first_part.begin() - 1);
+          if (!is_at_rest ||
+              numbers.size() != (contact.is_between_bodies() ? 2 : 1))
+            continue;
+          RunSummary::Rebound rebound{column_name(contact.name), {}};
+          for (const unsigned int b : numbers)
+            rebound.bodies.push_back(
+              body_names.size() == 1
+                ? RunSummary::Rebound::Body{"",
+                                            columns.momenta().mass_of_body()}
+                : RunSummary::Rebound::Body{"_" + body_names[b],
+                                            columns.momenta(b).mass_of_body()});
+          loop.rebounds.push_back(rebound);
+        }
+    }
   } // namespace
 
 
@@ -355,6 +400,7 @@ namespace Ricochet
                                    first_part);
     columns.add_to(loop);
     add_resultants(loop, assembly);
+    add_rebounds(loop, assembly, columns, body_names, first_part);
     for (const ProbeSection<dim> &probe : probes)
       probe.add_to(loop, assembly, surfaces, first_part);
     const ObstacleWork<dim> obstacle_work(assembly.body, obstacles_of_contacts);

@@ -48,7 +48,7 @@ namespace Ricochet
           const double  time_step,
           const Vector &solution);
 
-    /// Count a step in which it was used, with so many iterations.
+    /// Count a step in which it was used, with its number of iterations.
     void
     count(const unsigned int n_iterations);
 

@@ -9,11 +9,12 @@
     run.energy.plot(x="time", y="energy")      # a pandas.DataFrame
     grid = run.fields(0.02)                    # a VTK grid
 
-    ricochet.Run("output/x")                   # a run that is there already
+    ricochet.Run("output/x")                   # an earlier run
     ricochet.sweep("bar_sd", overrides={"Time/Time step": [0.1, 0.05, 0.025]})
 
 The commands `ricochet-plot` and `ricochet-compare` are made of the same parts. NumPy is
-needed by all; pandas by `Run.energy`, VTK by fields, matplotlib by drawings, each when it is used.
+needed by all; pandas by `Run.energy`, h5py by energy.h5, xarray by `Run.to_xarray`, VTK by fields,
+matplotlib by drawings, each when it is used.
 """
 
 from .errors import (
@@ -26,9 +27,10 @@ from .errors import (
     RicochetError,
 )
 from .measures import ContactMeasures, Summary
+from .names import NoSuchName
 from .programs import Outcome, find_program, parameters_of, run, sweep
 from .results import FieldFile, Run
-from .sampling import dataset, samples
+from .sampling import dataset, frame, samples
 from .tables import Table, read_table
 
 __all__ = [
@@ -36,6 +38,7 @@ __all__ = [
     "ContactMeasures",
     "Failed",
     "FieldFile",
+    "NoSuchName",
     "NotARun",
     "OpenRun",
     "Outcome",
@@ -47,6 +50,7 @@ __all__ = [
     "Table",
     "dataset",
     "find_program",
+    "frame",
     "parameters_of",
     "read_table",
     "run",

@@ -32,7 +32,6 @@ whose impact is nearest to the middle of a step, and the range of all of them.
 from __future__ import annotations
 
 import argparse
-import difflib
 import itertools
 import os
 import pathlib
@@ -43,6 +42,7 @@ from dataclasses import dataclass
 from . import measures, prm
 from .comparison import Comparison, Method, print_table, write_csv
 from .errors import BadParameterFile, ProgramError, Refused, RicochetError
+from .names import nearest
 from .programs import (
     Outcome,
     Task,
@@ -210,11 +210,9 @@ def check_names(
     choices = choices_of(program, case, parameter) if names else []
     for name in names:
         if choices and name not in choices:
-            known = {choice.casefold(): choice for choice in choices}
-            nearest = difflib.get_close_matches(name.casefold(), known, 1, cutoff=0.0)[0]
             raise RicochetError(
                 f"There is no {parameter.rpartition('/')[2].lower()} '{name}'. The nearest valid "
-                f"name is '{known[nearest]}'; {program.name} knows: {', '.join(choices)}."
+                f"name is '{nearest(name, choices)}'; {program.name} knows: {', '.join(choices)}."
             )
 
 

@@ -78,9 +78,9 @@ def _history(comparison: Comparison, title: str, values: Callable[[Table], Array
                 linewidth=0,
             )
     _keep_within(axes)
-    unit = comparison.units.get("time", "")
+    unit = curves.plain(comparison.units.get("time", ""))
     axes.set_xlabel(f"time since the impact ({unit})" if several else f"time ({unit})")
-    axes.set_ylabel(title)
+    axes.set_ylabel(curves.plain(title))
     curves.legend_below(figure, axes)
     return figure
 
@@ -95,7 +95,7 @@ def _keep_within(axes: Axes) -> None:
     inside = np.concatenate([line.get_ydata() for line in largest if line not in beyond])
     low, high = min(float(np.nanmin(inside)), 0.0), max(float(np.nanmax(inside)), 0.0)
     axes.set_ylim(low - 0.25 * (high - low), high + 0.25 * (high - low))
-    names = [f"{line.get_label()} goes to {number(largest[line])}" for line in beyond]
+    names = [f"{curves.plain(line.get_label())} goes to {number(largest[line])}" for line in beyond]
     axes.set_title("\n".join(names), fontsize=9, loc="left")
 
 
@@ -114,7 +114,7 @@ def _spread(comparison: Comparison) -> Figure:
     means = [abs(float(np.mean(v))) for v in column.values.values() if v]
     if max(means) > 30 * np.median(means) > 0:
         axes.set_xscale("symlog", linthresh=max(2 * float(np.median(means)), 1e-12))
-    axes.set_yticks(range(len(methods)), [method.name for method in methods])
+    axes.set_yticks(range(len(methods)), [curves.plain(method.name) for method in methods])
     axes.set_ylim(len(methods) - 0.5, -0.5)
     axes.set_xlabel("energy lost (% of the first)")
     return figure

@@ -117,16 +117,21 @@ def settings() -> Iterator[None]:
         yield
 
 
+def plain(text: str) -> str:
+    """A name or a unit for matplotlib, which takes what is between dollar signs as formulas."""
+    return text.replace("$", r"\$")
+
+
 def words(column: str) -> str:
     """The name of a column as words."""
-    return column.replace("_", " ")
+    return plain(column.replace("_", " "))
 
 
 def _unit(lines: Sequence[Line], column: str) -> str:
     """The unit of a column, in brackets; none where runs differ in it or it is 1."""
     units = {line.table.units[column] for line in lines if column in line.table}
     unit = units.pop() if len(units) == 1 else ""
-    return f" ({unit})" if unit not in ("", "1") else ""
+    return f" ({plain(unit)})" if unit not in ("", "1") else ""
 
 
 def _draw(axes: Axes, line: Line, column: str, values: Array | None = None) -> None:
@@ -153,7 +158,7 @@ def legend_below(
             handles.setdefault(label, handle)
     if not handles:
         return
-    texts = [textwrap.fill(label, width) for label in handles]
+    texts = [plain(textwrap.fill(label, width)) for label in handles]
     longest = max(len(line) for text in texts for line in text.split("\n"))
     if columns is None:
         # About 13 letters in an inch, and the sample of the line.

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-import difflib
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from .errors import RicochetError
+from .errors import NotARun
+from .names import Named, no_such
 from .tables import Array
 
 
@@ -25,13 +25,20 @@ class Colour:
     kind: str
 
 
-COLOURS = {
-    "von_mises": Colour("von Mises stress", "von_mises", "pressure"),
-    "contact_pressure": Colour("contact pressure", "contact_pressure", "pressure"),
-    "displacement": Colour("displacement", "displacement", "length"),
-    "velocity": Colour("velocity", "velocity", "velocity"),
-    "stress": Colour("largest compressive stress", "stress", "pressure"),
-}
+COLOURS = Named(
+    "colour",
+    {
+        "von_mises": Colour("von Mises stress", "von_mises", "pressure"),
+        "contact_pressure": Colour("contact pressure", "contact_pressure", "pressure"),
+        "displacement": Colour("displacement", "displacement", "length"),
+        "velocity": Colour("velocity", "velocity", "velocity"),
+        "stress": Colour("largest compressive stress", "stress", "pressure"),
+    },
+)
+
+
+#: Numbers of components, of which computations make use.
+COMPONENTS = {"displacement": (1, 3), "stress": (1, 9)}
 
 
 def unit(units: dict[str, str], kind: str) -> str:
@@ -59,7 +66,8 @@ def array(grid: Any, name: str) -> Array:
     """A field at the points, (n, components).
 
     Raises:
-        RicochetError: there is no such field.
+        NoSuchName: there is no such field.
+        NotARun: a displacement or a stress has another number of components than such have.
     """
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -67,11 +75,12 @@ def array(grid: Any, name: str) -> Array:
     values = data.GetArray(name)
     if values is None:
         names = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
-        nearest = difflib.get_close_matches(name, names, 1)
-        meant = f" Is '{nearest[0]}' meant?" if nearest else ""
-        raise RicochetError(f"The fields have no '{name}'.{meant} There are {', '.join(names)}.")
+        raise no_such("field", name, names)
     result = np.asarray(vtk_to_numpy(values), dtype=float)
-    return result.reshape(len(result), -1)
+    result = result.reshape(len(result), -1)
+    if result.shape[1] not in COMPONENTS.get(name, (result.shape[1],)):
+        raise NotARun(f"The field '{name}' has {result.shape[1]} components.")
+    return result
 
 
 def dimension(grid: Any) -> int:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .names import Named
 from .tables import Array, Table
 
 # A force below this part of the largest one is round-off, not contact.
@@ -377,7 +378,8 @@ def measure_contact(table: Table, name: str) -> ContactMeasures:
 def summarise(table: Table, log: str = "", turns: bool = True) -> Summary:
     """The summary of an energy table; `log` is the text of log.txt, `turns` as for
     `restitution`."""
-    each = {name: measure_contact(table, name) for name in contacts(table)}
+    names = contacts(table)
+    each = Named("contact", {name: measure_contact(table, name) for name in names})
 
     def column(name: str) -> Array:
         return table[name] if name in table else np.zeros(1)
@@ -387,7 +389,7 @@ def summarise(table: Table, log: str = "", turns: bool = True) -> Summary:
         end=float(table["time"][-1]),
         energy_lost=energy_lost(table),
         restitution=restitution(table, log, turns),
-        largest_force={name: contact.largest_force for name, contact in each.items()},
+        largest_force=Named("contact", {name: each[name].largest_force for name in names}),
         largest_penetration=max((c.largest_penetration for c in each.values()), default=0.0),
         contact_duration=duration(table),
         newton_iterations=int(column("newton_iterations").sum()),

@@ -13,6 +13,7 @@ import html
 import json
 import math
 import pathlib
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -21,7 +22,7 @@ import numpy as np
 
 from . import fields
 from .errors import RicochetError
-from .results import FieldFile, Run, read_vtu
+from .results import FieldFile, Run, read_fields
 from .tables import Array
 
 #: The whole file stays below this (bytes).
@@ -112,7 +113,7 @@ def _obstacles(files: Sequence[FieldFile]) -> dict[str, Any] | None:
     """Rigid obstacles: their faces, or lines in 2D, and the points of each frame."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
-    grids = [read_vtu(file.obstacles) for file in files if file.obstacles]
+    grids = [read_fields(file.obstacles) for file in files if file.obstacles]
     if not grids or not grids[0].GetNumberOfCells():
         return None
     places = [fields.array_of_points(grid) for grid in grids]
@@ -187,7 +188,7 @@ def write(run: Run, path: pathlib.Path, colour: str, palette: Sequence[Any],
         RicochetError: the run has no fields, they are of a bar, or they are too large.
     """
     files = run.field_files
-    grid = read_vtu(files[0].path)
+    grid = read_fields(files[0].path)
     dimension = fields.dimension(grid)
     if dimension == 1:
         raise RicochetError("A page shows bodies in 2D and 3D; this run has a bar.")
@@ -203,7 +204,7 @@ def write(run: Run, path: pathlib.Path, colour: str, palette: Sequence[Any],
             np.linspace(0, len(files) - 1, most_frames).round().astype(int))]
     places, shown = [], []
     for file in files:
-        grid = read_vtu(file.path)
+        grid = read_fields(file.path)
         if grid.GetNumberOfPoints() != len(surface.number):
             raise RicochetError(f"'{file.path}' has another mesh than the first file.")
         moved = fields.array_of_points(grid) + fields.displacements(grid)
@@ -234,7 +235,10 @@ def write(run: Run, path: pathlib.Path, colour: str, palette: Sequence[Any],
     title = html.escape(f"{run.program}: {run.folder.name}")
     # A name in the data cannot end the script that it is in.
     text = json.dumps(data, allow_nan=False).replace("<", "\\u003c")
-    page = TEMPLATE.read_text(encoding="utf-8").replace("@TITLE@", title).replace("@DATA@", text)
+    # In one pass: a title may be the mark of the data.
+    parts = {"@TITLE@": title, "@DATA@": text}
+    template = TEMPLATE.read_text(encoding="utf-8")
+    page = re.sub("@TITLE@|@DATA@", lambda mark: parts[mark[0]], template)
     if len(page) > LARGEST:
         raise RicochetError(f"The page would have {len(page) / 1e6:.1f} MB.")
     path.write_text(page, encoding="utf-8")

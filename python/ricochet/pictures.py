@@ -64,7 +64,7 @@ class _Scene:
     def label(self) -> str:
         """For the colour bar, with the unit."""
         colour = fields.COLOURS[self.colour]
-        unit = fields.unit(self.run.units, colour.kind)
+        unit = _unit(self.run, colour.kind)
         return colour.label + (f" ({unit})" if unit else "")
 
     @property
@@ -76,6 +76,11 @@ class _Scene:
     def extend(self) -> str:
         """The ends of the colour bar that are open."""
         return "max" if self.exceeds else "neither"
+
+
+def _unit(run: Run, kind: str) -> str:
+    """The unit of a kind of fields, as matplotlib takes it."""
+    return curves.plain(fields.unit(run.units, kind))
 
 
 @dataclass(frozen=True)
@@ -238,7 +243,7 @@ def _scale_bar(panel: Axes, scene: _Scene) -> None:
     # Below the picture, and beside the bar its length: both are clear of the body.
     x, y = -0.47 * scene.view.width, -0.54 * scene.view.height
     panel.plot([x, x + length], [y, y], color="black", linewidth=2, solid_capstyle="butt")
-    unit = fields.unit(scene.run.units, "length")
+    unit = _unit(scene.run, "length")
     panel.text(
         x + length + 0.02 * scene.view.width,
         y,
@@ -264,7 +269,7 @@ def _show(panel: Axes, scene: _Scene, image: Array) -> None:
         return
     panel.set_xlim(x0, x1)
     panel.set_ylim(y0, y1)
-    unit = fields.unit(scene.run.units, "length")
+    unit = _unit(scene.run, "length")
     panel.set_xlabel(f"x ({unit})" if unit else "x")
     panel.set_ylabel(f"y ({unit})" if unit else "y")
 
@@ -275,7 +280,7 @@ def _time(run: Run, file: FieldFile) -> str:
     step = np.diff(times).min() if len(times) > 1 else abs(times[0]) or 1.0
     digits = max(0, 1 - math.floor(math.log10(step))) if step > 0 else 6
     text = f"{file.time:.{digits}f}" if digits < 6 else f"{file.time:.3e}"
-    return f"t = {text} {run.units.get('time', '')}".strip()
+    return f"t = {text} {curves.plain(run.units.get('time', ''))}".strip()
 
 
 def instants(run: Run) -> list[FieldFile]:
@@ -395,11 +400,11 @@ def _bar(run: Run, colour: str, title: str | None) -> Figure:
         cmap=COLOUR_MAP,
         rasterized=True,
     )
-    unit = fields.unit(run.units, "length")
-    axes.set_xlabel(f"time ({run.units.get('time', '')})")
+    unit = _unit(run, "length")
+    axes.set_xlabel(f"time ({curves.plain(run.units.get('time', ''))})")
     axes.set_ylabel(f"x of the deformed bar ({unit})" if unit else "x of the deformed bar")
     axes.grid(False)
-    colour_unit = fields.unit(run.units, fields.COLOURS[colour].kind)
+    colour_unit = _unit(run, fields.COLOURS[colour].kind)
     label = fields.COLOURS[colour].label
     figure.colorbar(drawn, label=f"{label} ({colour_unit})" if colour_unit else label)
     if title:

@@ -90,7 +90,7 @@ def plot(
             if figure is not None:
                 files.append(curves.save(figure, folder / f"{name}.png"))
         endings = [""] if len(runs) == 1 else [f"_{n}" for n in range(1, len(runs) + 1)]
-        titles: list[str | None] = [None] if len(runs) == 1 else [*(line.label for line in lines)]
+        titles: list[str | None] = [None] if len(runs) == 1 else [curves.plain(line.label) for line in lines]
         for run, shown, ending, title in zip(runs, colours, endings, titles):
             if fields:
                 path = folder / f"fields_{shown}{ending}.png"

@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
+from . import files
 from .errors import BadParameterFile
 
 #: Sections of output and solvers, without effect on the computed problem.
@@ -17,8 +18,12 @@ ASIDE = ("Output/", "Limits/", "Linear solver/", "Newton/")
 #: Characters that are stripped from both ends of words.
 BLANKS = " \t\r\n\f\v"
 
-#: Files that include each other, and all of them, as in the programs.
-MOST_DEEP, MOST_FILES = 100, 1000
+#: Files that include each other, and all of them and their bytes, and sections in each other, as
+#: in the programs.
+MOST_DEEP, MOST_FILES, MOST_BYTES, MOST_SECTIONS = 100, 1000, 1 << 24, 10
+
+#: The longest name of a section: every parameter of it has it in its own.
+MOST_LETTERS = 1000
 
 
 @dataclass
@@ -27,10 +32,12 @@ class ParameterText:
 
     #: "Section/Name" -> value as text; the last one counts. Sections nest: "A/B/Name".
     values: dict[str, str] = field(default_factory=dict)
-    #: The sections that are opened, also if nothing is set in them: "A", "A/B".
-    sections: list[str] = field(default_factory=list)
+    #: The sections that are opened, in their order, also if nothing is set in them: "A", "A/B".
+    sections: dict[str, None] = field(default_factory=dict)
     #: The file and all that it includes, in the order in which they are read.
     files: list[pathlib.Path] = field(default_factory=list)
+    #: The contents of these files.
+    contents: list[bytes] = field(default_factory=list)
 
 
 def _statements(text: str) -> Iterator[tuple[int, str]]:
@@ -39,10 +46,11 @@ def _statements(text: str) -> Iterator[tuple[int, str]]:
     # would make settings of comments.
     lines = iter(enumerate(text.lstrip("\ufeff").split("\n"), start=1))
     for number, line in lines:
-        line = line.split("#", 1)[0].strip(BLANKS)
-        while line.endswith("\\"):
-            line = line[:-1] + next(lines, (0, ""))[1].split("#", 1)[0].strip(BLANKS)
-        if line:
+        parts = [line.split("#", 1)[0].strip(BLANKS)]
+        while parts[-1].endswith("\\"):
+            parts[-1] = parts[-1][:-1]
+            parts.append(next(lines, (0, ""))[1].split("#", 1)[0].strip(BLANKS))
+        if line := "".join(parts):
             yield number, line
 
 
@@ -69,14 +77,16 @@ def _read(
             f"or of {MOST_FILES} in all."
         )
     try:
-        text = path.read_bytes().decode("utf-8")
+        contents = files.read_bytes(path, MOST_BYTES - sum(map(len, result.contents)))
+        text = contents.decode("utf-8")
     except FileNotFoundError:
         raise BadParameterFile(f"{origin}the parameter file '{path}' does not exist.") from None
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, ValueError) as error:
         raise BadParameterFile(
             f"{origin}the parameter file '{path}' cannot be read: {error}."
         ) from None
     result.files.append(path)
+    result.contents.append(contents)
     open_files = (*open_files, path.resolve())
 
     section: list[str] = []
@@ -85,8 +95,12 @@ def _read(
         keyword, rest = ([*re.split("[ \t]+", line, maxsplit=1), ""])[:2]
         if keyword == "subsection" and rest:
             section.append(rest)
-            if "/".join(section) not in result.sections:
-                result.sections.append("/".join(section))
+            if len(section) > MOST_SECTIONS or len(rest) > MOST_LETTERS:
+                raise BadParameterFile(
+                    f"{here}more than {MOST_SECTIONS} sections in each other, or a name of more "
+                    f"than {MOST_LETTERS} letters."
+                )
+            result.sections.setdefault("/".join(section))
         elif line == "end" and section:
             section.pop()
         elif keyword == "include" and rest and not section:
@@ -161,7 +175,7 @@ def differences(
 
 
 def labels(parameters: Iterable[Mapping[str, str]], telling_only: bool = False) -> list[str]:
-    """For each of several runs a text that names what differs from the others.
+    """For each of several runs a text with its differences from the others.
 
     "persistent contact, Time step = 0.001": of a treatment, a scheme and a program the value
     says enough, and with telling_only these are all that is named. Texts are empty where nothing differs. Parameters that one run has and

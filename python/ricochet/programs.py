@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import concurrent.futures
+import hashlib
 import itertools
+import json
 import os
 import pathlib
 import re
@@ -17,9 +19,17 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from . import prm
-from .errors import BadParameterFile, Failed, OpenRun, ProgramError, Refused, RicochetError
-from .results import Run
+from . import files, prm
+from .errors import (
+    BadParameterFile,
+    Failed,
+    OpenRun,
+    ProgramError,
+    Refused,
+    RicochetError,
+)
+from .names import nearest
+from .results import WORD, Run
 
 #: Where the programs of a checkout are built.
 BUILD = pathlib.Path(__file__).resolve().parents[2] / "build" / "release"
@@ -45,6 +55,9 @@ NAMES = (
 #: The environment of one of several runs at a time: one core for each.
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
 
+#: A file in the folder of a run that is complete: the checksum of what went in and of summary.json.
+MARK = "inputs.sha256"
+
 #: The exit code of a run that is complete, but whose balance or promise is violated.
 OPEN = 4
 
@@ -56,7 +69,7 @@ def find_program(program: PathLike, programs: PathLike | None = None) -> pathlib
     """The file of a program: a path as it is, a name from a folder.
 
     The folder is `programs`, or else that which the environment variable RICOCHET_PROGRAMS
-    names, or build/release of the checkout, or one in the PATH.
+    names, or build/release of the checkout; those of Ricochet are found in the PATH, too.
 
     Raises:
         RicochetError: there is no such program.
@@ -70,9 +83,14 @@ def find_program(program: PathLike, programs: PathLike | None = None) -> pathlib
     path = pathlib.Path(named or BUILD) / program
     if path.is_file():
         return path.resolve()
-    in_path = None if named else shutil.which(str(program))
+    # A name may come from a stranger's run.txt, and the PATH has programs of all kinds.
+    in_path = shutil.which(str(program)) if not named and str(program) in NAMES else None
     if in_path:
         return pathlib.Path(in_path)
+    if str(program) not in NAMES:
+        raise RicochetError(
+            f"There is no program '{path}'. Is '{nearest(str(program), NAMES)}' meant?"
+        )
     raise RicochetError(
         f"There is no program '{path}'. Build the project, or name the folder with the programs."
     )
@@ -85,7 +103,7 @@ def find_program_of_file(name: str, programs: PathLike | None = None) -> pathlib
     Raises:
         RicochetError: there is no such program, or the name is none.
     """
-    if name not in NAMES and (programs is None or not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name)):
+    if name not in NAMES and (programs is None or not re.fullmatch(WORD, name)):
         raise RicochetError(
             f"'{name[:60]}' is no program of Ricochet; those are {', '.join(NAMES)}. One of your "
             "own is named by a word, and its folder by --programs."
@@ -253,6 +271,8 @@ class Task:
     overrides: dict[str, object]
     output: pathlib.Path
     ranks: int = 1
+    #: Checksum of what goes in; see `run_missing`.
+    inputs: str = ""
 
 
 def check_many(tasks: Sequence[Task], jobs: int | None = None) -> list[ProgramError | None]:
@@ -284,7 +304,7 @@ class Outcome:
     run: Run | None
     #: Why, if it was.
     error: ProgramError | None
-    #: How long it took (s).
+    #: How long it took (s), also if that was earlier.
     wall_seconds: float
 
 
@@ -332,6 +352,103 @@ def run_tasks(
     return [future.result() for future in futures]
 
 
+# Runs of an earlier time -----------------------------------------------------------------
+
+
+def _contents_named_by(value: str, folder: pathlib.Path) -> bytes:
+    """The contents of the file that a value names, or of the state of the run that it names."""
+    for path in (folder / value, folder / value / "checkpoint.bin") if value else ():
+        try:
+            return files.read_bytes(path, None)
+        except (OSError, ValueError):
+            continue
+    return b""
+
+
+def checksum_of_build(program: pathlib.Path) -> str:
+    """The checksum of a program and of Ricochet's library that it loads."""
+    _, text = execute(["ldd", str(program)])
+    paths = [program, *map(pathlib.Path, re.findall(r"libricochet\S* => (\S+)", text))]
+    return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
+
+
+def checksum_of_file(parameter_file: pathlib.Path | None) -> str:
+    """The checksum of a parameter file, of all that it includes, and of the files that its
+    parameters name. What a geometry or a mesh includes is not seen.
+
+    Raises:
+        BadParameterFile: it cannot be read.
+    """
+    if parameter_file is None:
+        return ""
+    text = prm.read(parameter_file)
+    checksum = hashlib.sha256(b"\0".join(text.contents))
+    for folder in dict.fromkeys(file.parent for file in text.files):
+        for value in text.values.values():
+            checksum.update(_contents_named_by(value, folder))
+    return checksum.hexdigest()
+
+
+def checksum_of_inputs(program: pathlib.Path, file: str, overrides: Overrides) -> str:
+    """The checksum of what is computed: the name of the program, the checksum of the file, and the
+    overrides with the files that they name."""
+    values = {name: prm.to_text(value) for name, value in sorted(overrides.items())}
+    checksum = hashlib.sha256(json.dumps([program.name, file, values]).encode())
+    for value in values.values():
+        checksum.update(_contents_named_by(value, pathlib.Path()))
+    return checksum.hexdigest()
+
+
+def _mark(task: Task) -> str:
+    """The contents of MARK; another run in the folder has another summary.
+
+    Raises:
+        OSError: there is no summary.
+    """
+    summary = (task.output / "summary.json").read_bytes()
+    return hashlib.sha256(task.inputs.encode() + summary).hexdigest()
+
+
+def complete_run(task: Task) -> Run | None:
+    """The run in the folder of a task, if it is complete and had the same inputs."""
+    try:
+        if files.read_text(task.output / MARK) != _mark(task):
+            return None
+        result = Run(task.output)
+        result.wall_seconds = float(result.result["run"]["wall_seconds"])
+    except (RicochetError, OSError, ValueError, TypeError):
+        return None
+    return result
+
+
+def run_missing(
+    tasks: Sequence[Task],
+    jobs: int | None = None,
+    progress: Callable[[Outcome, int, int], None] | None = None,
+) -> list[Outcome]:
+    """Make the runs that are not complete in their folders already, as `run_tasks`; of the others
+    the outcome is read. `progress` is called for those that are made."""
+    known = {task.output: complete_run(task) for task in tasks}
+    missing = {task.output: task for task in tasks if known[task.output] is None}
+
+    def finish(outcome: Outcome, done: int, of: int) -> None:
+        if outcome.run:
+            folder = outcome.run.folder
+            (folder / MARK).write_text(_mark(missing[folder]), encoding="utf-8")
+        if progress:
+            progress(outcome, done, of)
+
+    made = dict(zip(missing, run_tasks(list(missing.values()), jobs, finish)))
+
+    def outcome_of(task: Task) -> Outcome:
+        found = known[task.output]
+        if found is None:
+            return made[task.output]
+        return Outcome(task.name, task.overrides, found, None, found.wall_seconds or 0.0)
+
+    return [outcome_of(task) for task in tasks]
+
+
 def sweep(
     program_or_path: PathLike,
     parameter_file: PathLike | None = None,
@@ -350,15 +467,17 @@ def sweep(
                                                        "Contact/Treatment": ["Nitsche", "penalty"]})
         for outcome in outcomes:
             print(outcome.name, outcome.wall_seconds, outcome.run and outcome.run.summary())
+        ricochet.frame(outcomes)  # one row for each run
 
     Args:
         overrides: lists of values, of which all combinations are run, or a list of overrides,
             one for each run.
         output: the folder in which each run has one of its own; without it
-            output/PROGRAM/FILE-sweep. What an earlier sweep left there is overwritten.
+            output/PROGRAM/FILE-sweep. Runs that are complete there and had the same program,
+            contents of files and overrides are not computed again; others are overwritten.
         jobs: how many run at the same time; without it one for each core (less with `ranks`).
         common: overrides of all runs.
-        progress: see `run_tasks`.
+        progress: see `run_missing`.
 
     The other arguments are those of `run`. A run that is refused or fails has its `error` in
     its outcome; the others go on.
@@ -374,12 +493,13 @@ def sweep(
         raise RicochetError("A sweep needs at least one set of overrides.")
     if output is None:
         folder = default_output(program.name, parameter_file, common)
-        folder = folder.with_name(folder.name + "-sweep")
+        folder = folder.parent / f"{folder.name}-sweep"
     else:
         folder = pathlib.Path(output)
     file = pathlib.Path(parameter_file) if parameter_file is not None else None
     if file is not None and not file.is_file():
         raise BadParameterFile(f"There is no parameter file '{file}'.")
+    build, contents = checksum_of_build(program), checksum_of_file(file)
     digits = len(str(len(variations)))
     tasks = [
         Task(
@@ -389,9 +509,10 @@ def sweep(
             {**(common or {}), **each},
             folder / f"{number:0{digits}}",
             ranks,
+            build + checksum_of_inputs(program, contents, {**(common or {}), **each}),
         )
         for number, each in enumerate(variations, start=1)
     ]
     if jobs is None:
         jobs = max(1, (os.cpu_count() or 1) // ranks)
-    return run_tasks(tasks, jobs, progress)
+    return run_missing(tasks, jobs, progress)

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from . import curved, fields
-from .results import read_vtu
+from .results import read_fields
 
 
 @dataclass(frozen=True)
@@ -247,7 +247,7 @@ def render(job: Job) -> None:
     obstacle = vtk.vtkActor()
     renderer.AddActor(obstacle)
     for source, obstacles, image in job.frames:
-        grid = read_vtu(source)
+        grid = read_fields(source)
         look.SetEdgeVisibility(job.edges and not curved.is_quadratic(grid))
         if fields.dimension(grid) == 2:
             look.LightingOff()
@@ -258,7 +258,7 @@ def render(job: Job) -> None:
 
         obstacle.SetVisibility(False)
         if obstacles:
-            _show_obstacles(obstacle, read_vtu(obstacles), fields.dimension(grid), job)
+            _show_obstacles(obstacle, read_fields(obstacles), fields.dimension(grid), job)
 
         renderer.ResetCameraClippingRange()
         window.Render()

@@ -5,29 +5,36 @@ from __future__ import annotations
 
 import functools
 import json
+import math
 import numbers
 import os
 import pathlib
 import re
-import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import measures, prm
+from . import files, measures, prm, vtu, xdmf
+from .contact import Contact
 from .errors import BadParameterFile, NotARun, RicochetError
 from .fields import array, array_of_points, joined_points
-from .tables import Array, Table, read_table
+from .names import Named
+from .tables import Array, Table, read_hdf5, read_table
 
 if TYPE_CHECKING:
     import pandas
+    import xarray
     from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+
+
+#: The name of a program.
+WORD = "[A-Za-z][A-Za-z0-9_]*"
 
 
 @dataclass(frozen=True)
 class FieldFile:
-    """A VTU file of a run."""
+    """A file of fields of a run."""
 
     step: int
     time: float
@@ -61,10 +68,10 @@ class Run:
         self.wall_seconds: float | None = None
         if not self.folder.is_dir():
             raise NotARun(f"There is no folder '{self.folder}'.")
-        if not any((self.folder / name).is_file() for name in ("energy.csv", "parameters.prm")):
+        of_run = ("energy.csv", "energy.h5", "parameters.prm")
+        if not any((self.folder / name).is_file() for name in of_run):
             raise NotARun(
-                f"The folder '{self.folder}' holds no run: neither energy.csv nor parameters.prm "
-                "is in it."
+                f"The folder '{self.folder}' holds no run: none of {', '.join(of_run)} is in it."
             )
 
     def __repr__(self) -> str:
@@ -74,15 +81,22 @@ class Run:
 
     @functools.cached_property
     def table(self) -> Table:
-        """The columns of energy.csv as arrays, and their units; it needs NumPy only."""
-        table = read_table(self.folder / "energy.csv")
+        """The columns of energy.csv as arrays, and their units; it needs NumPy only.
+
+        Where energy.csv is missing, those of energy.h5, by h5py, with the same values.
+        """
+        path = self.folder / "energy.csv"
+        if not path.exists() and (self.folder / "energy.h5").exists():
+            path = self.folder / "energy.h5"
+        table = read_table(path) if path.suffix == ".csv" else read_hdf5(path)
         if "time" not in table or "energy" not in table:
             raise NotARun(
-                f"The file '{self.folder / 'energy.csv'}' is no energy table: it has no "
-                "columns 'time' and 'energy'."
+                f"The file '{path}' is no energy table: it has no columns 'time' and 'energy'."
             )
         if len(table) == 0:
-            raise NotARun(f"The table '{self.folder / 'energy.csv'}' has no rows yet.")
+            raise NotARun(f"The table '{path}' has no rows yet.")
+        if not np.isfinite(table["time"]).all():
+            raise NotARun(f"The table '{path}' has times that are not finite.")
         return table
 
     @property
@@ -104,6 +118,23 @@ class Run:
         frame.attrs["units"] = dict(self.units)
         return frame
 
+    def to_xarray(self) -> xarray.Dataset:
+        """The energy table over the coordinate `time`; each variable has its `units`."""
+        try:
+            import xarray
+        except ImportError:
+            raise RicochetError(
+                "Run.to_xarray needs xarray: install the package python3-xarray, or xarray from "
+                "PyPI. Run.energy has the same columns as a DataFrame of pandas, Run.table as "
+                "arrays of NumPy."
+            ) from None
+        columns = {
+            name: ("time", values, {"units": self.units[name]})
+            for name, values in self.table.columns.items()
+        }
+        time = columns.pop("time")
+        return xarray.Dataset(columns, coords={"time": time}, attrs={"run": str(self.folder)})
+
     @property
     def contacts(self) -> list[str]:
         """The names of the contacts, from the columns `contact_force_NAME`."""
@@ -116,7 +147,12 @@ class Run:
         except NotARun:
             # A table alone has a summary too.
             turns = True
-        return measures.summarise(self.table, self.log, turns)
+        try:
+            return measures.summarise(self.table, self.log, turns)
+        except (ArithmeticError, LookupError, ValueError) as error:
+            raise NotARun(
+                f"The energy table in '{self.folder}' has no summary: {error}."
+            ) from None
 
     @functools.cached_property
     def result(self) -> dict[str, Any]:
@@ -127,7 +163,9 @@ class Run:
         """
         path = self.folder / "summary.json"
         try:
-            data = json.loads(path.read_text(encoding="utf-8"))
+            data = json.loads(
+                files.read_text(path), object_hook=lambda found: Named("member", found)
+            )
         except FileNotFoundError:
             raise NotARun(f"There is no '{path}': the run has not come to an end.") from None
         except (OSError, ValueError, RecursionError) as error:
@@ -145,29 +183,40 @@ class Run:
         Sections may nest: "Section/Section/Name".
         """
         try:
-            return prm.read(self.folder / "parameters.prm").values
+            return Named("parameter", prm.read(self.folder / "parameters.prm").values)
         except BadParameterFile as error:
             raise NotARun(f"The parameters of the run cannot be read: {error}") from None
 
     @functools.cached_property
     def program(self) -> str:
-        """The name of the program, from run.txt or else from the parameters."""
-        try:
-            text = (self.folder / "run.txt").read_text(encoding="utf-8")
-        except OSError:
-            text = ""
+        """The name of the program, from run.txt or else from the parameters.
+
+        Raises:
+            NotARun: there is none, or it is that of a path.
+        """
+        text = self._text("run.txt")
         match = re.search(r"^program = (.+)$", text, re.MULTILINE)
         name = match.group(1).strip() if match else self.parameters.get("Program", "")
         if not name:
             raise NotARun(f"Nothing in the folder '{self.folder}' says which program has run.")
+        # The folder may be a stranger's, and the name may be given to `ricochet.run`.
+        if not re.fullmatch(WORD, name):
+            raise NotARun(
+                f"The program of the run '{self.folder}' is called '{name[:60]}', and a program "
+                "has a word as its name."
+            )
         return name
 
     @functools.cached_property
     def log(self) -> str:
         """The text of log.txt; empty if there is none."""
+        return self._text("log.txt")
+
+    def _text(self, name: str) -> str:
+        """The text of a file; empty if it is not there or cannot be read."""
         try:
-            return (self.folder / "log.txt").read_text(encoding="utf-8", errors="replace")
-        except OSError:
+            return files.read_bytes(self.folder / name, None).decode("utf-8", errors="replace")
+        except (OSError, ValueError):
             return ""
 
     @property
@@ -184,29 +233,56 @@ class Run:
     @property
     def seconds_in_steps(self) -> float | None:
         """The time spent in the steps (s), without start and output, if log.txt has it."""
-        match = re.search(r"^\| steps +\| +\d+ \| +([0-9.e+-]+)s", self.log, re.MULTILINE)
+        number = r"\d+\.?\d*(?:e[+-]?\d+)?"
+        match = re.search(rf"^\| steps +\| +\d+ \| +({number})s", self.log, re.MULTILINE)
         return float(match.group(1)) if match else None
+
+    def contact(self, name: str) -> Contact:
+        """Gap and forces of a contact in each written step, point by point and node by node.
+
+            run.contact("floor")[-1].pressure
+            run.contact("floor").frame()
+
+        Raises:
+            NotARun: the run has written none (Output/Contact every).
+            NoSuchName: there is no such contact; the message has the nearest one.
+        """
+        return Contact(self.folder, name)
 
     # Fields -------------------------------------------------------------------
 
     @functools.cached_property
     def field_files(self) -> list[FieldFile]:
-        """The VTU files that solution.pvd lists, in their order."""
+        """The files of fields that solution.pvd or solution.xdmf lists, in their order.
+
+        Raises:
+            NotARun: there is no such list, it is damaged, or a file of it is not in the folder.
+        """
         path = self.folder / "solution.pvd"
+        if not path.exists() and path.with_suffix(".xdmf").exists():
+            path = path.with_suffix(".xdmf")
         try:
-            entries = ElementTree.parse(path).findall(".//DataSet")
-            files = [(float(entry.attrib["timestep"]), entry.attrib["file"]) for entry in entries]
+            entries = xdmf.entries(path) if path.suffix == ".xdmf" else vtu.entries(path)
         except FileNotFoundError:
             raise NotARun(
                 f"There is no '{path}': the run has written no fields (Output/Fields every)."
             ) from None
-        except (OSError, ElementTree.ParseError, KeyError, ValueError) as error:
+        except KeyError as error:
+            raise NotARun(f"The list of fields '{path}' has an entry without {error}.") from None
+        except (OSError, ValueError) as error:
             raise NotARun(f"The list of fields '{path}' cannot be read: {error}.") from None
+        for time, name in entries:
+            inside = pathlib.PurePath(name)
+            if inside.is_absolute() or ".." in inside.parts or not math.isfinite(time):
+                raise NotARun(
+                    f"The list of fields '{path}' names '{name[:200]}' at the time {time}: files "
+                    "are in the folder of the run, and times are finite."
+                )
         result = []
         # The files of phases, which are in folders of their own, are counted in their order.
-        of_phases = len({pathlib.PurePath(name).parent for _, name in files}) > 1
-        for number, (time, name) in enumerate(files):
-            match = None if of_phases else re.search(r"(\d+)\.vtu$", name)
+        of_phases = len({pathlib.PurePath(name).parent for _, name in entries}) > 1
+        for number, (time, name) in enumerate(entries):
+            match = None if of_phases else re.search(r"(\d{1,18})\.(?:vtu|h5)$", name)
             step = int(match.group(1)) if match else number
             result.append(FieldFile(step, time, self.folder / name))
         if not result:
@@ -253,7 +329,7 @@ class Run:
         Raises:
             NotARun: there are no fields of that step, or the file is damaged.
         """
-        return read_vtu(self.field_file(at).path)
+        return read_fields(self.field_file(at).path)
 
     def nodes(self, at: int | float = -1) -> Array:
         """Initial positions of the nodes, (n, 3), each once for each body that has it.
@@ -269,8 +345,8 @@ class Run:
         `contact_force` (N), `contact_pressure`, `von_mises`, ...
 
         Where cells have different values, as of stress, their mean. The sum of `contact_force`
-        over the nodes of a body is that of the columns `resultant_...` of its contacts. VTU files
-        have seven digits.
+        over the nodes of a body is that of the columns `resultant_...` of its contacts. Files of
+        fields have seven digits, those of `contact` all of them.
 
         Raises:
             NotARun: as fields().
@@ -283,33 +359,36 @@ class Run:
         return np.column_stack([np.bincount(number, column) / count for column in values.T])
 
 
-def read_vtu(path: str | os.PathLike[str]) -> Any:
-    """A VTU file as an unstructured grid of VTK.
+def read_fields(path: str | os.PathLike[str]) -> Any:
+    """A VTU file, or an HDF5 file of fields, as an unstructured grid of VTK.
 
     Raises:
         NotARun: the file is missing or damaged.
         RicochetError: VTK is missing.
     """
     path = pathlib.Path(path)
-    if not path.is_file():
-        raise NotARun(f"There is no file of fields '{path}'.")
     try:
-        from vtkmodules.vtkCommonCore import vtkObject
-        from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+        from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
     except ImportError:
         raise RicochetError("Fields need VTK: install the package python3-vtk9.") from None
-    problems: list[str] = []
-    reader = vtkXMLUnstructuredGridReader()
-    # VTK prints what is wrong and goes on; the parser is an object of its own.
-    reader.AddObserver("ErrorEvent", lambda *_: problems.append("VTK cannot read it"))
-    shown = vtkObject.GetGlobalWarningDisplay()
-    vtkObject.SetGlobalWarningDisplay(0)
     try:
-        reader.SetFileName(str(path))
-        reader.Update()
-    finally:
-        vtkObject.SetGlobalWarningDisplay(shown)
-    grid = reader.GetOutput()
-    if problems or grid.GetNumberOfPoints() == 0:
-        raise NotARun(f"The file of fields '{path}' is damaged or is no VTU file.")
+        found = xdmf.read(path) if path.suffix == ".h5" else vtu.read(path)
+    except FileNotFoundError:
+        raise NotARun(f"There is no file of fields '{path}'.") from None
+    except (OSError, ValueError) as error:
+        raise NotARun(f"The file of fields '{path}' is damaged: {error}.") from None
+    if not len(found.points) or not len(found.types):
+        raise NotARun(f"The file of fields '{path}' has no points or no cells.")
+    grid, points, cells = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
+    points.SetData(numpy_to_vtk(found.points, deep=True))
+    grid.SetPoints(points)
+    ends = np.concatenate([[0], found.ends])
+    cells.SetData(*(numpy_to_vtkIdTypeArray(a, deep=True) for a in (ends, found.corners)))
+    grid.SetCells(numpy_to_vtk(found.types.astype(np.uint8), deep=True), cells)
+    for name, values in found.fields.items():
+        column = numpy_to_vtk(values, deep=True)
+        column.SetName(name)
+        grid.GetPointData().AddArray(column)
     return grid

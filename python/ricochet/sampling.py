@@ -1,23 +1,30 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Many runs of one case with parameters drawn at random: a table with a hash and the checks of each
-sample."""
+"""Many runs as one table: a row for each, and parameters drawn at random."""
 
 from __future__ import annotations
 
 import csv
-import hashlib
-import json
-import os
 import pathlib
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import prm
 from .errors import BadParameterFile, NotARun, Refused, RicochetError
-from .programs import Outcome, PathLike, Task, find_program_of_file, run_tasks
-from .results import Run
+from .programs import (
+    Outcome,
+    PathLike,
+    Task,
+    checksum_of_build,
+    checksum_of_file,
+    checksum_of_inputs,
+    find_program_of_file,
+    run_missing,
+)
+
+if TYPE_CHECKING:
+    import pandas
 
 Range = tuple[float, float] | list[Any]
 
@@ -47,30 +54,47 @@ def samples(ranges: Mapping[str, Range], n: int, seed: int) -> list[dict[str, An
     return [{name: column[k] for name, column in columns.items()} for k in range(n)]
 
 
-def _hash(contents: bytes, settings: Mapping[str, Any]) -> str:
-    text = json.dumps({name: prm.to_text(value) for name, value in sorted(settings.items())})
-    return hashlib.sha256(contents + b"\0" + text.encode()).hexdigest()[:16]
+def row(overrides: Mapping[str, Any], outcome: Outcome) -> dict[str, Any]:
+    """One row for one run: its overrides, `state` (complete, open, refused or failed), and of one
+    that was not computed the `reason`, of others their checks, losses and contacts.
+
+    Raises:
+        NotARun: the run has no summary, or one without these numbers.
+    """
+    if outcome.run is None:
+        state = "refused" if isinstance(outcome.error, Refused) else "failed"
+        reason = outcome.error.sentence if outcome.error else ""
+        return {**overrides, "state": state, "reason": reason}
+    found: dict[str, Any] = {**overrides, "state": "open" if outcome.run.is_open else "complete"}
+    result = outcome.run.result
+    try:
+        found["commit"] = result.get("commit")
+        found["balance_closes"] = result["checks"]["balance"]["closes"]
+        # Absent where nothing is promised.
+        found["promise_kept"] = result["checks"]["total_energy"].get("kept")
+        for part, value in result["energy"]["lost"].items():
+            found[f"lost_to_{part}"] = value
+        for contact, one in result["contacts"].items():
+            for quantity in ("largest_force", "deepest_penetration"):
+                found[f"{quantity}_{contact}"] = one[quantity]["value"]
+            found[f"time_in_touch_{contact}"] = one["time_in_touch"]
+            for direction, value in one.get("impulse", {}).items():
+                if direction != "unit":
+                    found[f"impulse_{direction}_{contact}"] = value
+    except (AttributeError, LookupError, TypeError) as error:
+        raise NotARun(f"The summary in '{outcome.run.folder}' is damaged: {error}") from None
+    return found
 
 
-def _row(name: str, settings: Mapping[str, Any], state: str, run: Run | None) -> dict[str, Any]:
-    row: dict[str, Any] = {"hash": name, **settings, "state": state}
-    if run is None:
-        return row
-    result = run.result
-    row["commit"] = result.get("commit")
-    row["balance_closes"] = result["checks"]["balance"]["closes"]
-    # Absent where nothing is promised.
-    row["promise_kept"] = result["checks"]["total_energy"].get("kept")
-    for part, value in result["energy"]["lost"].items():
-        row[f"lost_to_{part}"] = value
-    for contact, found in result["contacts"].items():
-        for quantity in ("largest_force", "deepest_penetration"):
-            row[f"{quantity}_{contact}"] = found[quantity]["value"]
-        row[f"time_in_touch_{contact}"] = found["time_in_touch"]
-        for direction, value in found.get("impulse", {}).items():
-            if direction != "unit":
-                row[f"impulse_{direction}_{contact}"] = value
-    return row
+def frame(outcomes: Sequence[Outcome]) -> pandas.DataFrame | list[dict[str, Any]]:
+    """One row for each outcome, see `row`: a pandas.DataFrame, or without pandas a list of
+    dictionaries."""
+    rows = [row(outcome.overrides, outcome) for outcome in outcomes]
+    try:
+        import pandas
+    except ImportError:
+        return rows
+    return pandas.DataFrame(rows)
 
 
 def dataset(
@@ -89,12 +113,10 @@ def dataset(
                                              "Body ball/Young modulus": (1e5, 1e7)}, n=200, seed=1)
         pandas.DataFrame(rows)
 
-    A row has the hash of file and parameters, the parameters, `state` (complete, open, refused or
-    failed), whether the balance closes and the promise is kept, what was lost to what, and the
-    largest force, penetration, time and impulse of each contact; a sample that was not computed has
-    the first three. The rows are in FOLDER/dataset.csv, too, and the run of each sample in
-    FOLDER/HASH. What is there already is not computed again, so that a dataset that was stopped
-    goes on, and one with a larger `n` of another seed is added to it.
+    A row has the hash of program, file and parameters, and what `row` has. The rows are in
+    FOLDER/dataset.csv, too, and the run of each sample in FOLDER/HASH. What is complete there is
+    not computed again unless the program was built anew, so that a dataset that was stopped goes
+    on, and one with a larger `n` of another seed is added to it.
 
     Args:
         case: a parameter file that names its program.
@@ -110,36 +132,30 @@ def dataset(
     if "Program" not in text.values:
         raise BadParameterFile(f"The parameter file '{path}' does not name its program.")
     program = find_program_of_file(text.values["Program"], programs)
-    contents = b"\0".join(pathlib.Path(file).read_bytes() for file in text.files)
     folder = pathlib.Path(output) if output else pathlib.Path("output") / "dataset" / path.stem
     all_settings = samples(ranges, n, seed)
-    names = [_hash(contents, settings) for settings in all_settings]
-
-    def known(name: str) -> Run | None:
-        try:
-            run = Run(folder / name)
-            return run if run.result["run"]["state"] == "complete" else None
-        except NotARun:
-            return None
-
-    runs = {name: known(name) for name in names}
-    missing = {
-        name: Task(name, program, path, {"Output/Log every": 0, **settings}, folder / name)
-        for name, settings in zip(names, all_settings)
-        if runs[name] is None
-    }
-    outcomes = dict(
-        zip(missing, run_tasks(list(missing.values()), jobs or os.cpu_count(), progress))
+    build, contents = checksum_of_build(program), checksum_of_file(path)
+    inputs = [checksum_of_inputs(program, contents, settings) for settings in all_settings]
+    names = [checksum[:16] for checksum in inputs]
+    outcomes = run_missing(
+        [
+            Task(
+                name,
+                program,
+                path,
+                {"Output/Log every": 0, **settings},
+                folder / name,
+                inputs=build + checksum,
+            )
+            for name, settings, checksum in zip(names, all_settings, inputs)
+        ],
+        jobs,
+        progress,
     )
-    rows = []
-    for name, settings in zip(names, all_settings):
-        outcome = outcomes.get(name)
-        run = outcome.run if outcome else runs[name]
-        if run is not None:
-            state = "open" if run.is_open else "complete"
-        else:
-            state = "refused" if outcome and isinstance(outcome.error, Refused) else "failed"
-        rows.append(_row(name, settings, state, run))
+    rows = [
+        {"hash": name, **row(settings, outcome)}
+        for name, settings, outcome in zip(names, all_settings, outcomes)
+    ]
     folder.mkdir(parents=True, exist_ok=True)
     _write(rows, folder / "dataset.csv")
     return rows

@@ -8,9 +8,9 @@ import pathlib
 import re
 from dataclasses import dataclass
 
-from . import fields
+from . import curves, fields, files
 from .errors import NotARun
-from .results import read_vtu
+from .results import read_fields
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -65,8 +65,8 @@ def _names(folder: pathlib.Path) -> dict[int, str]:
     names: dict[int, str] = {}
     body = ""
     try:
-        lines = (folder / "setup.txt").read_text(encoding="utf-8").splitlines()
-    except OSError:
+        lines = files.read_text(folder / "setup.txt").splitlines()
+    except (OSError, ValueError):
         return names
     for line in lines:
         if match := re.match(r"Body (.*?): \d+ cells", line):
@@ -82,20 +82,35 @@ def read(folder: pathlib.Path) -> _Setup:
     Raises: NotARun: it is not written by the program.
     """
     try:
-        sections = _sections((folder / "setup.vtk").read_text(encoding="utf-8"))
+        sections = _sections(files.read_text(folder / "setup.vtk", None))
         points = np.array(sections["POINTS"], dtype=float).reshape(-1, 3)
         types = list(map(int, sections["CELL_TYPES"]))
         numbers = list(map(int, sections["MaterialID"]))
         entries = list(map(int, sections["CELLS"]))
-    except (OSError, KeyError, ValueError) as error:
+        if not np.isfinite(points).all() or not len(points):
+            raise ValueError("points have to be finite numbers")
+        return _setup(folder, points, list(zip(types, numbers)), entries)
+    except (OSError, LookupError, ValueError) as error:
         raise NotARun(f"'{folder / 'setup.vtk'}' cannot be read as a set-up: {error}.") from None
+
+
+def _setup(
+    folder: pathlib.Path,
+    points: NDArray[np.float64],
+    kinds: list[tuple[int, int]],
+    entries: list[int],
+) -> _Setup:
+    """Cells and faces, from their types with the numbers of their parts, and their corners."""
+    types = [kind for kind, _ in kinds]
     dim = 3 if TETRAHEDRON in types or HEXAHEDRON in types else 2
     bodies = (TETRAHEDRON, HEXAHEDRON) if dim == 3 else (TRIANGLE, QUADRILATERAL)
     cells, faces, place = [], [], 0
-    for kind, number in zip(types, numbers):
+    for kind, number in kinds:
         count = entries[place]
         corners = entries[place + 1 : place + 1 + count]
         place += 1 + count
+        if not corners or not 0 <= min(corners) <= max(corners) < len(points):
+            raise ValueError("a cell has a corner that does not exist")
         if kind in bodies:
             cells.append((corners, number))
         elif 0 <= number < 1 << 24:
@@ -107,7 +122,7 @@ def _obstacles(folder: pathlib.Path) -> list[NDArray[np.float64]]:
     path = folder / "setup_obstacles.vtu"
     if not path.exists():
         return []
-    grid = read_vtu(path)
+    grid = read_fields(path)
     if not grid.GetNumberOfCells():
         return []
     places = fields.array_of_points(grid)
@@ -132,7 +147,7 @@ def draw(folder: pathlib.Path) -> Figure:
         _draw_space(panel, setup, colours)
     handles = [Line2D([], [], color=OBSTACLE, linewidth=2, label="obstacles")]
     handles = (handles if setup.obstacles else []) + [
-        Line2D([], [], color=colours[k], linewidth=4, label=setup.names.get(k, f"number {k}"))
+        Line2D([], [], color=colours[k], linewidth=4, label=curves.plain(setup.names.get(k, f"number {k}")))
         for k in known
     ]
     panel.legend(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables of the programs: CSV files whose header is `name [unit],name [unit],...`."""
+"""Tables of the programs: CSV files whose header is `name [unit],name [unit],...`, and HDF5."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from . import files, hdf5
 from .errors import NotARun
+from .names import Named, no_such
 
 Array = NDArray[np.float64]
-
 
 @dataclass(frozen=True)
 class Table:
@@ -25,7 +26,13 @@ class Table:
     units: dict[str, str]
 
     def __getitem__(self, name: str) -> Array:
-        """A column. A value that does not exist, an empty cell, is not a number."""
+        """A column. A value that does not exist, an empty cell, is not a number.
+
+        Raises:
+            NoSuchName: there is no such column; the message has the nearest one.
+        """
+        if name not in self.columns:
+            raise no_such("column", name, self.columns)
         return self.columns[name]
 
     def __contains__(self, name: str) -> bool:
@@ -46,17 +53,18 @@ def read_table(path: str | os.PathLike[str]) -> Table:
     """
     path = pathlib.Path(path)
     try:
-        text = path.read_text(encoding="utf-8")
+        text = files.read_text(path, largest=None)
+        # Text after the last end of a line is not complete, nor is an empty line a row.
+        lines = [line for line in text.split("\n")[:-1] if line.strip()]
+        header = next(csv.reader(lines[:1]), None)
     except FileNotFoundError:
         raise NotARun(f"There is no table '{path}'.") from None
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, ValueError, csv.Error) as error:
         raise NotARun(f"The table '{path}' cannot be read: {error}.") from None
-    # Text after the last end of a line is not complete, nor is an empty line a row.
-    lines = [line for line in text.split("\n")[:-1] if line.strip()]
-    if not lines:
+    if header is None:
         raise NotARun(f"The table '{path}' is empty.")
     names, units = [], {}
-    for cell in next(csv.reader(lines[:1])):
+    for cell in header:
         match = re.fullmatch(r"(.*?)(?: \[([^\]]*)\])?", cell.strip())
         assert match is not None  # it matches any text
         names.append(match.group(1))
@@ -76,4 +84,21 @@ def read_table(path: str | os.PathLike[str]) -> Table:
             raise NotARun(
                 f"The table '{path}' has something that is not a number in row {number + 1}."
             ) from None
-    return Table(dict(zip(names, values.T)), units)
+    return Table(dict(zip(names, values.T)), Named("column", units))
+
+
+def read_hdf5(path: str | os.PathLike[str]) -> Table:
+    """Read a table of HDF5: one data set of numbers for each column, its unit an attribute.
+
+    Columns are in the order of the alphabet, as the file has them.
+
+    Raises:
+        NotARun: the file is missing, damaged, or no such table.
+        RicochetError: h5py is missing.
+    """
+    path = pathlib.Path(path)
+    found = hdf5.read([path])[0]
+    lengths = {array.shape for array in found.arrays.values()}
+    if len(lengths) != 1 or len(lengths.pop()) != 1 or not all(found.units.values()):
+        raise NotARun(f"The file '{path}' is no energy table of HDF5.")
+    return Table(found.arrays, Named("column", found.units))

@@ -111,7 +111,7 @@ struct BarByHand
   // ## Contact
   //
   // A treatment adds its force to the residual and the derivative of that to the tangent, and
-  // notes force, pressure and potential for the ledger.
+  // notes force, pressure and potential for the energy table.
   double pressure = 0., potential = 0.; // Pa, J
   bool   active = false;
 

@@ -111,7 +111,7 @@
 // The mass matrix of finite elements, $\int \rho N_i N_j$ ("consistent"), gives
 // the end node a mass, which an obstacle has to stop at once. With
 // `Time/Mass = redistributed` the node has none: the mass goes to the others,
-// so that total mass, centre and moment of inertia stay what they are (C 2.4).
+// so that total mass, centre and moment of inertia are unchanged (C 2.4).
 // A node without mass is in equilibrium at any time, and nothing in it can
 // oscillate.
 //
@@ -155,8 +155,8 @@
 //
 // Other schemes: HHT takes part of the forces at the old instead of the new end
 // of the step (by a weight $\alpha$); TR-BDF2 makes a trapezoidal step over the
-// first 59 % and a backward one over the rest. Both damp what vibrates faster
-// than the step resolves, and so the energy falls in nearly every step, not only
+// first 59 % and a backward one over the rest. Both damp vibrations that are
+// faster than the step resolves, and so the energy falls in nearly every step, not only
 // where contact changes. What they take is the energy of these vibrations:
 // Crank-Nicolson keeps it, but in the wrong place. At $t = 12$, where the exact
 // bar is at rest, it has 0.012 J of kinetic energy, TR-BDF2 0.0001 J; so the bar

@@ -36,7 +36,7 @@
 // As between disks: for all $v$
 //
 // $$ \int \rho\, \ddot u \cdot v \, dx + \int \Pi : \nabla v \, dx
-//    - \sum_j w_j \big( p_j\, \delta g_j(v) + t_{1,j}\, \delta s_{1,j}(v)
+//    \\ - \sum_j w_j \big( p_j\, \delta g_j(v) + t_{1,j}\, \delta s_{1,j}(v)
 //    + t_{2,j}\, \delta s_{2,j}(v) \big) = 0 . $$
 //
 // ## The scheme
@@ -55,8 +55,8 @@
 //
 // $$ D_V = \nabla V_m + \tfrac14 \det(\Delta w) \,
 //    \frac{\sum \Delta q_{ij} \nabla q_{ij} + v \nabla V_m / \ell^2}
-//         {\sum (\Delta q_{ij})^2 + v^2 / \ell^2} , \qquad
-//    v = \nabla V_m \cdot \Delta x, \quad
+//         {\sum (\Delta q_{ij})^2 + v^2 / \ell^2} ,
+//    \\ v = \nabla V_m \cdot \Delta x, \quad
 //    \ell^2 = \tfrac12 \big( \sqrt{B_0} + \sqrt{B_1} \big) . $$
 //
 // The rules for products, quotients and roots give $D$, and likewise $T_1$ and

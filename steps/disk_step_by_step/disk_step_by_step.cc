@@ -109,7 +109,7 @@ struct DiskStepByStep
         solves);
     add("Output/Log every",
         log_every,
-        "Print a line every so many steps; 0 for never.",
+        "Number of steps between lines of the log; 0 for none.",
         lines);
   }
 

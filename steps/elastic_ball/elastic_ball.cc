@@ -59,8 +59,8 @@
 // The midpoint scheme (A (3.2), (3.9); `lib/time_integration/midpoint.cc`) goes
 // from $(U_0, V_0)$ to $(U_1, V_1)$ by
 //
-// $$ \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2}, \qquad
-//    M \frac{V_1 - V_0}{\Delta t} + K \frac{U_0 + U_1}{2}
+// $$ \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2},
+//    \\ M \frac{V_1 - V_0}{\Delta t} + K \frac{U_0 + U_1}{2}
 //    - \sum_j w_j\, p_j N_j = 0 . $$
 //
 // The sum goes over the nodes $j$ of the circle: $p_j$ is the pressure of the
@@ -111,7 +111,7 @@
 //               residual 2/dt^2 M (U - U_0 - dt V_0) + K (U_0 + U)/2 - contact
 //               solve with its derivative; until the residual is round-off
 //     then:     V_1 = 2 (U_1 - U_0)/dt - V_0
-//     ledger:   E_1 - E_0 + work against contact = 0 ?
+//     balance:  E_1 - E_0 + work against contact = 0 ?
 //
 // This is Midpoint::step, SemiDiscreteSystem::solve_stage and
 // `lib/solvers/newton.cc`. The matrix of the ball is the same in all steps and
@@ -181,7 +181,7 @@ private:
 
 // ## Data
 //
-// The defaults of the benchmark; a parameter file says what differs. Contact
+// The defaults of the benchmark; a parameter file has the changes. Contact
 // parameters that have the unit of a modulus are measured by the ball's.
 ElasticBall::ElasticBall()
 {

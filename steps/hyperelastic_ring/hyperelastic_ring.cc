@@ -266,7 +266,7 @@ HyperelasticRing::make_grid(Triangulation<2> &triangulation) const
 //
 // The rest is the same for every thrown body, see
 // `lib/problems/thrown_body.cc`. Without friction the momentum along the
-// foundation stays what it is; off contact so does the angular momentum,
+// foundation is constant; off contact so is the angular momentum,
 // although the ring turns and vibrates: $F_m S$ has a symmetric $S$ and does
 // not turn the ring as a whole.
 //

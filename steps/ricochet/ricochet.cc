@@ -25,7 +25,7 @@
 //
 // There are as many bodies, obstacles, contacts, conditions at boundaries and
 // probes as sections `Body NAME`, `Obstacle NAME`, `Contact NAME`,
-// `Condition NAME` and `Probe NAME`. Sections `Phase NAME` have what differs in
+// `Condition NAME` and `Probe NAME`. Sections `Phase NAME` have the changes for
 // a part of the run, which goes on from where the one before it has ended: so
 // something is pressed, settles, is released and hits.
 //
@@ -72,7 +72,7 @@
 //
 // where each $D_j$ is a row whose product with the displacement of the step is
 // the change of the gap, and the forces $R$ are the reactions of prescribed
-// displacements. So the ledger closes with any combination:
+// displacements. So the energy balance closes with any combination:
 //
 //     change of energy = work of loads and prescribed displacements
 //                        - what contacts, friction and viscosity take

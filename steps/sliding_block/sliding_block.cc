@@ -56,7 +56,7 @@
 // with any $r > 0$. The work of friction over the step is
 // $-t\, \Delta s \ge 0$: it is zero in nodes that stick and $\mu p |\Delta s|$
 // in those that slip. Multiplied by $U_1 - U_0$ the equation is the row of the
-// ledger,
+// energy table,
 //
 //     E_1 - E_0 = work of gravity - friction - viscosity
 //

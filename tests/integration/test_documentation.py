@@ -10,11 +10,13 @@ sys.path.insert(0, str(ROOT / "doc"))
 
 import check_links  # noqa: E402
 import check_spelling  # noqa: E402
+import check_width  # noqa: E402
 from generate import (
     examples,
     figures,
     methods,
     parameters,
+    references,
     results,
     site,
     steps,
@@ -241,14 +243,17 @@ class Parameters(unittest.TestCase):
         self.assertIn("penalty", of_bar["Contact/Treatment"].allowed)
         for name, words in (
             ("Output/Checkpoint every", "a whole number, at least 0"),
-            ("Time/HHT alpha", "a number from -0.333333 to 0.333333"),
+            ("Time/HHT alpha", "a number from −1/3 to 1/3"),
+            ("Newton/Tolerance", "a number from 10⁻¹⁵ to 10⁻⁶"),
+            ("Output/Fields at", "numbers, separated by commas"),
+            ("Output/Folder", "a folder"),
             ("Output/Timing", "true or false"),
         ):
             self.assertEqual(of_bar[name].allowed, words)
         self.assertTrue(of_bar["Time/Mass"].allowed.startswith("one of: consistent, "))
         of_sphere = {each.name: each for each in parameters.declared(programs / "sphere")}
         self.assertEqual(
-            of_sphere["Start/Initial velocity"].allowed, "3 values, each a number"
+            of_sphere["Start/Initial velocity"].allowed, "3 numbers, separated by commas"
         )
         # Parameters of ricochet in both dimensions.
         of_scenes = {each.name: each for each in parameters.declared(programs / "ricochet")}
@@ -313,6 +318,38 @@ class Methods(unittest.TestCase):
                     self.assertTrue((ROOT / file).is_file(), file)
 
 
+class Literature(unittest.TestCase):
+    def test_entries_are_complete_and_cited(self):
+        entries = references.entries()
+        bib = (ROOT / "doc/references.bib").read_text()
+        self.assertEqual(len(entries), bib.count("\n@"), "an entry is not as the others")
+        for key, pages in references.citing_pages().items():
+            with self.subTest(key):
+                self.assertIn(key, entries, pages)
+                self.assertTrue(pages, "no page cites it")
+                self.assertIn(entries[key]["keywords"], references.GROUPS)
+                if entries[key].authors and entries[key]["journal"] and not entries[key]["url"]:
+                    for name in ("year", "volume", "pages"):
+                        self.assertTrue(entries[key][name], name)
+
+    def test_citations_have_the_labels_of_their_entries(self):
+        for path in (ROOT / "doc").rglob("*.md"):
+            for label, key in references.cited(path.read_text()):
+                with self.subTest(page=path.name, key=key):
+                    self.assertEqual(label, references.entries()[key].label)
+
+    def test_page_of_the_literature_is_of_its_file(self):
+        self.assertEqual(references.PAGE.read_text(), references.page(),
+                         "run python3 -m generate.references in doc/")
+
+    def test_a_page_gets_its_list(self):
+        page = references.with_references("See [Yeoh 1993](../literature.md#yeoh1993).", "methods/x")
+        self.assertIn('href="../literature.html#yeoh1993">Yeoh 1993</a>', page)
+        self.assertIn('<a href="https://doi.org/10.5254/1.3538343">', page)
+        self.assertEqual(page.count("<li>"), 1)
+        self.assertEqual(references.with_references("Nothing.", "x"), "Nothing.")
+
+
 class Results(ProgramTest):
     def test_columns_and_fields(self):
         """Columns and fields of the programs are documented, and documented ones are written."""
@@ -373,6 +410,16 @@ class Checkers(ProgramTest):
         count, broken = check_links.broken_links(self.folder)
         self.assertEqual(count, 3)
         self.assertEqual(len(broken), 2, broken)
+
+    @unittest.skipUnless(check_width.BROWSER, "there is no browser (Debian's chromium)")
+    def test_wide_formulas_are_found(self):
+        box = '<div class="math" style="width: {}px; overflow-x: auto"><p style="width: 300px">x'
+        for name, width in (("fits", 320), ("scrolls", 200), ("wide", 500)):
+            (self.folder / f"{name}.html").write_text(
+                "<!DOCTYPE html><body style='margin: 0'>" + box.format(width))
+        pages = check_width.pages_with_formulas(self.folder)
+        self.assertEqual([(page, excess) for page, excess, _ in sorted(
+            check_width.too_wide(self.folder, pages, 400))], [("scrolls.html", 100), ("wide.html", 100)])
 
     @unittest.skipUnless(shutil.which("aspell"), "aspell is not installed")
     def test_misspelt_words_are_found(self):

@@ -2,6 +2,7 @@
 """The quickest examples show the numbers that their files promise; the others
 name parameters that exist."""
 
+import csv
 import pathlib
 import sys
 import unittest
@@ -32,14 +33,30 @@ class Examples(ProgramTest):
                 with self.subTest(f"{name}: {number.what}"):
                     self.assertTrue(check.is_good(number), msg=str(number))
 
-    def test_static_cases_of_other_codes(self):
-        """Numbers of smith, 4C and asimov-contact, of Hertz, Lame and Heyman, and by hand."""
+    def test_cases_of_other_codes(self):
+        """Numbers of smith, 4C, Code_Aster, Ansys and MOOSE, of Hertz, Lame and Heyman, and by
+        hand."""
         if is_debug_build():
             self.skipTest("the release build runs them")
         for name in verification.QUICK:
             for number in verification.compute(name, common.arguments.programs, self.folder):
                 with self.subTest(f"{name}: {number.what}"):
                     self.assertTrue(verification.is_good(number), msg=str(number))
+
+    def test_list_of_cases(self):
+        """The list for programs has the cases, and the numbers of the page."""
+        with open(verification.LIST, encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(dict.fromkeys(row["case"] for row in rows)),
+                         list(verification.CASES))
+        page = verification.PAGE.read_text(encoding="utf-8")
+        for row in rows:
+            numbers = [float(row[name]) if row[name] else None
+                       for name in ("must be", "bound", "is", "theirs")]
+            number = verification.Number(row["quantity"], *numbers)
+            with self.subTest(f"{row['case']}: {number.what}"):
+                self.assertTrue(verification.is_good(number))
+                self.assertIn(f"| {row['title']} | {number.what} | {number.expected:.7g} |", page)
 
     def test_a_wrong_number_is_found(self):
         self.assertFalse(verification.is_good(verification.Number("a", 1., .01, 1.02)))
@@ -53,10 +70,10 @@ class Examples(ProgramTest):
     def test_all_files_are_valid(self):
         files = sorted((ROOT / "examples").glob("*.prm"))
         self.assertEqual([path.stem for path in files], sorted(check.EXAMPLES))
-        static = sorted((ROOT / "examples" / "verification").glob("*.prm"))
-        self.assertEqual([path.stem for path in static],
+        cases = sorted((ROOT / "examples" / "verification").glob("*.prm"))
+        self.assertEqual([path.stem for path in cases],
                          sorted(set(verification.CASES) - set(verification.VARIANTS)))
-        for path in files + static:
+        for path in files + cases:
             with self.subTest(path.stem):
                 code, _, error = self.attempt("ricochet", options=["--validate"],
                                               prm=path)

@@ -152,6 +152,100 @@ class MachineInterface(ProgramTest):
         self.assertEqual(answer["key"], "Time/Schem")
         self.assertEqual(answer["line"], SCENE.count("\n") + 3)
 
+    def test_list_and_sections(self):
+        """The list has each parameter once; a section is a part of all parameters."""
+        code, text, _ = self.attempt("ricochet", options=["--list"])
+        names = [line.split(" = ")[0] for line in text.splitlines()]
+        _, whole, _ = self.attempt("ricochet", options=["--print-parameters"])
+        self.assertEqual(code, 0)
+        self.assertEqual(len(names), len(set(names)))
+        self.assertEqual(len(names), len(re.findall(r"^ *set ", whole, re.MULTILINE)))
+        self.assertRegex(text, r"(?m)^Time/Scheme = midpoint +\(Any one of .*BDF2")
+        code, part, _ = self.attempt("ricochet", options=["--print-parameters", "Contact"])
+        self.assertEqual(code, 0)
+        block = part[:part.index("# What is allowed:")].strip()
+        self.assertTrue(block.startswith("subsection Contact NAME\n"))
+        self.assertTrue(block.endswith("\nend"))
+        self.assertIn(block, whole)
+        self.assertEqual(part.count("subsection"), 1)
+        for line in part[part.index("# What is allowed:"):].splitlines()[1:]:
+            self.assertTrue(line.startswith("#   Contact NAME/"))
+        # A parameter file is no section.
+        file = self.folder / "scene.prm"
+        file.write_text(SCENE)
+        _, of_scene, _ = self.attempt("ricochet", options=["--print-parameters", str(file)])
+        self.assertIn("subsection Body ball", of_scene)
+        answer = self.refusal(options=["--print-parameters", "Contct"], code=1)
+        self.assertIn("neither a file nor a section", answer["sentence"])
+        code, _, err = self.attempt("bar_sd", options=["--print-parameters", "Contct"])
+        self.assertEqual(code, 1)
+        self.assertIn("Is 'Contact' meant?", err)
+
+    def test_progress(self):
+        """A JSON object on each line and nothing else; its numbers are those of the table."""
+        file = self.folder / "scene.prm"
+        file.write_text(SCENE)
+        code, out, err = self.attempt("ricochet", prm=file, options=["--progress", "json"])
+        self.assertEqual((code, err), (0, ""))
+        events = [json.loads(line) for line in out.splitlines()]
+        self.assertEqual([event["event"] for event in events], ["begin", "step", "step", "end"])
+        ledger = Ledger(self.folder / "run")
+        for k, event in enumerate(events[1:3], 1):
+            self.assertEqual((event["step"], event["of"]), (k, 2))
+            for name in ("time", "energy", "newton_iterations", "balance_residual"):
+                self.assertAlmostEqual(event[name], ledger[name][k], 12)
+            self.assertEqual(event["contact_force"], ledger["contact_force_floor"][k])
+        self.assertEqual(events[-1]["folder"], str(self.folder / "run"))
+        code, _, err = self.attempt("bar_sd", options=["--progress", "xml"])
+        self.assertEqual(code, 1)
+        self.assertIn("takes json, not 'xml'", err)
+
+    def test_help_manual_and_completion(self):
+        """All of them have the same options; bash completes names after --set, with blanks."""
+        texts = {}
+        for option in ("--help", "--manual"):
+            code, texts[option], err = self.attempt("ricochet", options=[option])
+            self.assertEqual((code, err), (0, ""))
+        options = re.findall(r"(?m)^  (--[a-z-]+)", texts["--help"])
+        self.assertIn("--certify", options)
+        for option in options:
+            self.assertIn(f".B {option}".replace("-", "\\-"), texts["--manual"])
+        for heading in ("EXAMPLES", "ENVIRONMENT", "EXIT STATUS"):
+            self.assertIn(f".SH {heading}", texts["--manual"])
+        for code in (0, 1, 2, 3, 4, 130):
+            self.assertRegex(texts["--help"], rf"(?m)^  {code}\b")
+        if shutil.which("man"):
+            page = self.folder / "ricochet.1"
+            page.write_text(texts["--manual"])
+            shown = subprocess.run(["man", "--warnings", "-l", str(page)], capture_output=True,
+                                   text=True, env={**os.environ, "MANPAGER": "cat"})
+            self.assertEqual((shown.returncode, shown.stderr), (0, ""))
+        _, script, _ = self.attempt("bar_sd", options=["--completion", "bash"])
+        (self.folder / "bash").write_text(script)
+
+        def complete(*words):
+            quoted = " ".join(f"'{word}'" for word in words)
+            done = subprocess.run(
+                ["bash", "-c", f"source {self.folder}/bash; COMP_WORDS=({quoted}); "
+                 f"COMP_CWORD={len(words) - 1}; _ricochet_bar_sd; "
+                 'printf "%s\\n" "${COMPREPLY[@]}"'],
+                capture_output=True, text=True, cwd=self.folder)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            return done.stdout.splitlines()
+
+        self.assertEqual(complete("bar_sd", "--prog"), ["--progress"])
+        self.assertEqual(complete("bar_sd", "--progress", ""), ["json"])
+        self.assertEqual(complete("bar_sd", "--set", "Time/Time"), ["Time/Time\\ step="])
+        self.assertEqual(complete("bar_sd", "--set", "Time/Time\\ s"), ["Time/Time\\ step="])
+        self.assertEqual(complete("bar_sd", "--set", '"Time/Time s'), ["Time/Time step="])
+        self.assertEqual(complete("bar_sd", "--print-parameters", "Lim"), ["Limits"])
+        _, script, _ = self.attempt("bar_sd", options=["--completion", "zsh"])
+        self.assertIn("'Time/Time step='", script)
+        if shutil.which("zsh"):
+            (self.folder / "zsh").write_text(script)
+            self.assertEqual(subprocess.run(["zsh", "-n", self.folder / "zsh"]).returncode, 0)
+        self.refusal(options=["--completion", "fish"])
+
     def test_script_of_the_documentation(self):
         """30 lines that need JSON alone: a misprint is corrected, two treatments are run."""
         code = re.search(r"```python\n(.*?)```", (ROOT / "doc/how_to/run.md").read_text(),

@@ -261,7 +261,7 @@ class Phases(ProgramTest):
                                           self.folder / opening, prm=SHRINK_FIT)
             self.assertEqual(code, 0 if begins else 1, msg=out + err)
             if not begins:
-                self.assertIn("Phase fit: The contact 'fit' begins here, and what touches in it overlaps",
+                self.assertIn("Phase fit: The contact 'fit' begins here, and its surfaces overlap",
                               " ".join(err.split()))
         # The same with an obstacle: a block that comes up through the floor.
         rise = """
@@ -296,7 +296,7 @@ class Phases(ProgramTest):
             return message
 
         text = scene_of_phases()
-        self.assertIn("is there already", refused(scene_of_phases((*PHASES, ("hit", HIT)))))
+        self.assertIn("exists already", refused(scene_of_phases((*PHASES, ("hit", HIT)))))
         self.assertIn("should be 'Phase NAME'", refused(SCENE + phase("a.b", PRESS)))
         self.assertIn("should be 'Phase NAME'", refused(SCENE + phase("", PRESS)))
         for name, value in (("Start", "From = x"), ("Output", "Folder = x")):

@@ -4,6 +4,8 @@
 import csv
 import math
 import re
+import types
+import unittest.mock
 import xml.etree.ElementTree as ElementTree
 
 from common import *
@@ -60,7 +62,7 @@ class PythonPackage(ProgramTest):
         return result.returncode, result.stdout, result.stderr
 
     def assert_picture(self, path, colours=20):
-        """A picture that is not blank: with so many colours at least."""
+        """A picture that is not blank: with a least number of colours."""
         from matplotlib import image
         pixels = (255 * image.imread(path)[:, :, :3]).round().astype(int)
         self.assertGreater(min(pixels.shape[:2]), 200)
@@ -172,7 +174,7 @@ class PythonPackage(ProgramTest):
         self.assertAlmostEqual(
             lowest, self.ball.table["smallest_gap_foundation"][20], places=5)
         # The foundation, as pictures show it: the plane y = 0 with its normal.
-        floor = ricochet.results.read_vtu(self.ball.field_file(20).obstacles)
+        floor = ricochet.results.read_fields(self.ball.field_file(20).obstacles)
         self.assertGreater(floor.GetNumberOfCells(), 0)
         self.assertLess(abs(fields.array_of_points(floor)[:, 1]).max(), 1e-6)
         self.assertTrue((fields.array(floor, "normal") == [0, 1, 0]).all())
@@ -181,7 +183,7 @@ class PythonPackage(ProgramTest):
         damaged = self.folder / "damaged.vtu"
         damaged.write_bytes(self.ball.field_file(20).path.read_bytes()[:2000])
         with self.assertRaisesRegex(ricochet.NotARun, "damaged"):
-            ricochet.results.read_vtu(damaged)
+            ricochet.results.read_fields(damaged)
 
     def test_curved_cells(self):
         """Small linear tetrahedra fill a quadratic one; numbers do not exceed those at nodes."""
@@ -298,6 +300,124 @@ class PythonPackage(ProgramTest):
         self.assertIn("cannot be combined", outcomes[1].error.sentence)
         self.assertTrue(all(o.wall_seconds > 0 for o in outcomes))
 
+    def test_sweep_that_goes_on(self):
+        """Runs are computed again where the file, what it names, an override, the program or the
+        run in the folder is another one; and one row for each run."""
+        case, program = self.folder / "case.prm", self.folder / "bar_sd"
+        case.write_text("include more.prm\nsubsection Output\nset Fields every = 0\nend\n")
+        more = self.folder / "more.prm"
+        more.write_text("subsection Time\nset Final time = 0.2\nend\n")
+        own = lambda rest="": program.write_text(
+            f'#!/bin/sh\n# {rest}\nexec {program_path("bar_sd")} "$@"\n') and program.chmod(0o755)
+        own()
+        folder = self.folder / "sweep"
+
+        def computed(treatments=("penalty", "Nitsche"), step=0.1):
+            names = []
+            found = ricochet.sweep(
+                program, case, {"Contact/Treatment": treatments}, folder,
+                common={"Time/Time step": step}, progress=lambda one, *_: names.append(
+                    one.overrides["Contact/Treatment"]))
+            return sorted(names), found
+
+        names, outcomes = computed()
+        self.assertEqual(names, ["Nitsche", "penalty"])
+        self.assertEqual([one.error for one in outcomes], [None, None])
+        names, again = computed()
+        self.assertEqual(names, [])
+        for one, other in zip(outcomes, again):
+            self.assertEqual((one.name, one.overrides, one.run.result, one.error),
+                             (other.name, other.overrides, other.run.result, None))
+            self.assertGreater(other.wall_seconds, 0)
+        self.assertEqual(computed(("penalty", "Signorini multipliers"))[0],
+                         ["Signorini multipliers"])
+        self.assertEqual(len(computed(step=0.05)[0]), 2)
+        more.write_text("subsection Time\nset Final time = 0.3\nend\n")
+        self.assertEqual(len(computed(step=0.05)[0]), 2)
+        own("built anew")
+        self.assertEqual(len(computed(step=0.05)[0]), 2)
+        self.assertEqual(computed(step=0.05)[0], [])
+        # Another run in the folder, and one that was not finished.
+        ricochet.run(program_path("bar_sd"), case, output=folder / "1", overwrite=True)
+        (folder / "2" / "summary.json").unlink()
+        names, outcomes = computed(("penalty", "Nitsche-hybrid", "Nitsche"), step=0.05)
+        self.assertEqual(names, ["Nitsche", "Nitsche-hybrid", "penalty"])
+
+        rows = [ricochet.sampling.row(one.overrides, one) for one in outcomes]
+        self.assertEqual([row["state"] for row in rows], ["complete", "refused", "complete"])
+        self.assertIn("cannot be combined", rows[1]["reason"])
+        self.assertEqual(rows[0]["Time/Time step"], 0.05)
+        self.assertEqual(rows[0]["lost_to_contact"],
+                         outcomes[0].run.result["energy"]["lost"]["contact"])
+        with unittest.mock.patch.dict(sys.modules, {"pandas": None}):
+            self.assertEqual(ricochet.frame(outcomes), rows)
+        try:
+            import pandas
+        except ImportError:
+            return
+        frame = ricochet.frame(outcomes)
+        self.assertEqual(list(frame["Contact/Treatment"]), ["penalty", "Nitsche-hybrid", "Nitsche"])
+        self.assertTrue(pandas.isna(frame["balance_closes"][1]))
+
+    def test_files_that_parameters_name(self):
+        """A mesh, a table or the state of another run that changes is other input."""
+        case, mesh = self.folder / "case.prm", self.folder / "a.msh"
+        case.write_text("subsection Mesh\nset File = a.msh\nend\n")
+        checksums = []
+        own = ricochet.programs.checksum_of_file, lambda file: ricochet.programs.checksum_of_inputs(
+            pathlib.Path("p"), "", {"Mesh/File": str(file)})
+
+        def add():
+            checksums.extend((own[0](case), own[1](mesh)))
+
+        for text in ("1", "2"):
+            mesh.write_text(text)
+            add()
+        mesh.unlink()
+        add()
+        mesh.mkdir()
+        (mesh / "checkpoint.bin").write_text("3")
+        add()
+        self.assertEqual(len(set(checksums)), 8)
+        # Values that are no names of files.
+        case.write_text(f"set X = {'x' * 5000}\nset Y =\nset Z = a\0b\n")
+        self.assertEqual(own[0](case), own[0](case))
+
+    def test_xarray(self):
+        """The table as a data set with units, by whatever `xarray` is installed."""
+        calls = []
+        stub = types.SimpleNamespace(Dataset=lambda *words, **named: calls.append((words, named)))
+        with unittest.mock.patch.dict(sys.modules, {"xarray": stub}):
+            self.ball.to_xarray()
+        ((columns,), named), = calls
+        self.assertEqual({"time", *columns}, set(self.ball.table.columns))
+        self.assertNotIn("time", columns)
+        for name, (dimension, values, attributes) in {**columns, **named["coords"]}.items():
+            self.assertEqual((dimension, attributes), ("time", {"units": self.ball.units[name]}))
+            self.assertIs(values, self.ball.table[name])
+        with unittest.mock.patch.dict(sys.modules, {"xarray": None}):
+            with self.assertRaisesRegex(ricochet.RicochetError, "install the package python3-xa"):
+                self.ball.to_xarray()
+
+    def test_names_that_do_not_exist(self):
+        """The nearest one is named; who expects a KeyError gets one."""
+        for action, nearest in (
+                (lambda: self.ball.table["enrgy"], "energy"),
+                (lambda: self.ball.units["Time"], "time"),
+                (lambda: self.ball.parameters["Time/Time stp"], "Time/Time step"),
+                (lambda: self.ball.result["contacts"]["floor"], "foundation"),
+                (lambda: self.ball.summary().contacts["fundation"], "foundation"),
+                (lambda: self.ball.summary().largest_force["foundatoin"], "foundation"),
+                (lambda: measures.duration(self.ball.table, "fundation"),
+                 "contact_force_foundation"),
+                (lambda: ricochet.fields.COLOURS["vonMises"], "von_mises")):
+            with self.assertRaisesRegex(ricochet.NoSuchName, f"Is '{nearest}' meant") as caught:
+                action()
+            self.assertIsInstance(caught.exception, KeyError)
+        with self.assertRaisesRegex(ricochet.RicochetError, "Is 'elastic_ball' meant"):
+            ricochet.run("elastic_bal", programs=program_path(""))
+        self.assertIsNone(self.ball.parameters.get("A/B"))
+
     def test_obstacle_that_moves(self):
         """A plate that is lifted and turned has the position of its motion."""
         try:
@@ -311,7 +431,7 @@ class PythonPackage(ProgramTest):
                                       "Time/Time step": 0.02, "Output/Fields every": 10,
                                       "Output/Log every": 0}, output=self.folder / "plate")
         for file in run.field_files:
-            grid = ricochet.results.read_vtu(file.obstacles)
+            grid = ricochet.results.read_fields(file.obstacles)
             self.assertGreater(grid.GetNumberOfCells(), 2)
             lift = 0.2 * (1 - math.cos(4 * file.time))
             angle = 0.2 * math.sin(3 * file.time)

@@ -547,7 +547,7 @@ end
                 ledger["push_on_left_acceleration_x"][1:]):
             self.assertAlmostEqual(change, 1e-8 * acceleration, delta=1e-9)
         self.assertEqual(ledger["contact_force_ends"][-1], 0.)
-        # With what is stored at the corners of their ends.
+        # With the energy stored at the corners of their ends.
         self.assertLess(largest([e - energy for e in ledger["modified_energy"]]),
                         1e-12 * energy)
         self.assertLess(largest([e - energy for e in ledger["energy"]]), .02 * energy)
@@ -733,7 +733,7 @@ class BadScenes(Refusal):
                 ("  set Shape       = rectangle\n", "",
                  "needs either a Body block/File or a Body block/Shape"),
                 ("Shape       = rectangle", "File = none.msh", "none.msh"),
-                ("Shape       = rectangle", "File = none.stl", "should end with .msh"),
+                ("Shape       = rectangle", "File = none.xyz", "should end with .msh"),
                 ("Shape       = rectangle", "Shape = generator\n"
                  "  set Generator = hyper_bowl", "cannot make 'hyper_bowl'"),
                 # deal.II would crash.
@@ -835,7 +835,7 @@ end
         """Each was misread silently, or never ended."""
         self.refused_at_once()
         self.refuse_scene("", "subsection Obstacle floor\n  set Shape = half space\nend\n",
-                          "'Obstacle floor' is there already, in ")
+                          "'Obstacle floor' exists already, in ")
         self.refuse_scene("", "set Time/Final time = 1\n",
                           "line 1: the name 'Time/Final time' has a '/'", "'subsection Time'")
         self.refuse_scene("", "subsection Time\n", "line 1: the subsection", "never closed")

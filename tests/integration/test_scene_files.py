@@ -5,6 +5,7 @@ moments and vertices, bodies of one mesh file, and when fields are written.
 Numbers are those of the same scene written out, or of statics by hand."""
 
 import math
+import re
 
 from common import *
 
@@ -365,7 +366,7 @@ end
 
     def test_interference(self):
         """A bore that is too narrow by 0.004, raised in a static phase, has Lame's pressure; in
-        motion it stays; the work of the fit is what is stored."""
+        motion it stays; the work of the fit is the stored energy."""
         text = HEAD.format(dimension=2) + """
 subsection Body tube
   set Shape         = ring
@@ -526,6 +527,75 @@ end
                                         prm=self.scene(FALLING))
             self.assertEqual(code, 1)
             self.assertIn(words, err)
+
+
+    def test_meshes_of_others(self):
+        """A universal file with its groups, by number and name; the body within the triangles of a file of
+        stereolithography; and what is refused with a command."""
+        def nodes(x, y, z):
+            return 1 + 4 * x + 2 * y + z
+
+        def around(x, height=None):
+            corners = [nodes(x + a, b, 0) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            return corners if height is None else corners + [each + 1 for each in corners]
+
+        elements = [(115, around(x, 1)) for x in (0, 1)] + [(94, around(x)) for x in (0, 1)]
+        groups = {"body": (1, 2), "lower left": (3,), "lower right": (4,)}
+        text = "    -1\n  2411\n"
+        for x in range(3):
+            for y, z in ((0, 0), (0, 1), (1, 0), (1, 1)):
+                text += f"{nodes(x, y, z):10d}         1         1        11\n"
+                text += "".join(f"{value:25.16E}" for value in (x, y, z)) + "\n"
+        text += "    -1\n    -1\n  2412\n"
+        for number, (kind, corners) in enumerate(elements, 1):
+            text += "".join(f"{k:10d}" for k in (number, kind, 1, 1, 7, len(corners))) + "\n"
+            text += "".join(f"{k:10d}" for k in corners) + "\n"
+        text += "    -1\n    -1\n  2467\n"
+        for number, (name, members) in enumerate(groups.items(), 1):
+            text += "".join(f"{k:10d}" for k in (number, *6 * [0], len(members))) + f"\n{name}\n"
+            text += "".join(f"{k:10d}" for m in members for k in (8, m, 0, 0)) + "\n"
+        scene = ("set Program = ricochet\nset Dimension = 3\nsubsection Body part\n  set File = {file}\n"
+                 "end\nsubsection Obstacle floor\n  set Shape = half space\nend\n"
+                 "subsection Contact floor\n  set Surface = part: {surface}\n  set Against = floor\nend\n")
+        (self.folder / "bar.unv").write_text(text + "    -1\n")
+        file = self.folder / "scene.prm"
+
+        def validate(name, surface):
+            file.write_text(scene.format(file=name, surface=surface))
+            return self.attempt("ricochet", prm=file, options=["--validate"])
+
+        code, out, err = validate("bar.unv", "lower left")
+        self.assertEqual((code, err), (0, ""))
+        self.assertIn("2 cells, 12 vertices, volume 2,", out)
+        self.assertIn("boundary 2 (lower left): area 1,", out)
+        self.assertIn("boundary 3 (lower right): area 1,", out)
+        self.assertIn("boundary 0: area 8,", out)
+        (self.folder / "twice.unv").write_text(text.replace(
+            "         8         4         0         0", "         8         3         0         0") +
+            "    -1\n")
+        code, out, err = validate("twice.unv", "1")
+        self.assertEqual(code, 1)
+        self.assertIn("element 3 is in two groups", err)
+        # A unit cube: two triangles on each of its faces.
+        corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+        with open(self.folder / "cube.stl", "w") as stl:
+            stl.write("solid cube\n")
+            for a, b, c, d in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2),
+                               (1, 3, 7, 5)):
+                for triangle in ((a, b, c), (a, c, d)):
+                    stl.write("facet normal 0 0 0\nouter loop\n" + "".join(
+                        "vertex {} {} {}\n".format(*corners[k]) for k in triangle) +
+                        "endloop\nendfacet\n")
+            stl.write("endsolid cube\n")
+        code, out, err = validate("cube.stl", "2")
+        self.assertEqual((code, err), (0, ""))
+        self.assertIn("volume 1, mass 1000 kg, middle (0.5, 0.5, 0.5)", out)
+        areas = [float(area) for area in re.findall(r"boundary \d+: area ([0-9.e-]+)", out)]
+        self.assertAlmostEqual(sum(areas), 6, 9)
+        (self.folder / "part.inp").write_text("*NODE\n")
+        code, out, err = validate("part.inp", "1")
+        self.assertEqual(code, 1)
+        self.assertIn(f"meshio convert '{self.folder / 'part.inp'}' mesh.msh", err)
 
 
 if __name__ == "__main__":

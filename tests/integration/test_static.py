@@ -203,7 +203,7 @@ class Static(ProgramTest):
     def test_the_account_of_a_path(self):
         """The works of a nonlinear body are those of the trapezoidal rule, whose error is the column of
         the numerical dissipation and falls with the square of the step; the energy balance is closed, and
-        without it the work of the motion is what is stored."""
+        without it the work of the motion is the stored energy."""
         errors = []
         for step in (.25, .125):
             ledger = self.compute(PATCH, parameters=[
@@ -284,7 +284,7 @@ class Static(ProgramTest):
                         self.assertAlmostEqual(force / (9.81 * mass), 1., delta=force_off)
 
     def test_pressed_held_and_released(self):
-        """A block is pressed, held as it is, and released: then it vibrates with what was stored."""
+        """A block is pressed, held as it is, and released: then it vibrates with the stored energy."""
         pressed = self.compute(BLOCK.format(more=PRESSED.format(value="-0.05*t"), scheme="static",
                                             end=1, step=.5), "pressed")
         stored = pressed["elastic_energy"][-1]
@@ -303,7 +303,7 @@ class Static(ProgramTest):
         on = self.compute(BLOCK.format(more=PRESSED.format(value="-0.05-0.05*t"), scheme="static",
                                        end=1, step=1), "on", before)
         self.assertGreater(on["elastic_energy"][-1], 3. * stored)
-        self.assertIn("Begin its Value with what is there", self.compute(
+        self.assertIn("Begin its Value with the latter", self.compute(
             BLOCK.format(more=PRESSED.format(value="-0.02"), scheme="static", end=1, step=1),
             "elsewhere", before, code=1))
         self.assertIn("another Mesh/Degree", self.compute(

@@ -171,7 +171,7 @@ def read_list(source):
 
 
 def copy_source(source, copy, build_dir):
-    """Only what differs is written, so that little is compiled again."""
+    """Only differences are written, so that little is compiled again."""
     wanted = set()
     for folder, folders, files in os.walk(source):
         here = pathlib.Path(folder)

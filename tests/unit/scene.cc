@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(sections_with_names)
          {"Body", "should be 'Body NAME'"},
          {"Body a/b", "should be 'Body NAME'"},
          {"Contact ball_on floor", "would be the same"},
-         {"Contact ball on floor", "is there already, in scene.prm, line 2"}})
+         {"Contact ball on floor", "exists already, in scene.prm, line 2"}})
     {
       ParameterText wrong = text;
       wrong.sections.push_back({{name}, "scene.prm, line 9"});

@@ -196,6 +196,13 @@ namespace Ricochet
       return evaluator.contact_points();
     }
 
+    /// The position of point @p p in the last evaluate() (m).
+    dealii::Tensor<1, 3>
+    position(const unsigned int p) const
+    {
+      return points()[p].reference_position + displacement(p);
+    }
+
     /// The normal force of @p force at the node @p p, positive in compression
     /// (N); after update_geometry().
     double

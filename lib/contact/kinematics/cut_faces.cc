@@ -241,7 +241,7 @@ namespace Ricochet
                           const std::vector<LinearElastic> &materials,
                           const std::vector<ContactPair>   &pairs)
   {
-    static_assert(dim == 2, "Faces are cut in the plane.");
+    static_assert(dim == 2, "Faces are cut in 2D only.");
     const FEValuesExtractors::Vector displacement(0);
     const FiniteElement<dim>        &element = body.dof_handler().get_fe();
     const Quadrature<dim - 1>       &rule    = body.face_quadrature();

@@ -1031,8 +1031,7 @@ namespace Ricochet
             coefficients.energy * rounded.coverage_of_open[e];
       }
 
-    // The rows of the scalars and their gradients, and the derivatives of rows along the
-    // way.
+    // The rows of the scalars and their gradients, and the derivatives of rows.
     static thread_local std::vector<double> row, gradient, of_rows;
     row.assign(n_scalars * n, 0.);
     gradient.assign(n_scalars * n, 0.);

@@ -78,11 +78,10 @@ namespace Ricochet
       for (const auto &other : master.facets)
         some_face = some_face || slave.facets[f].normal * other.normal < 0.;
     if (!some_face)
-      throw InputError(
-        "The surfaces of the contact '" + pair.name +
-        "' face each other the wrong way: nowhere is the outside "
-        "of one before that of the other. Is a boundary id that "
-        "of the far side of a body?");
+      throw InputError("The surfaces of the contact '" + pair.name +
+                       "' face each other the wrong way: no outward normal of "
+                       "one points against one of the other. Is a boundary "
+                       "id that of the far side of a body?");
   }
 
 
@@ -441,6 +440,9 @@ namespace Ricochet
         make_exchange();
         read_all();
       }
+    if (start.time_step == 0.)
+      for (unsigned int p = 0; p < own_points.size(); ++p)
+        gaps[p].position = position_of(own_points[p], course.begin.slave);
   }
 
 

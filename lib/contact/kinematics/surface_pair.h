@@ -133,7 +133,7 @@ namespace Ricochet
     virtual void
     evaluate(const Vector &solution) = 0;
 
-    /// From now on begin_step() leaves points before the facets that they face, wherever they
+    /// From now on begin_step() keeps the facets that points face, wherever they
     /// go, or, with false, finds those that they face.
     void
     keep_facets(const bool keep)
@@ -248,6 +248,16 @@ namespace Ricochet
     {
       if (interference)
         gap_offset = overlap - interference(time);
+    }
+
+    /// Position of point @p p, at an instant: after begin_step() with a step of no length (m).
+    dealii::Tensor<1, 3>
+    position(const unsigned int p) const
+    {
+      dealii::Tensor<1, 3> result;
+      for (unsigned int c = 0; c < dim; ++c)
+        result[c] = gaps[p].position[c];
+      return result;
     }
 
     /// Gap at the beginning of the step, plus ContactPair::overlap, less its interference
@@ -425,6 +435,8 @@ namespace Ricochet
       double   old_gap = 0., new_gap = 0., predicted_gap = 0.;
       double   old_coverage = 1., new_coverage = 1.;
       Position multipliers{};
+      /// At an instant, outside of any step.
+      Position position{};
     };
 
     /// Half of the longest edge of facet @p f of the slave; 0 in 1D (m).

@@ -713,6 +713,13 @@ namespace Ricochet
                                     state[p].gap,
                                     node_reaction,
                                     node_reaction > 0.);
+        if (instant.report)
+          instant.report({point.boundary_id,
+                          kinematics->position(p),
+                          state[p].gap,
+                          node_reaction,
+                          point.weight,
+                          node_reaction > 0.});
       }
     add_stress_pressure(instant.solution,
                         stress_evaluator,

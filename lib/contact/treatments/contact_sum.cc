@@ -449,9 +449,16 @@ namespace Ricochet
   {
     ContactSummaries all;
     for (unsigned int k = 0; k < contacts.size(); ++k)
-      for (const auto &[id, summary] : contacts[k]->summary(
-             {instant.solution, share(instant, k), instant.time}))
-        all[id_of(k, id)] = summary;
+      {
+        ContactInstant own{instant.solution, share(instant, k), instant.time};
+        if (instant.report)
+          own.report = [&, k](ContactPointValues values) {
+            values.boundary_id = id_of(k, values.boundary_id);
+            instant.report(values);
+          };
+        for (const auto &[id, summary] : contacts[k]->summary(own))
+          all[id_of(k, id)] = summary;
+      }
     return all;
   }
 } // namespace Ricochet

@@ -564,7 +564,7 @@ namespace Ricochet
             "dual mortar.");
         if (dim == 3)
           throw InputError(
-            "Contact/Coupling = cut faces is there in 2D only.\nAllowed in 3D: "
+            "Contact/Coupling = cut faces is available in 2D only.\nAllowed in 3D: "
             "points, mortar, dual mortar.");
         const auto integrates = [](const ContactLawTraits &traits) {
           return !traits.nodal;
@@ -628,8 +628,8 @@ namespace Ricochet
       throw InputError(
         "In 3D the contact treatment '" + parameters.treatment +
         "' cannot be combined with Contact/Coupling = " + parameters.coupling +
-        ": gaps are means over pieces that are cut anew in each step, and what was "
-        "stored at the end of one would not be what the next one gives back.\nAllowed "
+        ": gaps are means over pieces that are cut anew in each step, and the "
+        "energy stored at the end of one would not be returned by the next one.\nAllowed "
         "with it: " +
         names_of(is_good_in_space) + ". For others take points.");
     if (parameters.coupling != "points" && !scheme.contact_over_step)
@@ -931,8 +931,8 @@ namespace Ricochet
     parameters.add_parameter(
       "Friction law",
       friction_law,
-      "The traction at which points slip. Only Coulomb's is there for "
-      "treatments in nodes by active sets.",
+      "The traction at which points slip. Treatments in nodes by active "
+      "sets have Coulomb's only.",
       Patterns::Selection(friction_table().names()));
     parameters.add_parameter(
       "Stick",

@@ -1712,6 +1712,13 @@ namespace Ricochet
                  normal,
                  is_pressed(state, normal / point.weight));
         my_area[point.boundary_id] += numbers.weight;
+        if (instant.report)
+          instant.report({point.boundary_id,
+                          pair_of(state).position(state.point),
+                          state.state.gap,
+                          normal,
+                          numbers.weight,
+                          is_pressed(state, normal / point.weight)});
       }
     for (unsigned int k = 0; k < n_own_pairs; ++k)
       for (unsigned int p = 0; p < pairs[k]->points().size(); ++p)

@@ -65,7 +65,7 @@ namespace Ricochet
    * since ContactStart::rate_origin.
    *
    * Corners, edges and open ends of the master would enter the facets of the slave between
-   * its nodes. So the nodes of the master on such features are points, too, before the
+   * its nodes. So the nodes of the master on such features are points, too, against the
    * facets of the slave, with the same law, or with a law of their own beside a constraint.
    *
    * Laws give the pressure as a function of the gaps at both ends of the step. A
@@ -323,7 +323,7 @@ namespace Ricochet
 
     /// Compliance (m/Pa) in the equation of multiplier @p c of a closed point, see
     /// SurfacePair::softness(). At an instant nodes of a surface against itself come to lie on
-    /// each other in any iterate. What sticks to two walls is held more often than it can
+    /// each other in any iterate. A point that sticks to two walls is held more often than it can
     /// move: the walls carry it by their pressures, rather than each other's by friction.
     double
     softness(const PointState &state, const unsigned int c) const

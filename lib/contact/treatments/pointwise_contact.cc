@@ -758,6 +758,13 @@ namespace Ricochet
           ? force > 0.
           : law->branch(state[p], state[p], point.cell_diameter) != 0;
         sums[point.boundary_id].add(point, state[p].gap, force, is_active);
+        if (instant.report)
+          instant.report({point.boundary_id,
+                          kinematics->position(p),
+                          state[p].gap,
+                          force,
+                          point.weight,
+                          is_active});
       }
     add_stress_pressure(instant.solution,
                         stress_evaluator,

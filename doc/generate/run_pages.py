@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pages of runs to turn and play in a browser, of those that are in output/."""
+
+from __future__ import annotations
+
+import sys
+
+from . import site
+
+sys.path.insert(0, str(site.ROOT / "python"))
+from ricochet import Run, page, pictures  # noqa: E402
+from ricochet.errors import RicochetError  # noqa: E402
+
+#: Frames of a page, which is then some megabytes long.
+FRAMES = 30
+
+
+def write(made: site.Site, program: str) -> str | None:
+    """Write the page of the first run of a program with fields of bodies; return its name in the site.
+
+    None where there is no such run: the site can be made before any.
+    """
+    for folder in sorted((made.output / program).glob("*/")):
+        name = f"runs/{program}.html"
+        try:
+            page.write(Run(folder), made.extra(name), "von_mises", pictures.palette(), FRAMES)
+        except RicochetError:
+            continue
+        return name
+    return None

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A quarter (x, y > 0) of a ball of radius 1 above z = 0, fine at its lowest point: a sector in the plane
+// y = 0, turned by 90 degrees about z. The cap is the contact surface.
+h = 0.006;
+c = 0.1;
+Point(1) = {0, 0, 0, h};
+Point(2) = {c, 0, 1 - Sqrt(1 - c * c), 1.5 * h};
+Point(3) = {1, 0, 1, 0.2};
+Point(4) = {0, 0, 2, 0.2};
+Point(5) = {0, 0, 1, 0.15};
+Point(6) = {0, 0, 0.12, 2 * h};
+Circle(1) = {1, 5, 2};
+Circle(2) = {2, 5, 3};
+Circle(3) = {3, 5, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6};
+Plane Surface(1) = {1};
+e[] = Extrude{ {0, 0, 1}, {0, 0, 0}, Pi / 2 }{ Surface{1}; };
+Physical Volume("ball") = {e[1]};
+Physical Surface("front") = {1};
+Physical Surface("left") = {e[0]};
+Physical Surface("cap") = {e[2]};
+Physical Surface("round") = {e[3], e[4]};

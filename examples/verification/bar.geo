@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A quarter (x, y > 0) of a round bar of radius 3.2 mm and length 32.4 mm, 1 mm above z = 0.
+r = 3.2e-3;
+l = 32.4e-3;
+s = 0.55 * r; // half of the square inside
+n = 2;
+z = 1e-3;
+d = r / Sqrt(2);
+e = 0.85 * s;
+Point(1) = {0, 0, z};
+Point(2) = {s, 0, z};
+Point(3) = {e, e, z};
+Point(4) = {0, s, z};
+Point(5) = {r, 0, z};
+Point(6) = {d, d, z};
+Point(7) = {0, r, z};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Line(5) = {2, 5};
+Line(6) = {3, 6};
+Line(7) = {4, 7};
+Circle(8) = {5, 1, 6};
+Circle(9) = {6, 1, 7};
+Curve Loop(1) = {1, 2, 3, 4};
+Curve Loop(2) = {5, 8, -6, -2};
+Curve Loop(3) = {6, 9, -7, -3};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Plane Surface(3) = {3};
+Transfinite Curve {1:9} = n + 1;
+Transfinite Surface {1:3};
+Recombine Surface {1:3};
+e1[] = Extrude {0, 0, l} { Surface{1}; Layers{50}; Recombine; };
+e2[] = Extrude {0, 0, l} { Surface{2}; Layers{50}; Recombine; };
+e3[] = Extrude {0, 0, l} { Surface{3}; Layers{50}; Recombine; };
+Physical Volume("bar") = {e1[1], e2[1], e3[1]};
+Physical Surface("near") = {1:3};
+Physical Surface("far") = {e1[0], e2[0], e3[0]};
+Physical Surface("front") = {e1[2], e2[2]};
+Physical Surface("left") = {e1[5], e3[4]};
+Physical Surface("round") = {e2[3], e3[3]};
