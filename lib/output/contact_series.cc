@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <base/exceptions.h>
 #include <contact/treatments/contact_sum.h>
 #include <output/contact_series.h>
 #include <output/hdf5_image.h>
-#include <output/part_nodes.h>
+#include <output/make_folder.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <filesystem>
 
 namespace Ricochet
 {
@@ -91,7 +88,8 @@ namespace Ricochet
         add(name + "/area", own.area, 1, area_unit);
         add(name + "/active", own.active, 1, "1");
       }
-    const auto nodes          = nodes_of_parts(body, 1, 0, 1);
+    if (nodes.empty())
+      nodes = nodes_of_parts(body, 1, 0, 1);
     const auto add_nodal_data = [&](const std::string &group,
                                     const Vector      &force) {
       std::vector<double> position, own_force, displacement;
@@ -130,12 +128,8 @@ namespace Ricochet
         for (const auto &[name, force] : forces)
           add_nodal_data(name + "/", force);
       }
+    make_folder(folder, "contact");
     on_first_rank(communicator, [&]() {
-      std::error_code error;
-      std::filesystem::create_directories(folder.file("contact"), error);
-      if (error)
-        throw ComputationError("The folder '" + folder.file("contact") +
-                               "' cannot be made: " + error.message() + ".");
       image.add_attribute("time", state.time);
       image.add_attribute("step", step);
       write_atomically(folder.file("contact/step-" +

@@ -6,6 +6,7 @@
 #include <base/units.h>
 #include <contact/contact_operator.h>
 #include <discretization/body.h>
+#include <output/part_nodes.h>
 #include <time_integration/state.h>
 
 #include <map>
@@ -49,6 +50,8 @@ namespace Ricochet
     const std::map<dealii::types::boundary_id, std::string> names;
     RunFolder                                              &folder;
     const Units                                             units;
+    // Nodes of this rank, found when they are first written.
+    std::vector<PartNode<dim>> nodes;
   };
 } // namespace Ricochet
 

@@ -13,7 +13,6 @@
 #include <ctime>
 #include <limits>
 
-#include <dlfcn.h>
 #include <unistd.h>
 
 namespace Ricochet
@@ -40,16 +39,6 @@ namespace Ricochet
       ::gmtime_r(&time, &parts);
       std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &parts);
       return text;
-    }
-
-    /// The checksum of the library, in which nearly all of a program is.
-    std::string
-    checksum_of_program()
-    {
-      Dl_info library;
-      if (::dladdr(reinterpret_cast<const void *>(&commit), &library) == 0)
-        return "";
-      return hexadecimal(checksum(read_file(library.dli_fname)));
     }
 
     /// Name of this machine.
@@ -329,7 +318,7 @@ namespace Ricochet
     json.add("checksum_of_parameters",
              hexadecimal(checksum(folder.all_parameters)));
     json.add("checksum_of_mesh", circumstances.mesh_checksum);
-    json.add("checksum_of_program", checksum_of_program());
+    json.add("checksum_of_program", checksum_of_library());
     json.end_object();
 
     json.begin_object("run");

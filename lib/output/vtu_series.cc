@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <output/make_folder.h>
 #include <output/vtu_series.h>
 
 #include <deal.II/numerics/data_out.h>
@@ -429,13 +430,7 @@ namespace Ricochet
                            body.is_curved() ? DataOut<dim>::curved_inner_cells
                                             : DataOut<dim>::curved_boundary);
 
-    on_first_rank(folder.communicator, [&]() {
-      std::error_code error;
-      std::filesystem::create_directories(folder.file("solution"), error);
-      if (error)
-        throw ComputationError("The folder '" + folder.file("solution") +
-                               "' cannot be made: " + error.message() + ".");
-    });
+    make_folder(folder, "solution");
     DataOutBase::VtkFlags flags;
     flags.time                = state.time;
     flags.print_date_and_time = false;

@@ -850,16 +850,20 @@ namespace Ricochet
         force += value("contact_force_" + entry.first);
         active += value("active_points_" + entry.first);
       }
-    JsonWriter json(/* on one line */ true);
-    json.add("event", "step");
-    json.add("step", step);
-    json.add("of", n_steps);
-    for (const char *const name :
-         {"time", "energy", "balance_residual", "newton_iterations"})
-      json.add(name, value(name));
-    json.add("contact_force", force);
-    json.add("seconds_left", seconds * (n_steps - step) / (step - first_step));
-    folder.report_progress(json);
+    if (folder.options.json_progress)
+      {
+        JsonWriter json(/* on one line */ true);
+        json.add("event", "step");
+        json.add("step", step);
+        json.add("of", n_steps);
+        for (const char *const name :
+             {"time", "energy", "balance_residual", "newton_iterations"})
+          json.add(name, value(name));
+        json.add("contact_force", force);
+        json.add("seconds_left",
+                 seconds * (n_steps - step) / (step - first_step));
+        folder.report_progress(json);
+      }
     char modified_energy[40] = "-";
     if (system.contact.traits().has_modified_energy)
       std::snprintf(modified_energy,
