@@ -6,6 +6,7 @@
     figures/make.py all
     figures/make.py short        those whose runs take little time: most of the ball, bars, sphere
     figures/make.py timed        those that show seconds, which "all" leaves out
+    figures/make.py all --keep   and put small copies and the checks into figures/kept/
     figures/make.py --list
     figures/make.py --table      write the table of the papers' numbers in doc/benchmarks.md
 
@@ -50,6 +51,12 @@ def command_line(figures):
         default=CHECKOUT / "build" / "release",
         help="folder with the programs (default: build/release of the checkout)",
     )
+    parser.add_argument(
+        "--keep",
+        action="store_true",
+        help="put small copies of the pictures, the tables and the checks into figures/kept, which "
+        "the site of a fresh clone shows, with today's date and the commit",
+    )
     parser.add_argument("--force", action="store_true", help="repeat runs that are there already")
     parser.add_argument(
         "--jobs",
@@ -91,7 +98,9 @@ def make_locked(figures, arguments):
         except OSError:
             print("Another figures/make.py is at work in this checkout.", file=sys.stderr)
             return 2
-        good = making.make(figures, arguments.build_dir.resolve(), arguments.jobs, arguments.force)
+        good = making.make(
+            figures, arguments.build_dir.resolve(), arguments.jobs, arguments.force, arguments.keep
+        )
     return 0 if good else 1
 
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import csv
 import importlib
+import pathlib
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ricochet import prm
+from shared import finding, keeping  # of figures/
 
 from . import site, text
 
@@ -55,8 +57,6 @@ class Entry:
 
 def load() -> list[Entry]:
     """All figures, group by group, those of a paper in their order."""
-    from shared import finding  # of figures/
-
     order = list(finding.find())
     folder = site.ROOT / "figures"
     entries = [
@@ -76,39 +76,56 @@ def _title(group: str) -> tuple[str, str]:
     return short[:1].upper() + short[1:], words
 
 
-class Gallery:
-    """The figures, and their files that exist."""
+def _rows(folder: pathlib.Path) -> dict[str, list[dict[str, str]]]:
+    """The checks of the figures in a folder."""
+    rows: dict[str, list[dict[str, str]]] = {}
+    table = folder / "checks.csv"
+    if table.is_file():
+        with table.open(newline="", encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                rows.setdefault(row["figure"], []).append(row)
+    return rows
 
-    def __init__(self, made: site.Site) -> None:
+
+class Gallery:
+    """The figures, and their files: those of output/figures, or the small ones of figures/kept."""
+
+    def __init__(self, made: site.Site, kept: pathlib.Path = keeping.FOLDER) -> None:
         self.site = made
         self.entries = load()
         self.pictures = made.output / "figures"
-        self.rows: dict[str, list[dict[str, str]]] = {}
-        table = self.pictures / "checks.csv"
-        if table.is_file():
-            with table.open(newline="", encoding="utf-8") as file:
-                for row in csv.DictReader(file):
-                    self.rows.setdefault(row["figure"], []).append(row)
+        self.kept = kept
+        self.kept_of = keeping.made(kept)
+        self.rows = _rows(kept) | _rows(self.pictures)
         for entry in self.entries:
             self._take_pictures(entry)
 
     def _take_pictures(self, entry: Entry) -> None:
         for name in (entry.figure.image, entry.figure.animation):
-            if name and (self.pictures / name).is_file():
-                self.site.copy(self.pictures / name, f"{FOLDER}/pictures/{name}")
-        if self.has_picture(entry):
-            thumbnail(
-                self.pictures / entry.figure.image,
-                self.site.extra(f"{FOLDER}/thumbnails/{entry.name}.png"),
-            )
+            source = self.file(name)
+            if source:
+                self.site.copy(source, f"{FOLDER}/pictures/{name}")
+        source = self.file(entry.figure.image)
+        if source:
+            thumbnail(source, self.site.extra(f"{FOLDER}/thumbnails/{entry.name}.png"))
+
+    def file(self, name: str | None) -> pathlib.Path | None:
+        """A picture, an animation or a table, where it is."""
+        for folder in (self.pictures, self.kept):
+            if name and (folder / name).is_file():
+                return folder / name
+        return None
 
     def has_picture(self, entry: Entry) -> bool:
-        image = entry.figure.image
-        return bool(image and (self.pictures / image).is_file())
+        return self.file(entry.figure.image) is not None
 
     def is_made(self, entry: Entry) -> bool:
-        name = entry.figure.image or entry.figure.table_file
-        return bool((self.pictures / name).is_file())
+        return self.file(entry.figure.image or entry.figure.table_file) is not None
+
+    def is_kept(self, entry: Entry) -> bool:
+        """Whether the figure is the one of the repository, as it has not been made here."""
+        file = self.file(entry.figure.image or entry.figure.table_file)
+        return file is not None and file.parent == self.kept
 
     def thumbnail_of(self, entry: Entry) -> str | None:
         """For a card."""
@@ -130,22 +147,32 @@ class Gallery:
     def _picture(self, entry: Entry, page: str) -> str:
         figure = entry.figure
         command = f"figures/make.py {entry.name}"
+        seconds = max(1, round(sum(run.cost for run in figure.runs)))
+        takes = f"its runs take about {seconds} s on one core" if figure.runs else "it needs no run"
         if not self.is_made(entry):
-            seconds = sum(run.cost for run in figure.runs)
             return (
-                f'<p class="missing">This picture has not been made. <code>{command}</code> makes '
-                f"it; its runs take about {max(1, round(seconds))} s on one core.</p>"
+                f'<p class="missing">This figure has not been made. <code>{command}</code> makes '
+                f"it; {takes}.</p>"
             )
         lines = []
         for name, what in ((figure.image, ""), (figure.animation, ", moving")):
-            if name and (self.pictures / name).is_file():
+            source = self.file(name)
+            if source:
                 address = site.link(page, f"{FOLDER}/pictures/{name}")
-                lines.append(text.picture(self.pictures / name, address, figure.title + what))
-        if figure.table and (self.pictures / figure.table_file).is_file():
-            with (self.pictures / figure.table_file).open(newline="", encoding="utf-8") as file:
+                lines.append(text.picture(source, address, figure.title + what))
+        source = self.file(figure.table_file)
+        if source:
+            with source.open(newline="", encoding="utf-8") as file:
                 header, *rows = csv.reader(file)
             cells = [[text.escape(cell) for cell in row] for row in rows]
             lines.append(text.table(header, cells))
+        if self.is_kept(entry):
+            date, commit = self.kept_of[entry.name]
+            moving = " and moving" if figure.animation else ""
+            lines.append(
+                f'<p class="kept">Made on {date} with commit <code>{commit}</code> and kept in small. '
+                f"<code>{command}</code> makes it at full size{moving}; {takes}.</p>"
+            )
         return "\n".join(lines)
 
     def _curves(self, entry: Entry, page: str) -> str:
@@ -248,12 +275,16 @@ def cards(items: Sequence[tuple[str, str | None, str]]) -> str:
 
 def make(made: site.Site, gallery: Gallery) -> None:
     """Write a page for each group of figures, and the overview."""
-    n_made = sum(gallery.is_made(entry) for entry in gallery.entries)
+    n_made = sum(
+        gallery.is_made(entry) and not gallery.is_kept(entry) for entry in gallery.entries
+    )
+    n_kept = sum(map(gallery.is_kept, gallery.entries))
     n_checks = sum(map(len, gallery.rows.values()))
     failed = sum(row["ok?"] == "NO" for rows in gallery.rows.values() for row in rows)
     overview = [
         "# Figures of the papers",
-        f"There are {len(gallery.entries)} figures, of which {n_made} have been made here; "
+        f"There are {len(gallery.entries)} figures, of which {n_made or 'none'} have been made here"
+        f"{f' and {n_kept} are small copies that are kept in the repository' if n_kept else ''}; "
         f"{n_checks} numbers were checked, {failed or 'none'} of them {'is' if failed == 1 else 'are'} "
         "off. `figures/make.py all` makes "
         "all, `figures/make.py C-6` one of them, with the runs that it needs. Letters A, B and C "

@@ -3,13 +3,10 @@
 
 from __future__ import annotations
 
-import sys
+from ricochet import Run, page, pictures
+from ricochet.errors import RicochetError
 
 from . import site
-
-sys.path.insert(0, str(site.ROOT / "python"))
-from ricochet import Run, page, pictures  # noqa: E402
-from ricochet.errors import RicochetError  # noqa: E402
 
 #: Frames of a page, which is then some megabytes long.
 FRAMES = 30

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 
 from ricochet import RicochetError
 
-from . import paper_numbers, report, runs
+from . import keeping, paper_numbers, report, runs
 from .figure import DIFFERS, NO, YES
 
 LOOK = {
@@ -60,9 +60,13 @@ def _checks(figure):
     return rows
 
 
-def make(figures, build_dir, jobs, force):
-    """Make the figures; return whether all numbers are as they should be."""
+def make(figures, build_dir, jobs, force, keep=False):
+    """Make the figures; return whether all numbers are as they should be.
+
+    With `keep` they go into the repository, too, if so.
+    """
     start = time.monotonic()
+    commit = keeping.commit() if keep else None
     folder = runs.OUTPUT / "figures"
     folder.mkdir(parents=True, exist_ok=True)
 
@@ -88,4 +92,7 @@ def make(figures, build_dir, jobs, force):
         f"{count[DIFFERS]} differ from the paper as written down; "
         f"{time.monotonic() - start:.0f} s; see output/figures/index.html"
     )
+    if keep and count[NO] == 0:
+        keeping.keep(figures, checks, commit, folder)
+        print(f"Small copies of {len(figures)} figures, and the checks: figures/kept/")
     return count[NO] == 0

@@ -38,7 +38,7 @@ def write_csv(checks, path):
         if old and tuple(old[0]) == COLUMNS:
             rows = [row for row in old[1:] if row and row[0] not in made]
     with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
+        writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
         writer.writerows(rows)
         writer.writerows(_row(check) for check in checks)

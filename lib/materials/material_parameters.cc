@@ -180,6 +180,7 @@ namespace Ricochet
 
   Scales
   MaterialParameters::scales(const double       cell_diameter,
+                             const double       cell_depth,
                              const unsigned int degree) const
   {
     const LinearElastic elastic      = at_small_strains();
@@ -189,6 +190,7 @@ namespace Ricochet
             wave_modulus,
             density,
             cell_diameter,
+            cell_depth,
             degree};
   }
 

@@ -72,9 +72,11 @@ namespace Ricochet
     at_small_strains() const;
 
     /// The magnitudes by which the values of contact are set that the user has not given.
-    /// @param cell_diameter mean diameter of the cells at the surface (m).
+    /// @param cell_diameter, cell_depth means of the cells at the surface (m), see Scales.
     Scales
-    scales(const double cell_diameter, const unsigned int degree) const;
+    scales(const double       cell_diameter,
+           const double       cell_depth,
+           const unsigned int degree) const;
 
   private:
     /// Parameters of all laws.

@@ -518,6 +518,10 @@ namespace Ricochet
           unused.push_back(
             {name_of(name), owners + "; " + name_of("Shape") + " is " + shape});
         }
+    if (shape == "disk" && !wants_simplices(cells))
+      unused.push_back(
+        {name_of("Nodes"),
+         "disks of triangles; " + name_of("Cells") + " is " + cells});
     if (file.empty())
       unused.push_back(
         {name_of("Group"),

@@ -521,21 +521,33 @@ namespace Ricochet
   {
     /// Mean diameter of the cells of @p mesh at the boundaries @p ids (m), and their
     /// number.
-    template <int dim>
-    std::pair<double, unsigned int>
-    sum_of_diameters(const Triangulation<dim>           &mesh,
-                     const std::set<types::boundary_id> &ids)
+    /// Sums over the faces of a surface.
+    struct CellSizes
     {
-      double       sum = 0.;
-      unsigned int n   = 0;
+      double       diameters = 0.;
+      double       depths    = 0.; // see Scales
+      unsigned int n         = 0;
+    };
+
+    template <int dim>
+    void
+    add_sizes(const Triangulation<dim>           &mesh,
+              const std::set<types::boundary_id> &ids,
+              CellSizes                          &sizes)
+    {
       for (const auto &cell : mesh.active_cell_iterators())
         for (const auto &face : cell->face_iterators())
           if (face->at_boundary() && ids.count(face->boundary_id()) > 0)
             {
-              sum += cell->diameter();
-              ++n;
+              // Simplices narrow from the face on.
+              const double depth = cell->measure() / face->measure() *
+                (cell->reference_cell().is_simplex() ? dim : 1);
+              sizes.diameters += cell->diameter();
+              sizes.depths +=
+                std::min(cell->diameter(),
+                         2. * std::sqrt(static_cast<double>(dim)) * depth);
+              ++sizes.n;
             }
-      return {sum, n};
     }
   } // namespace
 
@@ -554,26 +566,25 @@ namespace Ricochet
           const auto own = parts_at(surface);
           partners.insert(own.begin(), own.end());
         };
-        double       sum = 0.;
-        unsigned int n   = 0;
+        CellSizes sizes;
         for (const auto &surface : touching.slave)
           {
             add_partners(surface);
-            const auto [own_sum, own_n] =
-              sum_of_diameters(meshes[surface.body]->cells, surface.ids);
-            sum += own_sum;
-            n += own_n;
+            add_sizes(meshes[surface.body]->cells, surface.ids, sizes);
           }
+        const double diameter = sizes.diameters / sizes.n;
+        const double depth    = sizes.depths / sizes.n;
         if (touching.obstacles.empty() && !touching.is_self)
           for (const auto &surface :
                surfaces.find(contact.against, contact.name_of("Against")))
             add_partners(surface);
         // Without a finite modulus no default by scale is finite.
         constexpr double largest = std::numeric_limits<double>::max();
-        Scales           scales{largest, largest, 0., sum / n, degree};
+        Scales           scales{largest, largest, 0., diameter, depth, degree};
         for (const unsigned int p : partners)
           {
-            const Scales own = parts[p].material.scales(sum / n, degree);
+            const Scales own =
+              parts[p].material.scales(diameter, depth, degree);
             if (own.young_modulus < scales.young_modulus)
               scales = own;
           }

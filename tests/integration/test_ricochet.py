@@ -672,6 +672,20 @@ end
         self.assertIn("Contact brick at wall/Compliance coefficient = 2284", log)
         self.assertRegex(text, r"set Compliance coefficient = 2284\d+\.\d+")
 
+    def test_what_is_found_for_flat_cells(self):
+        """The depth of a cell counts and not its width. It is a tenth of that of the test above,
+        which is a square; with the width, Nitsche's method would be refused as unstable."""
+        flat = "Body brick/Cells along=160, 1"
+        self.scene(scene(steps=1), flat)
+        log = (self.folder / "scene" / "log.txt").read_text()
+        self.assertRegex(log, r"Contact brick at wall/Compliance coefficient = 2284\d{6}")
+        small_strains = ["Body brick/Law=linear elastic", "Body ball/Law=linear elastic"]
+        self.scene(scene(steps=1), flat, *small_strains,
+                   "Contact brick at wall/Treatment=Nitsche", name="Nitsche")
+        log = (self.folder / "Nitsche" / "log.txt").read_text()
+        # Twenty times the modulus 4.038e6, and that times the diameter 0.50004 over 0.017678.
+        self.assertRegex(log, r"Contact brick at wall/Nitsche gamma0 = 2284\d{6}")
+
 
 class BadScenes(Refusal):
 

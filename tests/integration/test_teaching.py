@@ -219,7 +219,7 @@ class Sheets(ProgramTest):
             pyplot.figure(figsize=(2, 1)).savefig(pictures / name)
         pyplot.close("all")
         made = site.Site(self.folder, self.folder / "pages", self.folder / "output")
-        gallery = figures.Gallery(made)
+        gallery = figures.Gallery(made, kept=self.folder / "none")
         slides.make(made, gallery)
         path = made.extra(f"{slides.PAGE}.html")
         page = path.read_text()

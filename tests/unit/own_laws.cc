@@ -320,7 +320,7 @@ BOOST_AUTO_TEST_CASE(registered_laws_are_as_all_others)
 
   ContactParameters open = impact.contact;
   open.leave_open();
-  open.set_missing({5., 10., 1., .1, 1});
+  open.set_missing({5., 10., 1., .1, .1, 1});
   BOOST_CHECK_CLOSE(open.values["Exponential pressure"], 1., 1e-12);
   BOOST_CHECK_CLOSE(open.values["Exponential length"], 1e-3, 1e-12);
   BOOST_CHECK(promises_as_table().find(

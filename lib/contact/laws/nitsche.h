@@ -42,8 +42,11 @@ namespace Ricochet
                        "(7)). Used by Nitsche and Nitsche-hybrid.")
                 .at_least(1e-30)
                 .by_scale([](const Scales &scales, const ParameterValues &) {
+                  // The inverse inequality has the depth of a cell, gamma_0 its
+                  // diameter.
                   return 20. * scales.degree * scales.degree *
-                    scales.wave_modulus;
+                    scales.wave_modulus * scales.cell_diameter /
+                    scales.cell_depth;
                 })
                 .belongs_to("Nitsche's method"),
               OwnParameter("Nitsche theta", 1.)

@@ -39,7 +39,7 @@ namespace Ricochet
         .at_least(1e-30)
         .by_scale([](const Scales &scales, const ParameterValues &values) {
           return 10. * scales.wave_modulus /
-            std::pow(scales.cell_diameter, values["Compliance exponent"] - 1.);
+            std::pow(scales.cell_depth, values["Compliance exponent"] - 1.);
         })
         .belongs_to("normal compliance");
     }

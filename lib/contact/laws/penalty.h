@@ -29,7 +29,8 @@ namespace Ricochet
                        "(paper C, (14)). Used by penalty.")
                 .at_least(1e-30)
                 .by_scale([](const Scales &scales, const ParameterValues &) {
-                  return .1 / scales.wave_modulus;
+                  return .1 / scales.wave_modulus * scales.cell_depth /
+                    scales.cell_diameter;
                 })
                 .belongs_to("penalty")};
     }
