@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/alike_sections.h>
 #include <base/exceptions.h>
+#include <base/unknown_name.h>
 
 #include <algorithm>
 #include <map>
@@ -46,12 +47,13 @@ namespace Ricochet
               for (const std::string &section : sections)
                 if (kind_of(section) == kind)
                   candidates.push_back(section);
-              std::string message = like.where + ": there is no section '" +
-                chain.back().substr(0, 100) + "' that this one could be like.";
-              for (const std::string &near :
-                   nearest_names(chain.back(), candidates, 1))
-                message += " Is '" + near + "' meant?";
-              throw InputError(message);
+              throw unknown_name(like.where + ": there is no section '" +
+                                   chain.back().substr(0, 100) +
+                                   "' that this one could be like",
+                                 chain.back(),
+                                 candidates,
+                                 "",
+                                 "unknown_section");
             }
           if (chain.size() > longest + 1)
             throw InputError(like.where + ": '" + name +

@@ -3,6 +3,7 @@
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
 #include <base/program.h>
+#include <base/unknown_name.h>
 
 #include <boost/algorithm/string/replace.hpp>
 
@@ -132,12 +133,11 @@ namespace Ricochet
       std::vector<std::string> known = names_of_tables;
       for (const Option &option : options())
         known.push_back(option.name);
-      std::string message = "There is no option '" + name + "'.";
-      const auto  names   = nearest_names(name, known, 1);
-      if (!names.empty())
-        message += " Is " + names[0] + " meant?";
-      throw InputError(message + " See --help.",
-                       {"unknown_option", name, names});
+      throw unknown_name("There is no option '" + name + "'",
+                         name,
+                         known,
+                         " See --help.",
+                         "unknown_option");
     }
 
     /// The value of @p option, or nothing.

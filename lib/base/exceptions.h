@@ -22,7 +22,7 @@ namespace Ricochet
     {
       /// The kind of mistake; the same in each version.
       std::string code = "input";
-      /// "Section/Name" of the parameter, where it is about one.
+      /// "Section/Name" of the parameter, or the name that does not exist.
       std::string key = {};
       /// Names that may be meant, best first.
       std::vector<std::string> nearest = {};

@@ -2,6 +2,7 @@
 #include <base/exceptions.h>
 #include <base/expressions.h>
 #include <base/parameter_file.h>
+#include <base/unknown_name.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -165,11 +166,11 @@ namespace Ricochet
               known.push_back(one);
               list += (list.empty() ? "" : ", ") + one;
             }
-          std::string message = what + ": there is no '" + name + "' in it.";
-          for (const std::string &near : nearest_names(name, known, 1))
-            message += " Is '" + near + "' meant?";
-          throw InputError(
-            message + "\nIt may have the columns of energy.csv: " + list + ".");
+          throw unknown_name(what + ": there is no '" + name + "' in it",
+                             name,
+                             known,
+                             "\nIt may have the columns of energy.csv: " +
+                               list + ".");
         }
     return value_of(text,
                     constants,

@@ -2,10 +2,10 @@
 #include <base/exceptions.h>
 #include <base/files.h>
 #include <base/parameter_file.h>
+#include <base/unknown_name.h>
 
 #include <deal.II/base/utilities.h>
 
-#include <boost/algorithm/string/predicate.hpp>
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 
@@ -179,32 +179,6 @@ namespace Ricochet
       return line.substr(0, begin);
     }
 
-    unsigned int
-    edit_distance(const std::string &a, const std::string &b)
-    {
-      const auto lower = [](const char c) {
-        return std::tolower(static_cast<unsigned char>(c));
-      };
-      std::vector<unsigned int> row(b.size() + 1);
-      for (unsigned int j = 0; j <= b.size(); ++j)
-        row[j] = j;
-      for (unsigned int i = 1; i <= a.size(); ++i)
-        {
-          unsigned int diagonal = row[0];
-          row[0]                = i;
-          for (unsigned int j = 1; j <= b.size(); ++j)
-            {
-              const unsigned int above = row[j];
-              row[j] =
-                std::min({above + 1,
-                          row[j - 1] + 1,
-                          diagonal + (lower(a[i - 1]) != lower(b[j - 1]))});
-              diagonal = above;
-            }
-        }
-      return row[b.size()];
-    }
-
     Setting
     assign(const ParameterText::Assignment &assignment,
            const Declarations              &declarations,
@@ -228,7 +202,7 @@ namespace Ricochet
                 same_last_part.push_back(name);
             }
           std::vector<std::string> suggestions = same_last_part.empty()
-            ? nearest_names(join(path), full_names)
+            ? nearest_names(join(path), full_names, 3)
             : same_last_part;
           std::string              message =
             where + ": there is no parameter '" + shortened(join(path)) + "'.";
@@ -451,35 +425,6 @@ namespace Ricochet
   {
     char text[32];
     return {text, std::to_chars(text, text + sizeof(text), number).ptr};
-  }
-
-
-
-  std::vector<std::string>
-  nearest_names(const std::string              &name,
-                const std::vector<std::string> &candidates,
-                const unsigned int              n_names)
-  {
-    std::vector<std::pair<unsigned int, std::string>> ranked;
-    constexpr unsigned int                            shortest_part = 3;
-    for (const std::string &candidate : candidates)
-      {
-        // Names of this length are no misprints; the edit distance would take
-        // long.
-        const unsigned int distance =
-          edit_distance(name.substr(0, 200), candidate);
-        const bool is_part =
-          name.size() >= shortest_part && boost::icontains(candidate, name);
-        if (is_part)
-          ranked.emplace_back(1, candidate);
-        else if (2 * distance <= std::max(name.size(), candidate.size()))
-          ranked.emplace_back(distance, candidate);
-      }
-    std::sort(ranked.begin(), ranked.end());
-    std::vector<std::string> names;
-    for (unsigned int i = 0; i < ranked.size() && i < n_names; ++i)
-      names.push_back(ranked[i].second);
-    return names;
   }
 
 

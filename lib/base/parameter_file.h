@@ -143,16 +143,6 @@ namespace Ricochet
   /// The shortest text that is read as the same number.
   std::string
   exact_text(const double number);
-
-  /**
-   * The names in @p candidates that are closest to @p name by edit distance,
-   * best first, at most @p n_names, none that is further away than half of
-   * its length.
-   */
-  std::vector<std::string>
-  nearest_names(const std::string              &name,
-                const std::vector<std::string> &candidates,
-                const unsigned int              n_names = 3);
 } // namespace Ricochet
 
 #endif

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/phases.h>
+#include <base/unknown_name.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 namespace Ricochet
@@ -75,15 +77,14 @@ namespace Ricochet
               {
                 if (std::find(known.begin(), known.end(), section) ==
                     known.end())
-                  {
-                    std::string message = assignment.where +
-                      ": there is no section '" + section.substr(0, 100) +
-                      "' that this phase could be without.";
-                    for (const std::string &near :
-                         nearest_names(section, known, 1))
-                      message += " Is '" + near + "' meant?";
-                    throw InputError(message);
-                  }
+                  throw unknown_name(assignment.where +
+                                       ": there is no section '" +
+                                       section.substr(0, 100) +
+                                       "' that this phase could be without",
+                                     section,
+                                     known,
+                                     "",
+                                     "unknown_section");
                 out.insert(section);
               }
           }
@@ -181,5 +182,46 @@ namespace Ricochet
     if (phases.empty())
       phases.push_back({"", text, ""});
     return phases;
+  }
+
+
+
+  ParameterText
+  text_of_phase(const std::vector<Phase> &phases,
+                const unsigned int        k,
+                const std::string        &output_dir)
+  {
+    ParameterText text = phases[k].text;
+    if (phases.size() > 1)
+      text.assignments.insert(text.assignments.begin(),
+                              {{"Output", "Checkpoint every"},
+                               "1000000000",
+                               "Phase " + phases[k].name,
+                               "."});
+    if (k > 0)
+      text.assignments.push_back(
+        {{"Start", "From"},
+         (std::filesystem::path(output_dir) / phases[k - 1].folder).string(),
+         "Phase " + phases[k].name,
+         "."});
+    return text;
+  }
+
+
+
+  void
+  in_phase(const std::string &name, const std::function<void()> &action)
+  {
+    if (name.empty())
+      return action();
+    try
+      {
+        action();
+      }
+    catch (const InputError &problem)
+      {
+        throw InputError("Phase " + name + ": " + problem.what(),
+                         problem.details);
+      }
   }
 } // namespace Ricochet

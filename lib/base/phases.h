@@ -4,6 +4,7 @@
 
 #include <base/parameter_file.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,18 @@ namespace Ricochet
    */
   std::vector<Phase>
   phases_of(const ParameterText &text);
+
+  /// The settings of phase number @p k, which begins where the one before it has ended.
+  /// @param output_dir folder of the whole run.
+  ParameterText
+  text_of_phase(const std::vector<Phase> &phases,
+                const unsigned int        k,
+                const std::string        &output_dir);
+
+  /// Do what may refuse the input of the phase @p name, which is then said.
+  /// @throws InputError
+  void
+  in_phase(const std::string &name, const std::function<void()> &action);
 } // namespace Ricochet
 
 #endif

@@ -2,6 +2,7 @@
 #include <base/exceptions.h>
 #include <base/expressions.h>
 #include <base/parameter_file.h>
+#include <base/unknown_name.h>
 #include <base/variables.h>
 
 #include <algorithm>
@@ -39,7 +40,7 @@ namespace Ricochet
               if (assignment.on_command_line && definitions.count(name) == 0)
                 throw InputError(assignment.where +
                                  ": the file has no variable '" +
-                                 name.substr(0, 100) + "'." + known());
+                                 name.substr(0, 100) + "'." + list());
               check_name(name, assignment.where);
               definitions[name] = &assignment;
             }
@@ -85,8 +86,11 @@ namespace Ricochet
           return found->second;
         const auto definition = definitions.find(name);
         if (definition == definitions.end())
-          throw InputError(where + ": there is no variable '" +
-                           name.substr(0, 100) + "'." + known(name));
+          throw unknown_name(where + ": there is no variable '" +
+                               name.substr(0, 100) + "'",
+                             name,
+                             names(),
+                             list());
         if (std::find(open.begin(), open.end(), name) != open.end())
           throw InputError(where + ": the variable '" + name +
                            "' needs itself.");
@@ -100,19 +104,23 @@ namespace Ricochet
         return values[name] = result;
       }
 
-      std::string
-      known(const std::string &name = "") const
+      std::vector<std::string>
+      names() const
       {
-        std::vector<std::string> names;
-        std::string              list;
+        std::vector<std::string> all;
         for (const auto &definition : definitions)
-          {
-            names.push_back(definition.first);
-            list += (list.empty() ? " There is: " : ", ") + definition.first;
-          }
-        for (const std::string &near : nearest_names(name, names, 1))
-          return " Is '" + near + "' meant?" + list + ".";
-        return list.empty() ? list : list + ".";
+          all.push_back(definition.first);
+        return all;
+      }
+
+      /// All variables, in a sentence.
+      std::string
+      list() const
+      {
+        std::string text;
+        for (const std::string &name : names())
+          text += (text.empty() ? " There is: " : ", ") + name;
+        return text.empty() ? text : text + ".";
       }
 
       std::map<std::string, const Assignment *> definitions;

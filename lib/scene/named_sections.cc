@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/unknown_name.h>
 #include <scene/named_sections.h>
 
 #include <deal.II/base/utilities.h>
@@ -72,15 +73,14 @@ namespace Ricochet
             std::vector<std::string> candidates = plain;
             for (const std::string &one : kinds)
               candidates.push_back(one + full.substr(kind.size()));
-            std::string message = section.where + ": there is no section '" +
-              full.substr(0, 100) + "'.";
-            const auto near = nearest_names(full, candidates, 1);
-            for (const std::string &name : near)
-              message += " Is '" + name + "' meant?";
-            throw InputError(message + "\nSections are " + join(plain) +
-                               ", and with a name of your own: " + join(kinds) +
-                               ".",
-                             {"unknown_section", full, near});
+            throw unknown_name(section.where + ": there is no section '" +
+                                 full.substr(0, 100) + "'",
+                               full,
+                               candidates,
+                               "\nSections are " + join(plain) +
+                                 ", and with a name of your own: " +
+                                 join(kinds) + ".",
+                               "unknown_section");
           }
         const std::string name =
           dealii::Utilities::trim(full.substr(kind.size()));

@@ -2,6 +2,7 @@
 #include <base/exceptions.h>
 #include <base/expressions.h>
 #include <base/units.h>
+#include <base/unknown_name.h>
 #include <problems/clearance.h>
 #include <problems/impact.h>
 #include <scene/scene.h>
@@ -372,11 +373,10 @@ namespace Ricochet
           return material.second;
         names.push_back(material.first.name);
       }
-    std::string message =
-      where + ": there is no section 'Material " + name.substr(0, 100) + "'.";
-    for (const std::string &near : nearest_names(name, names, 1))
-      message += " Is '" + near + "' meant?";
-    throw InputError(message);
+    throw unknown_name(where + ": there is no section 'Material " +
+                         name.substr(0, 100) + "'",
+                       name,
+                       names);
   }
 
 
@@ -483,12 +483,11 @@ namespace Ricochet
           {
             for (const auto &obstacle : obstacles)
               names.push_back(obstacle.first.name);
-            std::string message = contact.name_of("Against") +
-              ": there is neither a body nor an obstacle '" +
-              name.substr(0, 100) + "'.";
-            for (const std::string &near : nearest_names(name, names, 1))
-              message += " Is '" + near + "' meant?";
-            throw InputError(message);
+            throw unknown_name(contact.name_of("Against") +
+                                 ": there is neither a body nor an obstacle '" +
+                                 name.substr(0, 100) + "'",
+                               name,
+                               names);
           }
       }
     if (items.empty())

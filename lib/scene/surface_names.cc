@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
+#include <base/unknown_name.h>
 #include <scene/surface_names.h>
 
 #include <deal.II/base/utilities.h>
@@ -77,16 +78,12 @@ namespace Ricochet
     }
 
     std::string
-    suggestion(const std::string              &name,
-               const std::vector<std::string> &candidates)
+    list_of(const std::vector<std::string> &names)
     {
-      std::string text;
-      for (const std::string &near : nearest_names(name, candidates, 1))
-        text += " Is " + quoted(near) + " meant?";
       std::string list;
-      for (const std::string &candidate : candidates)
-        list += (list.empty() ? "" : ", ") + candidate;
-      return text + "\nThere is: " + (list.empty() ? "nothing" : list) + ".";
+      for (const std::string &name : names)
+        list += (list.empty() ? "" : ", ") + name;
+      return "\nThere is: " + (list.empty() ? "nothing" : list) + ".";
     }
   } // namespace
 
@@ -102,8 +99,10 @@ namespace Ricochet
         const std::string  name  = Utilities::trim(item.substr(0, colon));
         const unsigned int b     = find_body(name);
         if (b == bodies.size())
-          throw InputError(where + ": there is no body " + quoted(name) + "." +
-                           suggestion(name, body_names()));
+          throw unknown_name(where + ": there is no body " + quoted(name),
+                             name,
+                             body_names(),
+                             list_of(body_names()));
         const Body &body = bodies[b];
         Surface     surface{b, {}};
         if (colon == std::string::npos)
@@ -129,9 +128,11 @@ namespace Ricochet
                     found = entry;
                 }
               if (found == body.id.end())
-                throw InputError(where + ": the body " + quoted(name) +
-                                 " has no boundary " + quoted(boundary) + "." +
-                                 suggestion(boundary, candidates));
+                throw unknown_name(where + ": the body " + quoted(name) +
+                                     " has no boundary " + quoted(boundary),
+                                   boundary,
+                                   candidates,
+                                   list_of(candidates));
               surface.ids.insert(found->second);
             }
         if (body.id.empty())

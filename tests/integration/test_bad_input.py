@@ -128,7 +128,7 @@ class BadInput(Refusal):
                     folder=blocker / "below")
 
     def test_unknown_option(self):
-        self.refuse("There is no option '--resum'. Is --resume meant?",
+        self.refuse("There is no option '--resum'. Is '--resume' meant?",
                     options=["--resum"])
 
     def test_option_in_the_place_of_a_value(self):

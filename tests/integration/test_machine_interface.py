@@ -136,6 +136,9 @@ class MachineInterface(ProgramTest):
         self.assertEqual((answer["code"], answer["nearest"]),
                          ("unknown_section", ["Obstacle floor"]))
         self.assertEqual(answer["line"], line_of(wrong, "Obstakle"))
+        answer = self.refusal(SCENE.replace("= ball", "= bal"))
+        self.assertEqual((answer["code"], answer["key"], answer["nearest"]),
+                         ("unknown_name", "bal", ["ball"]))
         for text, parameters, options, code in (
                 ("nonsense\n", [], [], "syntax"),
                 ("subsection A\n", [], [], "syntax"),
