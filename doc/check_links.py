@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Check that all links within the site lead somewhere.
 
-    doc/check_links.py output/doc [PART]
+    doc/check_links.py output/doc
 
-Files, and anchors in them. Addresses of other sites are not requested; links into the folder PART
-of the site are not followed, as it may not have been made.
+Files, and anchors in them. Addresses of other sites are not requested.
 """
 
 from __future__ import annotations
@@ -17,11 +16,8 @@ import urllib.parse
 import html_text
 
 
-def broken_links(folder: pathlib.Path, missing: str = "") -> tuple[int, list[str]]:
-    """How many links there are within the site, and those that lead nowhere.
-
-    The part of the site that is `missing` counts as there.
-    """
+def broken_links(folder: pathlib.Path) -> tuple[int, list[str]]:
+    """How many links there are within the site, and those that lead nowhere."""
     folder = folder.resolve()
     pages = {path: html_text.read(path) for path in sorted(folder.rglob("*.html"))}
     count, broken = 0, []
@@ -34,8 +30,6 @@ def broken_links(folder: pathlib.Path, missing: str = "") -> tuple[int, list[str
             target = path
             if parts.path:
                 target = (path.parent / urllib.parse.unquote(parts.path)).resolve()
-            if missing and folder / missing in target.parents:
-                continue
             if target.is_dir():
                 target = target / "index.html"
             anchor = urllib.parse.unquote(parts.fragment)
@@ -50,10 +44,10 @@ def broken_links(folder: pathlib.Path, missing: str = "") -> tuple[int, list[str
 
 
 def main() -> int:
-    if len(sys.argv) not in (2, 3):
+    if len(sys.argv) != 2:
         print(__doc__, file=sys.stderr)
         return 2
-    count, broken = broken_links(pathlib.Path(sys.argv[1]), *sys.argv[2:])
+    count, broken = broken_links(pathlib.Path(sys.argv[1]))
     for line in broken:
         print(line, file=sys.stderr)
     print(f"{count} links within the site, {len(broken)} of them broken")

@@ -4,8 +4,10 @@
 
     python3 doc/make_pages.py --programs build/release --to build/doc/source
     python3 doc/make_pages.py --api output/doc
+    python3 doc/make_pages.py --without-api output/doc
 
-The first is for Sphinx; the second is Doxygen's work. scripts/docs.sh calls both.
+The first is for Sphinx; the second is Doxygen's work, or the third removes the links to it.
+scripts/docs.sh calls them.
 """
 
 from __future__ import annotations
@@ -25,6 +27,7 @@ from generate import (
     methods,
     parameters,
     results,
+    run_pages,
     site,
     slides,
     steps,
@@ -69,13 +72,15 @@ def write_pages(arguments: argparse.Namespace) -> None:
     folders = (arguments.programs, arguments.to, arguments.output)
     made = site.Site(*(folder.resolve() for folder in folders))
     gallery = figures.Gallery(made)
+    runs: dict[str, str] = {}
     for name, work in (
-        ("tutorials", lambda: steps.make(made, gallery)),
+        ("runs", lambda: runs.update({} if arguments.short else run_pages.of_tutorials(made))),
+        ("tutorials", lambda: steps.make(made, gallery, runs)),
         ("parameters", lambda: parameters.make(made)),
-        ("figures", lambda: figures.make(made, gallery)),
+        ("figures", lambda: figures.make(made, gallery, runs)),
         ("slides", lambda: slides.make(made, gallery)),
         ("examples", lambda: examples.make(made)),
-        ("methods", lambda: methods.make(made, gallery)),
+        ("methods", lambda: methods.make(made)),
         ("results", lambda: results.make(made)),
         ("pages by hand", lambda: how_to.make(made)),
         ("cheat sheet", lambda: make_cheat_sheet.write(
@@ -105,11 +110,17 @@ def main() -> int:
     parser.add_argument("--programs", type=pathlib.Path, default=site.ROOT / "build/release")
     parser.add_argument("--to", type=pathlib.Path, help="where the pages go")
     parser.add_argument("--output", type=pathlib.Path, default=site.ROOT / "output")
+    parser.add_argument("--short", action="store_true", help="leave out the runs of tutorials")
     parser.add_argument("--api", type=pathlib.Path, help="where the API goes: into api/ of this")
+    parser.add_argument(
+        "--without-api", type=pathlib.Path, help="the site in which links to the API become words"
+    )
     arguments = parser.parse_args()
     try:
         if arguments.to:
             write_pages(arguments)
+        if arguments.without_api:
+            api.remove_links(arguments.without_api)
         return 1 if arguments.api and write_api(arguments.api) else 0
     except site.SiteError as error:
         print(error, file=sys.stderr)

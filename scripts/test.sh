@@ -6,7 +6,7 @@
 #                     on 2 cores): the debug build with all assertions of deal.II,
 #                     and the release build, which also compares with stored outputs
 #                     and makes the short ones of the figures, whose numbers are
-#                     checked; the site without the API
+#                     checked; the site in short
 #   test.sh --quick   while you work: the release build, unit tests, stored outputs,
 #                     bad input, files (meant to take 8 minutes with the build), format,
 #                     and clang-tidy on the C++ that has changed (20 s of a core a file)
@@ -42,8 +42,7 @@ build release
 # of this one.
 OPENBLAS_CORETYPE=Nehalem ctest --test-dir build/debug --output-on-failure -j 2
 ctest --test-dir build/release --output-on-failure -j 2
-# With the pictures that there are.
-bash scripts/docs.sh --without-api --build-dir build/release
+bash scripts/docs.sh --short --build-dir build/release
 
 if [ "${1:-}" = "--full" ]; then
   # Each three choices, and not only each two, in integration/covering_array.

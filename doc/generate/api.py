@@ -44,6 +44,15 @@ def make(output: pathlib.Path, work: pathlib.Path) -> list[str]:
     return [line for line in found.splitlines() if line.strip()]
 
 
+def remove_links(folder: pathlib.Path) -> None:
+    """Keep the words of links to the API, in a site without it."""
+    for path in folder.rglob("*.html"):
+        content = path.read_text(encoding="utf-8")
+        if f"{FOLDER}/" in content:
+            link = rf'<a [^>]*href="(?:\.\./)*{FOLDER}/[^"]*"[^>]*>(.*?)</a>'
+            path.write_text(re.sub(link, r"\1", content, flags=re.DOTALL), encoding="utf-8")
+
+
 def _mend_links(folder: pathlib.Path) -> None:
     """Doxygen 1.9 leads to lists of private classes that it does not write."""
     for path in folder.glob("*.html"):

@@ -273,8 +273,8 @@ def cards(items: Sequence[tuple[str, str | None, str]]) -> str:
     return "\n".join(lines)
 
 
-def make(made: site.Site, gallery: Gallery) -> None:
-    """Write a page for each group of figures, and the overview."""
+def make(made: site.Site, gallery: Gallery, runs: dict[str, str]) -> None:
+    """Write a page for each group of figures, and the overview. `runs`: as of `steps.make`."""
     n_made = sum(
         gallery.is_made(entry) and not gallery.is_kept(entry) for entry in gallery.entries
     )
@@ -300,6 +300,10 @@ def make(made: site.Site, gallery: Gallery) -> None:
             text.anchor(site.page_link(page, f"steps/{name}"), f"<code>{name}</code>")
             for name in programs
             if name in site.steps()
+        ] + [
+            text.anchor(site.link(page, runs[name]), "a run to turn and play")
+            for name in programs
+            if name in runs
         ]
         verdicts = ", ".join(f"*{name}*: {what}" for name, what in VERDICTS.items())
         made.page(

@@ -96,6 +96,24 @@ def hand_written(name: str) -> str:
     return text.with_links(content, name, folder)
 
 
+def without_answers(course: str) -> str:
+    """The course for students, who are to find the answers themselves."""
+    before, mark, units = course.partition("\n## Unit 1")
+    table = before[before.index("Each run leaves its table") :]
+    units = re.sub(
+        r"^<details><summary>Answers</summary>.*?^</details>\n", "", mark + units, flags=re.DOTALL | re.M
+    )
+    return "\n\n".join(
+        [
+            "---\norphan: true\n---\n# Four units on contact",
+            "Commands are run from the top folder of the source. Each unit ends with a sheet to hand in: "
+            "copy it into a file.",
+            table.strip(),
+            units.strip(),
+        ]
+    )
+
+
 def notebooks() -> list[pathlib.Path]:
     """The notebooks of doc/notebooks."""
     return sorted((site.DOC / "notebooks").glob("*.ipynb"))
@@ -111,6 +129,8 @@ def make(made: site.Site) -> None:
         if page == "how_to/python":
             content += "\n\n" + python_reference()
         made.page(page, content)
+        if page == "teaching/course":
+            made.page("teaching/course_for_students", without_answers(content))
     own_step = site.ROOT / "examples" / "own_step" / "own_step.cc"
     shutil.copyfile(own_step, made.target / own_step.name)
     index = hand_written("how_to/index")

@@ -22,9 +22,9 @@ import subprocess
 import sys
 from dataclasses import dataclass
 
-from ricochet import Run, curves, prm
+from ricochet import Run, curves
 
-from . import api, figures, parameters, references, site, text
+from . import api, parameters, references, run_pages, site, text
 
 FOLDER = "methods"
 
@@ -115,25 +115,6 @@ def _list(words: str) -> list[str]:
 # Energy curves --------------------------------------------------------------
 
 
-def ball_runs(gallery: figures.Gallery) -> dict[str, Run]:
-    """The runs of the elastic ball that are there, by their treatment, with steps of 1 ms."""
-    found: dict[str, Run] = {}
-    for entry in gallery.of_program("elastic_ball"):
-        for run in entry.figure.runs:
-            folder = gallery.site.output / run.folder.relative_to(site.ROOT / "output")
-            if not (folder / run.table).is_file() or not (folder / "parameters.prm").is_file():
-                continue
-            values = prm.read(folder / "parameters.prm").values
-            name = values.get("Contact/Treatment", "")
-            elastic = float(values.get("Material/Viscosity eta", 0)) == 0
-            no_friction = float(values.get("Contact/Friction coefficient", 0)) == 0
-            step = float(values.get("Time/Time step", 0))
-            consistent = values.get("Time/Mass") == "consistent"
-            if name not in found and elastic and no_friction and consistent and step == 1e-3:
-                found[name] = Run(folder)
-    return found
-
-
 def _curve(made: site.Site, page: str, name: str, run: Run) -> str:
     """Draw the energies of a run; returns HTML."""
     file = f"{FOLDER}/energy_{text.slug(name)}.png"
@@ -177,16 +158,13 @@ def _page(made: site.Site, method: Method, runs: dict[str, Run]) -> str:
         rows.append(("source", "<br>".join(_source(method, file) for file in method.source)))
     rows.append(("keeps", text.escape(method.conserves)))
 
-    def curve(name: str) -> str:
-        if name not in runs:
-            return ""
-        return _curve(made, method.page, name, runs[name])
-
     body = references.with_references(method.body, method.page)
     body = text.with_includes(body, method.page)
     body = text.with_pictures(body, method.page, posixpath.dirname(method.page))
     body = text.with_headers(body, method.page)
-    body = _CURVE.sub(lambda match: curve(match[1]), body)
+    body = _CURVE.sub(
+        lambda match: _curve(made, method.page, match[1], runs[match[1]]), body
+    )
     return "\n\n".join([f"# {method.title}", text.facts(row for row in rows if row[1]), body])
 
 
@@ -224,14 +202,15 @@ def _introduction() -> str:
     return content.partition("\n## ")[0]
 
 
-def make(made: site.Site, gallery: figures.Gallery) -> None:
+def make(made: site.Site) -> None:
     """Write the pages of the methods, and their tables."""
     found = pages(choices(made.programs))
     _draw()
     for path in (site.DOC / "methods").glob("**/*"):
         if path.suffix in (".svg", ".png", ".gif"):
             made.copy(path, path.relative_to(site.DOC).as_posix())
-    runs = ball_runs(gallery) if found else {}
+    treatments = [name for method in found for name in _CURVE.findall(method.body)]
+    runs = run_pages.of_treatments(made, treatments)
     for method in found:
         made.page(method.page, _page(made, method, runs))
 

@@ -51,10 +51,15 @@ class Site:
     programs: pathlib.Path
     #: The folder with the pages, for Sphinx.
     target: pathlib.Path
-    #: The folder with runs and pictures: output/ of a checkout.
+    #: The folder with pictures of figures: output/ of a checkout.
     output: pathlib.Path
     #: The pages that were written: "parameters/bar_sd".
     pages: list[str] = field(default_factory=list)
+
+    @property
+    def runs(self) -> pathlib.Path:
+        """The folder with runs of the site itself; those that are complete are not made again."""
+        return self.target.parent / "runs"
 
     def page(self, name: str, text: str) -> None:
         """Write the page `name`, which is Markdown."""

@@ -8,7 +8,7 @@ import pathlib
 import re
 from dataclasses import dataclass, field
 
-from . import figures, run_pages, site, text
+from . import figures, site, text
 
 FOLDER = "steps"
 
@@ -126,8 +126,8 @@ def _own_text(step: Step) -> tuple[str, str]:
     )
 
 
-def page_text(step: Step, gallery: figures.Gallery, made: site.Site) -> str:
-    """The whole page of a step."""
+def page_text(step: Step, gallery: figures.Gallery, run: str | None) -> str:
+    """The whole page of a step. `run`: the name of the page with a run of it."""
     results, exercises = _own_text(step)
     shown = [results]
     for figure in gallery.of_program(step.name):
@@ -160,7 +160,7 @@ def page_text(step: Step, gallery: figures.Gallery, made: site.Site) -> str:
             else ("parameter files", "none; its defaults are the case"),
             *(
                 [("to turn and play", text.anchor(site.link(step.page, run), "a run in the browser"))]
-                if (run := run_pages.write(made, step.name))
+                if run
                 else []
             ),
         ]
@@ -180,12 +180,12 @@ def page_text(step: Step, gallery: figures.Gallery, made: site.Site) -> str:
     return text.with_headers(page, step.page)
 
 
-def make(made: site.Site, gallery: figures.Gallery) -> None:
-    """Write the pages of all programs, and their list."""
+def make(made: site.Site, gallery: figures.Gallery, runs: dict[str, str]) -> None:
+    """Write the pages of all programs, and their list. `runs`: names of pages with runs of them."""
     names = site.steps()
     for name in names:
         step = read(name)
-        made.page(step.page, page_text(step, gallery, made))
+        made.page(step.page, page_text(step, gallery, runs.get(name)))
     rows = [
         (
             text.anchor(f"{name}.html", f"<code>{name}</code>"),

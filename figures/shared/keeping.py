@@ -17,7 +17,7 @@ FOLDER = CHECKOUT / "figures" / "kept"
 LARGEST = 40_000
 
 #: Widths in pixels and numbers of colours of small pictures: the first that is small enough is taken.
-SIZES = [(1000, 64), (1000, 32), (820, 48), (820, 24), (680, 32), (680, 16), (520, 16)]
+SIZES = [(1000, 64), (1000, 32), (820, 48), (820, 24), (680, 32), (680, 16), (520, 16), (520, 8), (400, 8)]
 
 #: The columns of `made.csv`.
 MADE = ("figure", "date", "commit")

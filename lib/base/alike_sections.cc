@@ -83,6 +83,10 @@ namespace Ricochet
 
     ParameterText result;
     result.sections = text.sections;
+    // Settings of models come first, so that a mistake in them is found there.
+    for (const Assignment &assignment : text.assignments)
+      if (models.count(assignment.path[0]) == 0)
+        result.assignments.push_back(assignment);
     // Settings of a section itself follow, and count.
     for (const auto &entry : models)
       {
@@ -95,7 +99,7 @@ namespace Ricochet
             }
       }
     for (const Assignment &assignment : text.assignments)
-      if (!is_like(assignment))
+      if (models.count(assignment.path[0]) > 0 && !is_like(assignment))
         result.assignments.push_back(assignment);
     return result;
   }

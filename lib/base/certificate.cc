@@ -66,18 +66,19 @@ namespace Ricochet
         // Works that do not exist.
         if (bar.values[0] == 0. && bar.values[2] == 0.)
           continue;
-        char text[300], order[20] = "";
+        char text[300], order[40] = "";
         if (std::isfinite(bar.order))
-          std::snprintf(order, sizeof(order), ", order %.2g", bar.order);
+          std::snprintf(order, sizeof(order), "order %.2g, ", bar.order);
         if (bar.why_none.empty())
           std::snprintf(text,
                         sizeof(text),
-                        "  %-45s %13.6g +- %.2g %s%s",
+                        "  %-45s %13.6g +- %.2g %s (%sfinest %.6g)",
                         bar.name.c_str(),
                         bar.values[0],
                         bar.bar,
                         bar.unit.c_str(),
-                        order);
+                        order,
+                        bar.values[2]);
         else
           std::snprintf(text,
                         sizeof(text),

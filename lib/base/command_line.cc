@@ -243,7 +243,7 @@ namespace Ricochet
     {
       const std::string &name = program.name;
       return {{name + " mine.prm", "run it"},
-              {name + " mine.prm --validate", "describe it without a run"},
+              {name + " mine.prm --validate", "check it without a run"},
               {name + " mine.prm --set \"Time/Time step=0.001\"",
                "with another step"},
               {name + " mine.prm --certify", "with error bars"},

@@ -38,8 +38,10 @@ namespace Ricochet
       const auto   spike  = [&](const unsigned int k) {
         return std::abs(levels[k]->value - levels[k]->of_means);
       };
-      if (change > round_off)
-        result.order = std::log2(std::abs(d1) / std::abs(d2));
+      // Values that alternate have none, and changes that are too small to be known.
+      const double least_change = std::max(levels[0]->resolution, round_off);
+      if (d1 * d2 > 0. && std::min(std::abs(d1), std::abs(d2)) > least_change)
+        result.order = std::log2(d1 / d2);
       // Waves with fronts have no high order, whatever two changes say by chance.
       const double ratio = std::min(std::abs(d1) / std::abs(d2), 64.);
       if (spike(2) > std::max(.5 * spike(0), 1e-3 * std::abs(values[2])))

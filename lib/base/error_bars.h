@@ -31,7 +31,7 @@ namespace Ricochet
     std::string name, unit;
     /// With cells and steps as they are, halved, and halved again.
     std::array<double, 3> values;
-    /// Observed order of convergence; not a number where values are equal.
+    /// Observed order of convergence; not a number where values alternate, or hardly change.
     double order = std::numeric_limits<double>::quiet_NaN();
     /// Not a number where there is none, for the reason #why_none.
     double      bar      = std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <base/exceptions.h>
 #include <base/own_parameter.h>
+#include <base/parameter_file.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/patterns.h>
@@ -24,6 +26,18 @@ namespace Ricochet
 
 
   void
+  OwnParameter::check_bounds(const double value) const
+  {
+    if (!(value >= smallest && value <= largest))
+      throw InputError("The default of '" + name + "', a parameter of " +
+                       (owner.empty() ? "a law" : owner) + ", is " +
+                       to_text(value) + ", which is beyond its bounds, " +
+                       to_text(smallest) + " and " + to_text(largest) + ".");
+  }
+
+
+
+  void
   unite(OwnParameters &all, const OwnParameters &more)
   {
     for (const OwnParameter &parameter : more)
@@ -34,14 +48,14 @@ namespace Ricochet
           });
         if (same == all.end())
           all.push_back(parameter);
-        else
-          AssertThrow(same->documentation() == parameter.documentation() &&
-                        same->default_value == parameter.default_value,
-                      ExcMessage("The parameter '" + parameter.name +
-                                 "' is declared twice, with different texts or "
-                                 "defaults: for " +
-                                 same->owner + " and for " + parameter.owner +
-                                 "."));
+        else if (same->documentation() != parameter.documentation() ||
+                 same->default_value != parameter.default_value ||
+                 same->smallest != parameter.smallest ||
+                 same->largest != parameter.largest)
+          throw InputError("The parameter '" + parameter.name +
+                           "' is declared twice, with different texts, "
+                           "defaults or bounds: for " +
+                           same->owner + " and for " + parameter.owner + ".");
       }
   }
 
@@ -111,6 +125,8 @@ namespace Ricochet
                                 pattern);
         };
         const double given = value;
+        if (!is_missing && parameter.choices.empty())
+          parameter.check_bounds(given);
         if (!parameter.choices.empty())
           add(Patterns::Selection(parameter.choices));
         else

@@ -116,6 +116,10 @@ namespace Ricochet
       return what + (unit.empty() ? "" : " (" + unit + ")") + more;
     }
 
+    /// @throws InputError when a default is beyond the bounds of users' values.
+    void
+    check_bounds(const double value) const;
+
     std::string name;
     double      default_value;
     std::string what, unit, more, choices, owner;
@@ -128,7 +132,7 @@ namespace Ricochet
   using OwnParameters = std::vector<OwnParameter>;
 
   /// Add to @p all those of @p more that it does not have.
-  /// @throws dealii::ExcMessage when two of one name say different things.
+  /// @throws InputError when two of one name say different things.
   void
   unite(OwnParameters &all, const OwnParameters &more);
 

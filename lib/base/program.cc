@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -106,8 +107,9 @@ namespace Ricochet
       // Every phase is checked before any time is spent.
       std::unique_ptr<ProgramInput> checked;
       std::vector<std::string>      notes;
-      std::string answer, output_dir = command_line.output_dir;
-      JsonWriter  json_answer;
+      std::string   answer, output_dir = command_line.output_dir;
+      std::uint32_t bodies_of_all = 0;
+      JsonWriter    json_answer;
       json_answer.add("valid", true);
       json_answer.begin_object("phases");
       for (unsigned int k = 0; k < phases.size(); ++k)
@@ -145,6 +147,18 @@ namespace Ricochet
               return;
             }
           notes = checked->validate(program);
+          if (phases.size() > 1)
+            {
+              const std::uint32_t bodies = program.checksum_of_bodies();
+              if (k == 0)
+                bodies_of_all = bodies;
+              if (bodies != bodies_of_all)
+                throw InputError(
+                  "its bodies have another mesh or place than those of the first phase, "
+                  "while it goes on from where the phase before it ends. Set what makes "
+                  "or moves a body (Shape, Size, Translation, ...) outside of the "
+                  "phases; a Condition moves it within one.");
+            }
           if (phases.size() > 1 &&
               checked->parameters.get({"Output"}, "Checkpoint every") == "0")
             throw InputError(

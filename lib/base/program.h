@@ -11,6 +11,7 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/template_constraints.h>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -64,6 +65,9 @@ namespace Ricochet
     /// Called before #validate with the folder of a run that is to be resumed, where meshes
     /// may be kept; may be left out.
     std::function<void(const std::string &folder)> take_meshes = {};
+    /// The checksum of the bodies, after #validate, which is to be the same in all phases; left out by
+    /// programs without phases.
+    std::function<std::uint32_t()> checksum_of_bodies = {};
   };
 
   /**

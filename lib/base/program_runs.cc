@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/certificate.h>
+#include <base/exceptions.h>
 #include <base/files.h>
 #include <base/json_writer.h>
 #include <base/last_meeting.h>
@@ -99,7 +100,17 @@ namespace Ricochet
         folder.log("certificate: run " + std::to_string(k) + " of " +
                    std::to_string(texts.size() - 1) +
                    ", in the folder certificate/" + name);
-        run(input, {}, note_of_ranks, finer);
+        try
+          {
+            run(input, {}, note_of_ranks, finer);
+          }
+        catch (const StoppedBySignal &stop)
+          {
+            throw StoppedBySignal(
+              stop.signal,
+              "The run itself is complete, its certificate is not: the same command "
+              "makes all runs again.");
+          }
         for (const std::string &line : finer.what_is_open())
           open.push_back("certificate, " + name + ": " + line);
         all_results.push_back(finer.results);

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -62,8 +64,30 @@ namespace Ricochet
         {"J", {2, 1, -2}},
         {"Pa", {-1, 1, -2}},
         {"kg m/s", {1, 1, -1}},
-        {"kg m^2/s", {2, 1, -1}}};
+        {"kg m^2/s", {2, 1, -1}},
+        {"kg/m^3", {-3, 1, 0}}};
       return table;
+    }
+
+    /// The factor to the SI; not a number for a unit that is not known.
+    double
+    factor_of(const std::string &unit)
+    {
+      static const std::map<std::string, double> factors = {{"m", 1.},
+                                                            {"km", 1e3},
+                                                            {"cm", 1e-2},
+                                                            {"mm", 1e-3},
+                                                            {"um", 1e-6},
+                                                            {"kg", 1.},
+                                                            {"t", 1e3},
+                                                            {"g", 1e-3},
+                                                            {"mg", 1e-6},
+                                                            {"s", 1.},
+                                                            {"ms", 1e-3},
+                                                            {"us", 1e-6}};
+      const auto                                 found   = factors.find(unit);
+      return found == factors.end() ? std::numeric_limits<double>::quiet_NaN()
+                                    : found->second;
     }
 
     /// Systems whose units of force, pressure and energy have names.
@@ -92,7 +116,7 @@ namespace Ricochet
   std::string
   Units::name(const std::string &si_unit) const
   {
-    if (length == "m" && mass == "kg" && time == "s")
+    if (are_si())
       return si_unit;
     const auto system = named().find({length, mass, time});
     if (system != named().end())
@@ -124,6 +148,24 @@ namespace Ricochet
       return above;
     return (above.empty() ? "1" : above) + "/" +
       (n_below > 1 ? "(" + below + ")" : below);
+  }
+
+
+
+  bool
+  Units::are_si() const
+  {
+    return length == "m" && mass == "kg" && time == "s";
+  }
+
+
+
+  double
+  Units::in_si(const double value, const std::string &si_unit) const
+  {
+    const Dimension &d = dimensions().at(si_unit);
+    return value * std::pow(factor_of(length), d.length) *
+      std::pow(factor_of(mass), d.mass) * std::pow(factor_of(time), d.time);
   }
 
 

@@ -25,6 +25,15 @@ namespace Ricochet
     std::string
     name(const std::string &si_unit) const;
 
+    /// Whether they are m, kg and s.
+    bool
+    are_si() const;
+
+    /// A number in these units, of the quantity that has @p si_unit in the SI, in that; not a number
+    /// where one of these units is unknown.
+    double
+    in_si(const double value, const std::string &si_unit) const;
+
     /// A number with its unit, for people: "0.5 mm".
     std::string
     text(const double value, const std::string &si_unit) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
 #include <base/parameter_file.h>
+#include <materials/law_check.h>
 #include <materials/material_parameters.h>
 #include <materials/material_table.h>
 #include <time_integration/scheme_traits.h>
@@ -141,6 +142,8 @@ namespace Ricochet
     values.check(all_parameters());
     if (const auto &check = material_table()[law].check)
       check(values, state(dim));
+    if (const auto &make_law = material_table()[law].make)
+      check_law(*make_law(values), law);
     if (viscosity == "none" && viscosity_eta > 0.)
       throw InputError(section + "/Viscosity eta is " + to_text(viscosity_eta) +
                        " and " + section +
@@ -180,8 +183,8 @@ namespace Ricochet
 
   Scales
   MaterialParameters::scales(const double       cell_diameter,
-                             const double       cell_depth,
-                             const unsigned int degree) const
+                             const unsigned int degree,
+                             const double       cell_depth) const
   {
     const LinearElastic elastic      = at_small_strains();
     const double        wave_modulus = elastic.lambda + 2. * elastic.mu;
@@ -190,7 +193,7 @@ namespace Ricochet
             wave_modulus,
             density,
             cell_diameter,
-            cell_depth,
+            cell_depth > 0. ? cell_depth : cell_diameter,
             degree};
   }
 

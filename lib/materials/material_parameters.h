@@ -72,11 +72,12 @@ namespace Ricochet
     at_small_strains() const;
 
     /// The magnitudes by which the values of contact are set that the user has not given.
-    /// @param cell_diameter, cell_depth means of the cells at the surface (m), see Scales.
+    /// @param cell_diameter and @param cell_depth are means of the cells at the surface (m), see
+    /// Scales; the second is the first where it is 0.
     Scales
     scales(const double       cell_diameter,
-           const double       cell_depth,
-           const unsigned int degree) const;
+           const unsigned int degree,
+           const double       cell_depth = 0.) const;
 
   private:
     /// Parameters of all laws.

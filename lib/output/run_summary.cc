@@ -106,21 +106,28 @@ namespace Ricochet
                           const unsigned int row_before,
                           const unsigned int row_after) const
   {
+    double     scale    = 0.;
     const auto velocity = [&](const unsigned int row) {
       dealii::Tensor<1, 3> result;
       for (unsigned int b = 0; b < rebound.bodies.size(); ++b)
-        for (unsigned int c = 0; c < 3; ++c)
-          result[c] += (b == 0 ? 1. : -1.) *
-            ledger.value(ledger.rows()[row],
-                         std::string("momentum_") + "xyz"[c] +
-                           rebound.bodies[b].suffix) /
-            rebound.bodies[b].mass;
+        {
+          dealii::Tensor<1, 3> own;
+          for (unsigned int c = 0; c < 3; ++c)
+            own[c] = ledger.value(ledger.rows()[row],
+                                  std::string("momentum_") + "xyz"[c] +
+                                    rebound.bodies[b].suffix) /
+              rebound.bodies[b].mass;
+          result += (b == 0 ? 1. : -1.) * own;
+          scale = std::max(scale, own.norm());
+        }
       return result;
     };
     const auto   before = velocity(row_before), after = velocity(row_after);
     const auto   change = after - before;
     const double coming = -(before * change);
-    return coming > 0. ? (after * change) / coming : nothing;
+    // Bodies with the same velocity do not come, except for round-off.
+    const double round_off = 1e-10 * scale * change.norm();
+    return coming > round_off ? (after * change) / coming : nothing;
   }
 
 

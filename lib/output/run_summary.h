@@ -31,8 +31,8 @@ namespace Ricochet
       double final_time = 0., time_step = 0.;
       /// Whether a condition may end the run before.
       bool may_end_earlier = false;
-      /// Wall time of the steps of this start of the program (s), and the time of the
-      /// processors of all ranks.
+      /// Wall time of the steps of this start of the program (s), and the time that the
+      /// processors of all ranks have spent in them.
       double       wall_seconds = 0., processor_seconds = 0.;
       unsigned int n_ranks = 1;
       std::string  mesh_checksum, linear_solver;

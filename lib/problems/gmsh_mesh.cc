@@ -658,13 +658,10 @@ namespace Ricochet
         }
       gmsh::vectorpair groups;
       gmsh::model::getPhysicalGroups(groups, dim);
+      // Solids of a part from CAD can be taken one by one, by their numbers.
       if (groups.empty())
-        {
-          std::vector<int> tags;
-          for (const auto &entity : bodies)
-            tags.push_back(entity.second);
-          gmsh::model::addPhysicalGroup(dim, tags);
-        }
+        for (const auto &entity : bodies)
+          gmsh::model::addPhysicalGroup(dim, {entity.second}, entity.second);
       gmsh::model::getPhysicalGroups(groups, dim - 1);
       gmsh::vectorpair boundaries;
       gmsh::model::getBoundary(bodies,

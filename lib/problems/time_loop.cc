@@ -914,7 +914,7 @@ namespace Ricochet
                                const unsigned int step,
                                const Sums        &sums_of_state,
                                const std::string &known_problem,
-                               const double       wall_seconds)
+                               const Timer       &stopwatch)
   {
     // The checkpoint first: the rest can be made again from it.
     std::string problems;
@@ -931,7 +931,7 @@ namespace Ricochet
     };
     careful([&]() { save(state, step, sums_of_state); });
     careful([&]() { ledger.write_hdf5(); });
-    careful([&]() { write_summary("failed", known_problem, wall_seconds); });
+    careful([&]() { write_summary("failed", known_problem, stopwatch); });
     if (write_fields && parameters.wants_fields())
       careful([&]() { write_fields(state, step); });
     return problems;
@@ -1118,22 +1118,10 @@ namespace Ricochet
 
 
 
-  namespace
-  {
-    /// Time of all processors that this process has taken (s).
-    double
-    processor_seconds()
-    {
-      return std::clock() / static_cast<double>(CLOCKS_PER_SEC);
-    }
-  } // namespace
-
-
-
   RunSummary::Circumstances
   TimeLoop::circumstances(const std::string &state,
                           const std::string &reason,
-                          const double       wall_seconds) const
+                          const Timer       &stopwatch) const
   {
     const std::uint64_t mesh_checksum = system.unknowns.mesh_checksum();
     char                text[24];
@@ -1146,8 +1134,8 @@ namespace Ricochet
             parameters.final_time,
             parameters.time_step,
             until.exists(),
-            wall_seconds,
-            Utilities::MPI::sum(processor_seconds(), folder.communicator),
+            stopwatch.wall_time(),
+            Utilities::MPI::sum(stopwatch.cpu_time(), folder.communicator),
             Utilities::MPI::n_mpi_processes(folder.communicator),
             text,
             system.linear_solver_description(),
@@ -1159,9 +1147,9 @@ namespace Ricochet
   void
   TimeLoop::write_summary(const std::string &state,
                           const std::string &reason,
-                          const double       wall_seconds)
+                          const Timer       &stopwatch)
   {
-    const auto       how     = circumstances(state, reason, wall_seconds);
+    const auto       how     = circumstances(state, reason, stopwatch);
     const RunSummary results = summary();
     folder.results           = results.results(how);
     folder.end_time = exact_text(ledger.value(ledger.rows().back(), "time"));
@@ -1331,12 +1319,9 @@ namespace Ricochet
           throw;
         // A step that was not completed leaves no trace.
         const std::string text = failure.what();
-        throw ComputationError(text +
-                               save_what_there_is(state,
-                                                  step,
-                                                  complete_sums,
-                                                  text,
-                                                  stopwatch.wall_time()));
+        throw ComputationError(
+          text +
+          save_what_there_is(state, step, complete_sums, text, stopwatch));
       }
     catch (const std::exception &failure)
       {
@@ -1347,7 +1332,7 @@ namespace Ricochet
                              step,
                              complete_sums,
                              failure.what(),
-                             stopwatch.wall_time());
+                             stopwatch);
         throw;
       }
     ledger.write_hdf5();
@@ -1364,9 +1349,7 @@ namespace Ricochet
         std::to_string(step) + " of " + std::to_string(n_steps) +
         ", which is complete: t = " + units.text(state.time, "s") +
         ". With --resume the run goes on from there.";
-    write_summary(reason.empty() ? "complete" : "stopped",
-                  reason,
-                  stopwatch.wall_time());
+    write_summary(reason.empty() ? "complete" : "stopped", reason, stopwatch);
     if (!reason.empty())
       throw StoppedBySignal(signal, reason);
     return state;

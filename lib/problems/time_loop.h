@@ -286,16 +286,16 @@ namespace Ricochet
     summary() const;
 
     RunSummary::Circumstances
-    circumstances(const std::string &state,
-                  const std::string &reason,
-                  const double       wall_seconds) const;
+    circumstances(const std::string   &state,
+                  const std::string   &reason,
+                  const dealii::Timer &stopwatch) const;
 
     /// Write summary.json, see RunSummary. @param state "complete", "stopped" or "failed", and
     /// the @p reason. @throws ComputationError Collective.
     void
-    write_summary(const std::string &state,
-                  const std::string &reason,
-                  const double       wall_seconds);
+    write_summary(const std::string   &state,
+                  const std::string   &reason,
+                  const dealii::Timer &stopwatch);
 
     /// How the steps were solved, in words; empty where nothing is to say.
     std::string
@@ -361,11 +361,11 @@ namespace Ricochet
     /// on a line of its own, for each file that could not be written and is not
     /// part of @p known_problem.
     std::string
-    save_what_there_is(const State       &state,
-                       const unsigned int step,
-                       const Sums        &sums_of_state,
-                       const std::string &known_problem,
-                       const double       wall_seconds);
+    save_what_there_is(const State         &state,
+                       const unsigned int   step,
+                       const Sums          &sums_of_state,
+                       const std::string   &known_problem,
+                       const dealii::Timer &stopwatch);
 
     // For checkpoints, known when first needed.
     std::optional<CheckpointMesh> mesh;

@@ -193,6 +193,11 @@ namespace Ricochet
                {"Radius", "Inner radius", "Nodes around", "Nodes across"},
                {{"outer", 0}, {"inner", 1}},
                [](const P &p, Cells &cells, Nodes &) {
+                 if (p.inner_radius >= p.radius)
+                   throw InputError(
+                     p.name_of("Inner radius") + " is " +
+                     to_text(p.inner_radius) + ", and has to be smaller than " +
+                     p.name_of("Radius") + ", " + to_text(p.radius) + ".");
                  make_ring(Point<2>(),
                            p.inner_radius,
                            p.radius,
@@ -518,6 +523,10 @@ namespace Ricochet
           unused.push_back(
             {name_of(name), owners + "; " + name_of("Shape") + " is " + shape});
         }
+    if (!file.empty() && !is_geometry(file))
+      unused.push_back(
+        {name_of("Mesh size"),
+         "geometries that Gmsh meshes; " + name_of("File") + " is " + file});
     if (shape == "disk" && !wants_simplices(cells))
       unused.push_back(
         {name_of("Nodes"),
@@ -733,7 +742,8 @@ namespace Ricochet
     FEFaceValues<dim> face_values(*mapping,
                                   *element,
                                   *face_rule,
-                                  update_JxW_values);
+                                  update_JxW_values | update_normal_vectors |
+                                    update_quadrature_points);
     for (const auto &cell : mesh.cells.active_cell_iterators())
       {
         values.reinit(cell);
@@ -748,10 +758,16 @@ namespace Ricochet
           if (cell->face(f)->at_boundary())
             {
               face_values.reinit(cell, f);
+              auto &boundary = mesh.boundaries[cell->face(f)->boundary_id()];
               for (const unsigned int q :
                    face_values.quadrature_point_indices())
-                mesh.boundary_areas[cell->face(f)->boundary_id()] +=
-                  face_values.JxW(q);
+                {
+                  const double area = face_values.JxW(q);
+                  boundary.area += area;
+                  boundary.moment +=
+                    area * Tensor<1, dim>(face_values.quadrature_point(q));
+                  boundary.normal += area * face_values.normal_vector(q);
+                }
             }
       }
   }

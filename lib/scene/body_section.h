@@ -36,8 +36,15 @@ namespace Ricochet
       dealii::Tensor<1, dim> moment;
     };
     std::map<dealii::types::material_id, Share> shares;
-    /// Areas by boundary id (m^(dim-1)).
-    std::map<dealii::types::boundary_id, double> boundary_areas;
+    /// The faces with one boundary id.
+    struct Boundary
+    {
+      /// m^(dim-1)
+      double area = 0.;
+      /// Integrals of the position (m^dim) and of the outer normal (m^(dim-1)).
+      dealii::Tensor<1, dim> moment, normal;
+    };
+    std::map<dealii::types::boundary_id, Boundary> boundaries;
   };
 
   /// The default material of a body.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
+#include <base/files.h>
 #include <base/expressions.h>
 #include <base/units.h>
 #include <base/unknown_name.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 
 namespace Ricochet
@@ -291,6 +293,29 @@ namespace Ricochet
 
 
   template <int dim>
+  std::uint32_t
+  Scene<dim>::checksum_of_bodies() const
+  {
+    std::ostringstream bytes;
+    const auto         put = [&](const auto &value) {
+      bytes.write(reinterpret_cast<const char *>(&value), sizeof(value));
+    };
+    for (const auto &mesh : meshes)
+      for (const auto &cell : mesh->cells.active_cell_iterators())
+        {
+          put(cell->material_id());
+          for (const unsigned int v : cell->vertex_indices())
+            for (unsigned int c = 0; c < dim; ++c)
+              put(cell->vertex(v)[c]);
+          for (const auto &face : cell->face_iterators())
+            put(face->boundary_id());
+        }
+    return checksum(bytes.str());
+  }
+
+
+
+  template <int dim>
   void
   Scene<dim>::make_meshes()
   {
@@ -341,8 +366,8 @@ namespace Ricochet
 
         // Numbers of the boundaries are those of the scene from here on.
         std::set<types::boundary_id> own_ids;
-        for (const auto &area : mesh.boundary_areas)
-          own_ids.insert(area.first);
+        for (const auto &boundary : mesh.boundaries)
+          own_ids.insert(boundary.first);
         const auto id = surfaces.add_body(bodies[b].section.name,
                                           own_ids,
                                           mesh.boundary_names);
@@ -350,10 +375,10 @@ namespace Ricochet
           for (const auto &face : cell->face_iterators())
             if (face->at_boundary())
               face->set_boundary_id(id.at(face->boundary_id()));
-        std::map<types::boundary_id, double> areas;
-        for (const auto &[own, area] : mesh.boundary_areas)
-          areas[id.at(own)] = area;
-        mesh.boundary_areas = areas;
+        decltype(mesh.boundaries) boundaries;
+        for (const auto &[own, boundary] : mesh.boundaries)
+          boundaries[id.at(own)] = boundary;
+        mesh.boundaries = boundaries;
         make_parts(b);
       }
     impact.check_size(n_unknowns, dim);
@@ -583,7 +608,7 @@ namespace Ricochet
         for (const unsigned int p : partners)
           {
             const Scales own =
-              parts[p].material.scales(diameter, depth, degree);
+              parts[p].material.scales(diameter, degree, depth);
             if (own.young_modulus < scales.young_modulus)
               scales = own;
           }

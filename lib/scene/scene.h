@@ -10,6 +10,7 @@
 #include <scene/probe_section.h>
 #include <scene/surface_names.h>
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -57,10 +58,24 @@ namespace Ricochet
     void
     run(RunFolder &folder);
 
+    /// Checksum of meshes, places and boundaries of the bodies, after validate().
+    std::uint32_t
+    checksum_of_bodies() const;
+
     /// Folder of a run that is resumed, which has the meshes that Gmsh has made; or empty.
     std::string kept_meshes;
 
   private:
+    /// Cells of one body that are of one material: a part, see Body::part().
+    struct PartOfScene
+    {
+      /// For columns of the ledger.
+      std::string        name;
+      unsigned int       body;
+      MaterialParameters material;
+      double             measure;
+    };
+
     /// The sides of a contact.
     struct Touching
     {
@@ -109,6 +124,10 @@ namespace Ricochet
           const Touching       &touching,
           const bool            redistributed_mass) const;
 
+    /// A doubt whether the numbers of a @p part are in the scene's units; empty without one.
+    std::string
+    note_on_units(const PartOfScene &part, const LinearElastic &elastic) const;
+
     /// The smallest gap at the start (m).
     double
     initial_gap(const ContactSection &contact) const;
@@ -141,16 +160,6 @@ namespace Ricochet
 
     // The handler that the parameters were added to, for computed defaults.
     dealii::ParameterHandler *handler = nullptr;
-
-    /// Cells of one body that are of one material: a part, see Body::part().
-    struct PartOfScene
-    {
-      /// For columns of the ledger.
-      std::string        name;
-      unsigned int       body;
-      MaterialParameters material;
-      double             measure;
-    };
 
     // After validate().
     std::vector<std::unique_ptr<BodyMesh<dim>>> meshes;

@@ -21,12 +21,74 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 // Description of a scene before its run.
 namespace Ricochet
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// For output only.
+    double
+    three_digits(const double number)
+    {
+      char digits[40];
+      std::snprintf(digits, sizeof(digits), "%.3g", number);
+      return std::stod(digits);
+    }
+
+    /// The pieces of a mesh that have no common vertex.
+    template <int dim>
+    unsigned int
+    number_of_pieces(const Triangulation<dim> &mesh)
+    {
+      std::vector<unsigned int> next(mesh.n_vertices());
+      std::iota(next.begin(), next.end(), 0U);
+      const auto root = [&](unsigned int v) {
+        while (next[v] != v)
+          v = next[v] = next[next[v]];
+        return v;
+      };
+      for (const auto &cell : mesh.active_cell_iterators())
+        for (const unsigned int v : cell->vertex_indices())
+          next[root(cell->vertex_index(v))] = root(cell->vertex_index(0));
+      unsigned int n = 0;
+      for (unsigned int v = 0; v < next.size(); ++v)
+        n += next[v] == v && mesh.vertex_used(v);
+      return n;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::string
+  Scene<dim>::note_on_units(const PartOfScene   &part,
+                            const LinearElastic &elastic) const
+  {
+    const Units  units(units_text);
+    const double density = units.in_si(part.material.density, "kg/m^3");
+    // Consistent numbers without a meaning in the SI are common in SI units only.
+    if (!units.are_si() && (density < 1. || density > 3e4))
+      return "the density of '" + part.name + "' is " + to_text(density) +
+        " kg/m^3 in Units = " + units_text + ", in which that of steel is " +
+        to_text(7850. / units.in_si(1., "kg/m^3")) + ".";
+    const double speed =
+      std::sqrt((elastic.lambda + 2. * elastic.mu) / part.material.density);
+    const double across = std::pow(part.measure, 1. / dim) / speed;
+    if (scheme_traits(impact.scheme.name).has_inertia &&
+        across > 100. * impact.time.final_time)
+      return "waves need " + units.text(three_digits(across), "s") +
+        " through '" + part.name + "', and the run ends after " +
+        units.text(impact.time.final_time, "s") +
+        ". Are its density and Young's modulus in consistent units?";
+    return "";
+  }
+
+
 
   template <int dim>
   std::vector<std::string>
@@ -43,6 +105,33 @@ namespace Ricochet
         lines.push_back("note: " + obstacles[i].first.where +
                         ": nothing can touch the obstacle '" +
                         obstacles[i].first.name + "': no contact names it.");
+    std::set<unsigned int> touching_bodies;
+    for (const ContactSection &contact : contacts)
+      {
+        const Touching touching = find_touching(contact);
+        for (const auto &surface : touching.slave)
+          touching_bodies.insert(surface.body);
+        if (touching.obstacles.empty() && !touching.is_self)
+          for (const auto &surface :
+               surfaces.find(contact.against, contact.name_of("Against")))
+            touching_bodies.insert(surface.body);
+      }
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const NamedSection &section = bodies[b].section;
+        if (!contacts.empty() && touching_bodies.count(b) == 0)
+          lines.push_back("note: " + section.where + ": the body '" +
+                          section.name +
+                          "' touches nothing: no contact names it.");
+        const unsigned int n_pieces = number_of_pieces(meshes[b]->cells);
+        if (n_pieces > 1)
+          lines.push_back("note: " + section.where +
+                          ": the mesh of the body '" + section.name + "' has " +
+                          std::to_string(n_pieces) +
+                          " pieces without a common vertex, which move by "
+                          "themselves and pass through each other. A body for "
+                          "each of them (Group) may touch the others.");
+      }
     for (const auto &material : materials)
       if (std::none_of(parts.begin(), parts.end(), [&](const auto &part) {
             return part.material.section == material.first.full_name();
@@ -66,6 +155,9 @@ namespace Ricochet
             to_text(poisson_ratio) +
             "), and cells of degree 1 are much too stiff for that (locking). "
             "Mesh/Degree = 2 helps.");
+        const std::string doubt = note_on_units(part, small);
+        if (!doubt.empty())
+          lines.push_back("note: " + body.section.where + ": " + doubt);
         // The strain of a rotation by 0.1 is 0.5 %.
         const double angle = body.spin.norm() * impact.time.final_time;
         if (material.is_linear() && angle > .1)
@@ -116,7 +208,8 @@ namespace Ricochet
           "one step, so that the largest contact force depends on the "
           "step; impulses and energy do not. ") +
         (may_be_redistributed()
-           ? "With Time/Mass = redistributed it converges."
+           ? "With Time/Mass = redistributed, where the mesh allows that, the "
+             "force remains bounded as steps become shorter."
            : "A law (normal compliance) does not stop them so."));
     return lines;
   }
@@ -268,26 +361,49 @@ namespace Ricochet
 
   namespace
   {
-    /// For output only.
-    double
-    three_digits(const double number)
-    {
-      char digits[40];
-      std::snprintf(digits, sizeof(digits), "%.3g", number);
-      return std::stod(digits);
-    }
-  } // namespace
-
-
-
-  namespace
-  {
     // Files of a description in a folder.
     const std::string mesh_picture     = "setup.vtk",
                       obstacle_picture = "setup_obstacles.vtu",
                       description_file = "setup.txt";
     // The line that identifies them.
     const std::string title = "Meshes of a scene, by Ricochet";
+
+    /// Components in brackets; those below @p round_off are 0.
+    template <int dim>
+    std::string
+    in_brackets(const Tensor<1, dim> &vector, const double round_off)
+    {
+      std::string text;
+      for (unsigned int c = 0; c < dim; ++c)
+        text += (c > 0 ? ", " : "(") +
+          to_text(std::abs(vector[c]) < round_off ? 0. : vector[c]);
+      return text + ")";
+    }
+
+    /// Area, middle and mean normal of a boundary, by which a user knows it.
+    /// @param extent size of the body (m).
+    template <int dim>
+    std::string
+    where_it_is(const typename BodyMesh<dim>::Boundary &boundary,
+                const double                            extent)
+    {
+      std::string text =
+        (dim == 2 ? "length " : "area ") + to_text(boundary.area) + ", middle ";
+      Tensor<1, dim> middle, normal;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          middle[c] = boundary.moment[c] / boundary.area;
+          if (std::abs(middle[c]) > 1e-12 * extent)
+            middle[c] = three_digits(middle[c]);
+          normal[c] =
+            std::round(100. * boundary.normal[c] / boundary.area) / 100.;
+        }
+      text += in_brackets<dim>(middle, 1e-12 * extent);
+      // Surfaces that go around the body have none.
+      if (normal.norm() > .5)
+        text += ", normal " + in_brackets<dim>(normal, .005);
+      return text;
+    }
 
     template <int dim>
     std::string
@@ -353,15 +469,9 @@ namespace Ricochet
              << mesh.cells.n_active_cells() << " cells, "
              << mesh.cells.n_used_vertices() << " vertices, "
              << extents[dim - 2] << ' ' << to_text(measure) << ", mass "
-             << units.text(mass, "kg") << ", middle (";
-        // Values of the size of round-off are set to zero.
+             << units.text(mass, "kg") << ", middle ";
         const double extent = std::pow(measure, 1. / dim);
-        for (unsigned int c = 0; c < dim; ++c)
-          text << (c > 0 ? ", " : "")
-               << to_text(std::abs(centres[b][c]) < 1e-12 * extent
-                            ? 0.
-                            : centres[b][c]);
-        text << ")\n";
+        text << in_brackets<dim>(centres[b], 1e-12 * extent) << '\n';
         // Ratio of time steps to cells.
         double smallest = std::numeric_limits<double>::max(), fastest = 0.;
         for (const auto &cell : mesh.cells.active_cell_iterators())
@@ -389,8 +499,7 @@ namespace Ricochet
              surfaces.find(bodies[b].section.name, "description"))
           for (const auto id : surface.ids)
             text << "  boundary " << surfaces.name_of(id) << ": "
-                 << (dim == 2 ? "length " : "area ")
-                 << to_text(mesh.boundary_areas.at(id))
+                 << where_it_is<dim>(mesh.boundaries.at(id), extent)
                  << (folder.empty()
                        ? ""
                        : ", number " + std::to_string(id) + " in setup.vtk")

@@ -3,16 +3,18 @@
 
 The case is a parameter file that names its program (`set Program = NAME`). Methods are all
 combinations of the treatments and schemes that are given, and of the values of other parameters
-(--vary); without them that of the file. A name
-that the program does not know ends the command before any run; a combination that it refuses is
-in the table with the reason. The table is printed, and FOLDER, without -o
+(--vary); without them that of the file. A name that the program does not know ends the command
+before any run, and so does a parameter that two options choose; a combination that the program
+refuses is in the table with the reason. The table is printed, and FOLDER, without -o
 output/compare/CASE, has it as index.html with figures, and as table.csv.
 
 The columns:
   energy lost          (first energy + work from outside - last energy) / first energy, or over
                        the largest energy of bodies that begin at rest
   to contact, ...      the parts of it
-  restitution          - (velocity after) / (velocity before), along the normal of contact
+  restitution          - (velocity after) / (velocity before), along the normal of contact; of
+                       scenes that of summary.json, along the change of the relative velocity,
+                       for each contact that has one
   largest force        of all contacts together (their sum at a time)
   largest penetration  of any contact
   contact lasts        all steps at whose end there is force
@@ -24,14 +26,20 @@ Where --vary gives three or more numbers, the last three of which have one ratio
 of each quantity follows: "none" where the values do not converge in one direction.
 
 With --impact-positions the initial gap is shifted so that the impact falls at N places evenly
-spread over a time step, as this position changes the results of a method. A number is then the
-mean, and after "±" stands half the distance from the smallest to the largest. Figures show the run
-whose impact is nearest to the middle of a step, and the range of all of them.
+spread over a time step, as this position changes the results of a method. The step is that of the
+row, also where --vary changes it: for each combination of varied values the impact is found by one
+more run. A number is then the mean, and after "±" stands half the distance from the smallest to the
+largest. Figures show the run whose impact is nearest to the middle of a step, and the range of all
+of them.
+
+In a file with phases --treatments and --schemes are those of the phases that are not static; static
+ones keep what the file sets. --set and --vary reach all phases, by "Phase NAME/Section/Name" one.
 """
 
 from __future__ import annotations
 
 import argparse
+import concurrent.futures
 import itertools
 import os
 import pathlib
@@ -41,15 +49,16 @@ from dataclasses import dataclass
 
 from . import measures, prm
 from .comparison import Comparison, Method, print_table, write_csv
-from .errors import BadParameterFile, ProgramError, Refused, RicochetError
+from .errors import ProgramError, Refused, RicochetError
 from .names import nearest
 from .programs import (
     Outcome,
     Task,
     check_many,
+    check_name,
     choices_of,
-    find_program_of_file,
     parameters_of,
+    program_of_file,
     run_tasks,
 )
 from .results import Run
@@ -100,7 +109,7 @@ def command_line(arguments: Sequence[str] | None = None) -> argparse.Namespace:
         default=[],
         dest="settings",
         help="a parameter of all runs; may be repeated. One that a method has no use for is noted "
-        "in its log and not refused",
+        "in its log and not refused, except for one of a phase",
     )
     parser.add_argument(
         "--finest",
@@ -149,6 +158,23 @@ def variations(texts: Sequence[str]) -> list[dict[str, str]]:
         names.append(name)
         lists.append(parts)
     return [dict(zip(names, values)) for values in itertools.product(*lists)]
+
+
+def check_chosen_once(names: Sequence[tuple[str, str]]) -> None:
+    """Check that no parameter is chosen by two options, each of (option, parameter): the one would
+    win, and rows be headed by the other.
+
+    Raises:
+        RicochetError: one is.
+    """
+    for (option, name), (other, again) in itertools.combinations(names, 2):
+        # One that --vary sets in all phases, and another option in one of them, is chosen twice.
+        in_all_phases = prm.without_phase(name)
+        by_vary = ("--vary", in_all_phases) in ((option, name), (other, again))
+        if name == again or (by_vary and in_all_phases == prm.without_phase(again)):
+            raise RicochetError(
+                f"'{again}' is chosen twice, by {option} and by {other}: leave one of them out."
+            )
 
 
 @dataclass(frozen=True)
@@ -200,14 +226,24 @@ def positions(number: int) -> list[float]:
 
 
 def check_names(
-    program: pathlib.Path, case: pathlib.Path, parameter: str, names: Sequence[str]
+    program: pathlib.Path, case: pathlib.Path, parameters: Sequence[str], names: Sequence[str]
 ) -> None:
-    """Check that a program knows all names of treatments, or of schemes.
+    """Check that a program knows all names of treatments, or of schemes, and that the file has
+    parameters that they are for.
 
     Raises:
-        RicochetError: one is misspelt; the message has the nearest one that is known.
+        RicochetError: there is none, or a name is misspelt; the message has the nearest one that is
+            known.
     """
-    choices = choices_of(program, case, parameter) if names else []
+    if not names:
+        return
+    if not parameters:
+        raise RicochetError(
+            f"No phase of '{case}' is in motion and in contact, and --treatments and --schemes are "
+            'for those that are. Static phases are named: --vary "Phase NAME/Section/Name=a,b".'
+        )
+    parameter = prm.without_phase(parameters[0])
+    choices = choices_of(program, case, parameter)
     for name in names:
         if choices and name not in choices:
             raise RicochetError(
@@ -223,31 +259,45 @@ def compare(options: argparse.Namespace) -> Comparison:
         RicochetError: the case cannot be read or run at all, or a method is misspelt.
     """
     text = prm.read(options.case)
-    if "Program" not in text.values:
-        raise BadParameterFile(
-            f"The parameter file '{options.case}' does not name its program: it needs a line "
-            "'set Program = NAME'."
-        )
-    program = find_program_of_file(text.values["Program"], options.programs)
-    section = prm.contact_sections(text)[0]
-    check_names(program, options.case, f"{section}/Treatment", options.treatments)
-    check_names(program, options.case, "Time/Scheme", options.schemes)
+    program = program_of_file(options.case, options.programs)
+    settings, finest = _settings(options.settings), _settings(options.finest)
+    all_varied = variations(options.vary)
+    prm.add(text, settings)
+    treatment_names = [f"{section}/Treatment" for section in prm.contact_sections(text)]
+    scheme_names = prm.scheme_parameters(text)
+    check_names(program, options.case, treatment_names, options.treatments)
+    check_names(program, options.case, scheme_names, options.schemes)
+    shifted = _shifted_parameter(program, options.case) if options.impact_positions > 1 else None
+    by_vary = [("--vary", name) for name in all_varied[0]]
+    check_chosen_once(
+        [
+            *(("--treatments", name) for name in treatment_names if options.treatments),
+            *(("--schemes", name) for name in scheme_names if options.schemes),
+            *by_vary,
+            *(("--set", prm.parse_assignment(each)[0]) for each in options.settings),
+        ]
+    )
+    if shifted:
+        check_chosen_once([("--impact-positions", shifted), *by_vary])
+    for name, value in {**settings, **finest, **all_varied[0]}.items():
+        check_name(program, options.case, name, value)
     folder = options.output or pathlib.Path("output") / "compare" / options.case.stem
     folder.mkdir(parents=True, exist_ok=True)
-    settings, finest = _settings(options.settings), _settings(options.finest)
     # In a file, a parameter without effect is noted; on the command line it is refused.
     case = folder / "compared.prm"
     if case.resolve() == options.case.resolve():
         raise RicochetError(f"'{case}' would be overwritten: name another folder by -o.")
-    case.write_text(prm.write(settings, include=options.case.resolve()), encoding="utf-8")
-    sections = prm.contact_sections(prm.read(case))
+    # A phase is in one file as a whole.
+    of_phases = {name: value for name, value in settings.items() if prm.without_phase(name) != name}
+    of_file = {name: value for name, value in settings.items() if name not in of_phases}
+    case.write_text(prm.write(of_file, include=options.case.resolve()), encoding="utf-8")
 
     methods = [
         Method(treatment, scheme, dict(varied))
         for treatment, scheme, varied in itertools.product(
             dict.fromkeys(options.treatments or [None]),
             dict.fromkeys(options.schemes or [None]),
-            variations(options.vary),
+            all_varied,
         )
     ]
     jobs = options.jobs or os.cpu_count() or 1
@@ -268,61 +318,69 @@ def compare(options: argparse.Namespace) -> Comparison:
             f"{method.name}{', ' if name else ''}{name}",
             program,
             case,
-            {**QUIET, **method.overrides(sections), **more},
+            {**QUIET, **of_phases, **method.overrides(treatment_names, scheme_names), **more},
             folder / "runs" / f"{number:02}{'-' if name else ''}{name.replace(' ', '_')}",
         )
 
-    gaps: list[tuple[float | None, dict[str, object]]] = [(None, {})]
-    if options.impact_positions > 1:
-        impact = _first_impact(program, case, methods, task)
+    #: Positions of the impact, and what shifts it there, for each method.
+    gaps: list[list[tuple[float | None, dict[str, object]]]] = [[(None, {})] for _ in methods]
+    if shifted:
+        value = float(parameters_of(program, case)[shifted])
+        impacts = _impacts(shifted, value, methods, task, jobs)
         gaps = [
-            (position, {impact.parameter: impact.value_for(position)})
-            for position in positions(options.impact_positions)
+            [
+                (position, {shifted: impact.value_for(position)})
+                for position in positions(options.impact_positions)
+            ]
+            if impact
+            else [(None, {})]
+            for impact in impacts
         ]
     # A refusal holds for each position: one query suffices.
-    if len(gaps) > 1 or finest:
-        refusals = check_many([task(method, "", gaps[0][1]) for method in methods], jobs)
+    if shifted or finest:
+        refusals = check_many([task(m, "", each[0][1]) for m, each in zip(methods, gaps)], jobs)
     else:
         refusals = [None] * len(methods)
     tasks, owners, good = [], [], []
-    for method, refusal in zip(methods, refusals):
+    for method, refusal, places in zip(methods, refusals, gaps):
         if refusal:
             method.outcomes.append(Outcome(method.name, {}, None, refusal, 0.0))
             method.positions.append(None)
             print(f"  {method.name}: refused", file=sys.stderr)
             continue
-        good.append(method)
-        for position, more in gaps:
+        good.append((method, places))
+        for position, more in places:
             name = "" if position is None else f"impact at {position:g}"
             tasks.append(task(method, name, more))
             owners.append(method)
             method.positions.append(position)
     if finest:
         # With the gap of the run that is shown: that nearest to the middle.
-        middle = min(gaps, key=lambda each: abs((each[0] or 0.5) - 0.5))[1]
-        fine = [task(method, "finest", {**middle, **finest}) for method in good]
+        middles = [min(g, key=lambda each: abs((each[0] or 0.5) - 0.5))[1] for _, g in good]
+        fine = [task(m, "finest", {**middle, **finest}) for (m, _), middle in zip(good, middles)]
     else:
         fine = []
     # The finest take longest and start first.
     outcomes = run_tasks([*fine, *tasks], jobs, progress)
-    for method, outcome in zip(good, outcomes[: len(fine)]):
+    for (method, _), outcome in zip(good, outcomes[: len(fine)]):
         method.finest = outcome
     for method, outcome in zip(owners, outcomes[len(fine) :]):
         method.outcomes.append(outcome)
     return Comparison(options.case, program, folder, methods, settings, finest, jobs)
 
 
-def _first_impact(
-    program: pathlib.Path,
-    case: pathlib.Path,
-    methods: Sequence[Method],
-    task: Callable[[Method, str, dict[str, object]], Task],
-) -> Impact:
-    """The impact of the first method that runs.
+def _shifted_parameter(program: pathlib.Path, case: pathlib.Path) -> str:
+    """The parameter by which the impact is shifted.
 
     Raises:
-        RicochetError: the program has no initial gap, or no method runs.
+        RicochetError: the program has none, or the run begins with equilibria.
     """
+    text = prm.read(case)
+    if prm.phases(text) and prm.is_static(text, prm.phases(text)[0]):
+        raise RicochetError(
+            "--impact-positions shifts the start of a run, and the first phase of "
+            f"'{case}' is static."
+        )
     known = parameters_of(program, case)
     parameter = next((name for name in (GAP, ADVANCE) if name in known), None)
     if parameter is None:
@@ -330,13 +388,41 @@ def _first_impact(
             f"--impact-positions needs a program with the parameter '{GAP}' or '{ADVANCE}', "
             f"which {program.name} has not."
         )
-    problem: ProgramError | None = None
-    for method in methods:
-        outcome = run_tasks([task(method, "as in the file", {})], 1)[0]
-        if outcome.run:
-            return find_impact(outcome.run, parameter, float(known[parameter]))
-        problem = outcome.error
-    raise RicochetError(f"No method runs: {problem.sentence if problem else 'none is given.'}")
+    return parameter
+
+
+def _impacts(
+    parameter: str,
+    value: float,
+    methods: Sequence[Method],
+    task: Callable[[Method, str, dict[str, object]], Task],
+    jobs: int,
+) -> list[Impact | None]:
+    """For each method the impact of the first one with its varied values that runs, as these may
+    change the step and the flight; None if none of them runs.
+
+    Raises:
+        RicochetError: no method runs at all, or none flies.
+    """
+    problems: list[ProgramError] = []
+
+    def find(varied: dict[str, str]) -> Impact | None:
+        for method in methods:
+            if method.varied != varied:
+                continue
+            outcome = run_tasks([task(method, "as in the file", {})], 1)[0]
+            if outcome.run:
+                return find_impact(outcome.run, parameter, value)
+            if outcome.error:
+                problems.append(outcome.error)
+        return None
+
+    groups = list({tuple(method.varied.items()): method.varied for method in methods}.values())
+    with concurrent.futures.ThreadPoolExecutor(max_workers=jobs) as pool:
+        found = list(pool.map(find, groups))
+    if not any(found):
+        raise RicochetError(f"No method runs: {problems[0].sentence}")
+    return [found[groups.index(method.varied)] for method in methods]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -169,7 +169,8 @@ def write(comparison: Comparison) -> pathlib.Path:
         *_table(comparison),
         "<p>Energy lost: (first energy + work from outside − last energy) / first energy. "
         "Restitution: −(velocity after) / (velocity before) of the centres of mass, along the "
-        "normal of contact. Largest force: of all contacts together. Contact lasts: all steps at "
+        "normal of contact; of scenes that of summary.json, along the change of the relative "
+        "velocity. Largest force: of all contacts together. Contact lasts: all steps at "
         "whose end there is force. Milliseconds: wall time in the steps, "
         + (
             f"with {comparison.jobs} runs at a time sharing the machine. "

@@ -34,13 +34,15 @@ class Method:
         varied = (f"{name.rpartition('/')[2]} = {value}" for name, value in self.varied.items())
         return ", ".join(filter(None, (self.treatment, self.scheme, *varied))) or "as in the file"
 
-    def overrides(self, contact_sections: Sequence[str]) -> dict[str, object]:
-        """The parameters that make it; the treatment is that of all contacts."""
+    def overrides(
+        self, treatment_names: Sequence[str], scheme_names: Sequence[str]
+    ) -> dict[str, object]:
+        """The parameters that make it: those of these names have its treatment and its scheme."""
         result: dict[str, object] = {}
         if self.treatment:
-            result.update({f"{name}/Treatment": self.treatment for name in contact_sections})
+            result.update(dict.fromkeys(treatment_names, self.treatment))
         if self.scheme:
-            result["Time/Scheme"] = self.scheme
+            result.update(dict.fromkeys(scheme_names, self.scheme))
         return {**result, **self.varied}
 
     @property
@@ -149,13 +151,33 @@ def quantities(comparison: Comparison) -> list[Quantity]:
     def part_lost(what: str) -> Callable[[Run], float]:
         return lambda run: 100 * measures.part_lost(run.table, what)
 
+    def restitution_of(name: str) -> Callable[[Run], float | None]:
+        def of_contact(run: Run) -> float | None:
+            found = run.summary().contacts
+            return found[name].restitution if name in found else None
+
+        return of_contact
+
+    def restitutions() -> list[Quantity]:
+        runs = [run for method in comparison.methods for run in method.runs]
+        names = {
+            name: None
+            for run in runs
+            for name, contact in run.summary().contacts.items()
+            if contact.restitution is not None
+        }
+        # Several contacts have none that is the run's.
+        if len(names) > 1:
+            return [Quantity(f"restitution of {n}", "", each(restitution_of(n))) for n in names]
+        return [Quantity("restitution", "", each(lambda run: run.summary().restitution))]
+
     result = [
         Quantity("energy lost", "%", each(lambda run: 100 * measures.energy_lost(run.table))),
         *(
             Quantity(f"to {what}", "%", each(part_lost(what)))
             for what in measures.LOSSES
         ),
-        Quantity("restitution", "", each(lambda run: run.summary().restitution)),
+        *restitutions(),
         Quantity("largest force", unit("contact_force_"), each(force)),
         Quantity("largest penetration", unit("penetration_"), each(penetration)),
         Quantity("contact lasts", unit("time"), each(lambda run: measures.duration(run.table))),

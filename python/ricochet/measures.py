@@ -151,7 +151,8 @@ def first_approach(table: Table) -> Approach | None:
     last = int(rows[0]) - 1
     while last > 0 and not gaps[last] > 0:
         last -= 1
-    if last < 1:
+    # At the change of a phase there are two rows of one time.
+    if last < 1 or time[last] == time[last - 1]:
         return None
     speed = float((gaps[last - 1] - gaps[last]) / (time[last] - time[last - 1]))
     return Approach(float(time[last] + gaps[last] / speed), speed) if speed > 0 else None
@@ -270,6 +271,9 @@ class ContactMeasures:
     #: Times of the first and of the last row with force; None if it never touches.
     first_touch: float | None
     last_touch: float | None
+    #: That of summary.json: velocity of separation over that of approach, of the centres of mass,
+    #: along the change of the relative velocity. None where there is none.
+    restitution: float | None = None
 
 
 @dataclass(frozen=True)
@@ -282,7 +286,8 @@ class Summary:
     #: As a part of the first energy, or of the largest one if it begins at rest; see
     #: `measures.energy_lost`.
     energy_lost: float
-    #: See `measures.restitution`.
+    #: See `measures.restitution`; where the table has none, that of the one contact that has one
+    #: in summary.json.
     restitution: float | None
     #: Largest force of each contact.
     largest_force: dict[str, float]
@@ -359,8 +364,10 @@ def _unit(units: dict[str, str], begin: str) -> str:
     return next((unit for name, unit in units.items() if name.startswith(begin)), "")
 
 
-def measure_contact(table: Table, name: str) -> ContactMeasures:
-    """The numbers of one contact."""
+def measure_contact(
+    table: Table, name: str, restitution: float | None = None
+) -> ContactMeasures:
+    """The numbers of one contact; its restitution is in none of the columns."""
     time, force = table["time"], table[f"contact_force_{name}"]
     rows = np.flatnonzero(touching(table, name))
     largest = int(np.nanargmax(force))
@@ -372,14 +379,23 @@ def measure_contact(table: Table, name: str) -> ContactMeasures:
         duration=duration(table, name),
         first_touch=float(time[rows[0]]) if len(rows) else None,
         last_touch=float(time[rows[-1]]) if len(rows) else None,
+        restitution=restitution,
     )
 
 
-def summarise(table: Table, log: str = "", turns: bool = True) -> Summary:
+def summarise(
+    table: Table,
+    log: str = "",
+    turns: bool = True,
+    restitutions: Mapping[str, float] | None = None,
+) -> Summary:
     """The summary of an energy table; `log` is the text of log.txt, `turns` as for
-    `restitution`."""
-    names = contacts(table)
-    each = Named("contact", {name: measure_contact(table, name) for name in names})
+    `restitution`, `restitutions` those of contacts in summary.json."""
+    names, known = contacts(table), restitutions or {}
+    each = Named("contact", {name: measure_contact(table, name, known.get(name)) for name in names})
+    of_run = restitution(table, log, turns)
+    if of_run is None and len(known) == 1:
+        [of_run] = known.values()
 
     def column(name: str) -> Array:
         return table[name] if name in table else np.zeros(1)
@@ -388,7 +404,7 @@ def summarise(table: Table, log: str = "", turns: bool = True) -> Summary:
         steps=len(table) - 1,
         end=float(table["time"][-1]),
         energy_lost=energy_lost(table),
-        restitution=restitution(table, log, turns),
+        restitution=of_run,
         largest_force=Named("contact", {name: each[name].largest_force for name in names}),
         largest_penetration=max((c.largest_penetration for c in each.values()), default=0.0),
         contact_duration=duration(table),

@@ -114,14 +114,56 @@ def _read(
         raise BadParameterFile(f"{path}: subsection '{'/'.join(section)}' is never closed.")
 
 
+def phases(text: ParameterText) -> list[str]:
+    """The sections of the phases of a run, `Phase NAME`, in their order."""
+    return [s for s in text.sections if "/" not in s and s.startswith("Phase ")]
+
+
+def without_phase(name: str) -> str:
+    """The name of a parameter in its phase: "Time/Scheme" of "Phase hit/Time/Scheme"."""
+    return name.partition("/")[2] if name.startswith("Phase ") else name
+
+
+def is_static(text: ParameterText, phase: str = "") -> bool:
+    """Whether a run, or a phase of it, is one of equilibria, without motion."""
+    scheme = text.values.get("Time/Scheme")
+    return text.values.get(f"{phase}/Time/Scheme", scheme) == "static"
+
+
 def contact_sections(text: ParameterText) -> list[str]:
-    """The sections in which a treatment of contact is set.
+    """The sections in which a treatment of contact is set for bodies in motion.
 
     A file with named contacts has `subsection Contact ball on floor` for each of them; all
-    others have one `Contact`.
+    others have one `Contact`. Of a file with phases these are the sections of the phases that are
+    not static, `Phase hit/Contact ball on floor`, as treatments of motion are none of equilibria.
     """
     named = [s for s in text.sections if "/" not in s and s.startswith("Contact ")]
-    return named or ["Contact"]
+    if not phases(text):
+        return named or ["Contact"]
+    result = []
+    for phase in phases(text):
+        if is_static(text, phase):
+            continue
+        out = [s.strip() for s in text.values.get(f"{phase}/Without", "").split(";")]
+        own = [s.partition("/")[2] for s in text.sections if s.startswith(f"{phase}/Contact ")]
+        both = dict.fromkeys([*(s for s in named if s not in out), *own])
+        result += [f"{phase}/{s}" for s in both if "/" not in s]
+    return result
+
+
+def scheme_parameters(text: ParameterText) -> list[str]:
+    """The parameters with the time scheme, as `contact_sections`: of each phase in motion."""
+    moving = [phase for phase in phases(text) if not is_static(text, phase)]
+    return [f"{phase}/Time/Scheme" for phase in moving] if phases(text) else ["Time/Scheme"]
+
+
+def add(text: ParameterText, values: Mapping[str, str]) -> None:
+    """Set values, as another file that includes this one does."""
+    for name, value in values.items():
+        text.values[name] = value
+        parts = name.split("/")
+        for depth in range(1, len(parts)):
+            text.sections.setdefault("/".join(parts[:depth]))
 
 
 def to_text(value: object) -> str:

@@ -28,7 +28,7 @@ from .errors import (
     Refused,
     RicochetError,
 )
-from .names import nearest
+from .names import NoSuchName, nearest, no_such
 from .results import WORD, Run
 
 #: Where the programs of a checkout are built.
@@ -111,6 +111,49 @@ def find_program_of_file(name: str, programs: PathLike | None = None) -> pathlib
     return find_program(name, programs)
 
 
+def program_of_file(parameter_file: PathLike, programs: PathLike | None = None) -> pathlib.Path:
+    """The file of the program that a parameter file names, see `find_program_of_file`.
+
+    Raises:
+        BadParameterFile: it cannot be read, or names none.
+        RicochetError: there is no such program.
+    """
+    text = prm.read(parameter_file)
+    if "Program" not in text.values:
+        raise BadParameterFile(
+            f"The parameter file '{parameter_file}' does not name its program: it needs a line "
+            "'set Program = NAME'."
+        )
+    return find_program_of_file(text.values["Program"], programs)
+
+
+def _program_and_file(
+    program_or_path: PathLike,
+    parameter_file: PathLike | None,
+    programs: PathLike | None,
+) -> tuple[pathlib.Path, PathLike | None]:
+    """The file of a program, and the parameter file; of a parameter file alone the program is that
+    which it names.
+
+    Raises:
+        RicochetError: there is no such program, or words are at other places.
+    """
+    is_file = str(program_or_path).endswith(".prm")
+    if isinstance(parameter_file, Mapping):
+        raise RicochetError(
+            f"Overrides stand behind the parameter file, or have their name: '{program_or_path}', "
+            "overrides={...}."
+        )
+    if is_file and parameter_file is not None:
+        raise RicochetError(
+            f"'{program_or_path}' is a parameter file: it stands alone, or behind the name of a "
+            "program."
+        )
+    if is_file:
+        return program_of_file(program_or_path, programs), program_or_path
+    return find_program(program_or_path, programs), parameter_file
+
+
 def _settings(overrides: Overrides | None) -> list[str]:
     """The overrides as options of the command line."""
     words = []
@@ -181,9 +224,11 @@ def run(
     """Run a program to its end; the result knows how long that took (`wall_seconds`).
 
         ricochet.run("bar_sd", overrides={"Time/Scheme": "TR-BDF2", "Time/Time step": 0.01})
+        ricochet.run("mine.prm", overrides={"Time/Time step": 0.01})
 
     Args:
-        program_or_path: its name, see `find_program`, or the path of it.
+        program_or_path: its name, see `find_program`, or the path of it; or a parameter file
+            (`.prm`) alone, which names its program.
         parameter_file: none for the program's defaults.
         overrides: "Section/Name" -> value.
         output: the folder to write to; without it the program's default, output/PROGRAM/FILE.
@@ -201,7 +246,7 @@ def run(
         OpenRun: the balance of energy does not close, or a promise is broken; `is_open` of the
             run says so too.
     """
-    program = find_program(program_or_path, programs)
+    program, parameter_file = _program_and_file(program_or_path, parameter_file, programs)
     folder = (
         pathlib.Path(output)
         if output is not None
@@ -233,11 +278,14 @@ def parameters_of(
 ) -> dict[str, str]:
     """All parameters that a run would have, without running it: "Section/Name" -> value.
 
+    The arguments are those of `run`. Of a run in phases they are those of the last phase, and
+    others that an earlier one has.
+
     Raises:
         Refused: there is a parameter or a value that the program does not know.
         RicochetError: the program is missing or cannot be started.
     """
-    program = find_program(program_or_path, programs)
+    program, parameter_file = _program_and_file(program_or_path, parameter_file, programs)
     command = [str(program), *([str(parameter_file)] if parameter_file else [])]
     exit_code, text = execute([*command, *_settings(overrides), "--print-parameters"])
     _check(program.name, exit_code, text)
@@ -259,6 +307,36 @@ def choices_of(program: pathlib.Path, parameter_file: PathLike | None, name: str
     _, text = execute([*command, "--print-parameters"])
     match = re.search(rf"^#   {re.escape(name)}: Any one of (.+)$", text, re.MULTILINE)
     return [choice.strip() for choice in match.group(1).split(",")] if match else []
+
+
+def check_name(
+    program: pathlib.Path, parameter_file: PathLike, name: str, value: object
+) -> None:
+    """Check that a program knows a parameter; whether it takes the value is seen in the run.
+
+    Raises:
+        NoSuchName: it does not; the message has the nearest one that it knows.
+        RicochetError: the program cannot be started.
+    """
+    phase, _, rest = name.partition("/")
+    known = prm.phases(prm.read(parameter_file))
+    if rest and phase.startswith("Phase ") and phase not in known:
+        raise no_such("section", phase, known)
+    command = [str(program), str(parameter_file), *_settings({name: value})]
+    _, text = execute([*command, "--list", "--json"])
+    try:
+        refusal, _ = json.JSONDecoder().raw_decode(text[text.index("{") :])
+        is_unknown = refusal["code"] == "unknown_parameter"
+        key, nearest_names = refusal["key"], refusal["nearest"]
+    except (LookupError, TypeError, ValueError):
+        # It knows all names, and lists them.
+        return
+    if is_unknown and key == prm.without_phase(name):
+        begin = name.removesuffix(key)
+        raise NoSuchName(
+            f"There is no parameter '{name}'."
+            + (f" Is '{begin}{nearest_names[0]}' meant?" if nearest_names else "")
+        )
 
 
 @dataclass(frozen=True)
@@ -482,7 +560,7 @@ def sweep(
     The other arguments are those of `run`. A run that is refused or fails has its `error` in
     its outcome; the others go on.
     """
-    program = find_program(program_or_path, programs)
+    program, parameter_file = _program_and_file(program_or_path, parameter_file, programs)
     variations: list[dict[str, Any]]
     if isinstance(overrides, Mapping):
         names = list(overrides)

@@ -148,11 +148,25 @@ class Run:
             # A table alone has a summary too.
             turns = True
         try:
-            return measures.summarise(self.table, self.log, turns)
+            return measures.summarise(self.table, self.log, turns, self._restitutions())
         except (ArithmeticError, LookupError, ValueError) as error:
             raise NotARun(
                 f"The energy table in '{self.folder}' has no summary: {error}."
             ) from None
+
+    def _restitutions(self) -> dict[str, float]:
+        """Restitution of the contacts that have one in summary.json; none without that file.
+
+        Raises:
+            NotARun: it is damaged.
+        """
+        if not (self.folder / "summary.json").exists():
+            return {}
+        try:
+            found = {name: one.get("restitution") for name, one in self.result["contacts"].items()}
+            return {name: float(number) for name, number in found.items() if number is not None}
+        except (AttributeError, LookupError, TypeError, ValueError) as error:
+            raise NotARun(f"The summary in '{self.folder}' is damaged: {error}.") from None
 
     @functools.cached_property
     def result(self) -> dict[str, Any]:
@@ -303,7 +317,8 @@ class Run:
         """The file of a step (an integer; -1 for the last one), or of the time nearest to `at`.
 
         Raises:
-            NotARun: there are no fields of that step, or none at all.
+            NotARun: there are no fields of that step, or none at all; or the time is outside of
+                those that are written, by more than the largest distance between them.
         """
         files = self.field_files
         if isinstance(at, numbers.Integral):
@@ -318,7 +333,14 @@ class Run:
             raise NotARun(
                 f"The run '{self.folder}' has no fields of step {at}; it has those of {steps}."
             )
-        return files[int(np.abs(self.times - float(at)).argmin())]
+        times, time = self.times, float(at)
+        distance = float(np.diff(times).max(initial=0.0))
+        if not times[0] - distance <= time <= times[-1] + distance:
+            raise NotARun(
+                f"The run '{self.folder}' has no fields of the time {time:g}; it has those from "
+                f"{times[0]:g} to {times[-1]:g}. A whole number without a point is a step."
+            )
+        return files[int(np.abs(times - time).argmin())]
 
     def fields(self, at: int | float = -1) -> vtkUnstructuredGrid:
         """The fields of a step (an integer), or of the written time nearest to `at` (a float).
@@ -327,7 +349,8 @@ class Run:
         Without an argument: the last ones.
 
         Raises:
-            NotARun: there are no fields of that step, or the file is damaged.
+            NotARun: there are no fields of that step or that time, see `field_file`, or the file
+                is damaged.
         """
         return read_fields(self.field_file(at).path)
 

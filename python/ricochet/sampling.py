@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import prm
-from .errors import BadParameterFile, NotARun, Refused, RicochetError
+from .errors import NotARun, Refused, RicochetError
 from .programs import (
     Outcome,
     PathLike,
@@ -19,7 +18,7 @@ from .programs import (
     checksum_of_build,
     checksum_of_file,
     checksum_of_inputs,
-    find_program_of_file,
+    program_of_file,
     run_missing,
 )
 
@@ -128,10 +127,7 @@ def dataset(
         RicochetError: the case cannot be read, or a range has nothing to draw from.
     """
     path = pathlib.Path(case)
-    text = prm.read(path)
-    if "Program" not in text.values:
-        raise BadParameterFile(f"The parameter file '{path}' does not name its program.")
-    program = find_program_of_file(text.values["Program"], programs)
+    program = program_of_file(path, programs)
     folder = pathlib.Path(output) if output else pathlib.Path("output") / "dataset" / path.stem
     all_settings = samples(ranges, n, seed)
     build, contents = checksum_of_build(program), checksum_of_file(path)

@@ -7,6 +7,7 @@ import csv
 import os
 import pathlib
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +21,11 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Table:
-    """The columns of a table by their names, and their units."""
+    """The columns of a table by their names, and their units.
+
+    As of a DataFrame of pandas, `in` and iteration are those of the names, and `len` is the number
+    of rows.
+    """
 
     columns: dict[str, Array]
     units: dict[str, str]
@@ -37,6 +42,10 @@ class Table:
 
     def __contains__(self, name: str) -> bool:
         return name in self.columns
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of the columns."""
+        return iter(self.columns)
 
     def __len__(self) -> int:
         """The number of rows."""

@@ -119,6 +119,9 @@ namespace
     program.take_meshes = [scene](const std::string &folder) {
       scene->kept_meshes = folder;
     };
+    program.checksum_of_bodies = [scene]() {
+      return scene->checksum_of_bodies();
+    };
     program.unused_parameters = [scene]() {
       return scene->unused_parameters();
     };
@@ -160,5 +163,6 @@ main(int argc, char **argv)
        "print which choices go together, as CSV",
        combinations_as_csv}},
      join_phases,
-     [&](const std::string &folder) { scene.take_meshes(folder); }});
+     [&](const std::string &folder) { scene.take_meshes(folder); },
+     [&]() { return scene.checksum_of_bodies(); }});
 }

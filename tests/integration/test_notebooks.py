@@ -55,6 +55,16 @@ class Notebooks(ProgramTest):
         self.assertTrue(str(names["folder"]).startswith(str(self.folder)))
         return names, printed.getvalue(), figures
 
+    def test_outside_of_the_source_tree(self):
+        """They end with a sentence."""
+        for path in sorted((ROOT / "doc" / "notebooks").glob("*.ipynb")):
+            cells = json.loads(path.read_text())["cells"]
+            first = next("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
+            self.addCleanup(os.chdir, os.getcwd())
+            os.chdir(self.folder)
+            with self.assertRaisesRegex(SystemExit, "needs the source tree of Ricochet"):
+                exec(first, {"__name__": path.stem})
+
     def test_energy_of_an_impact(self):
         names, printed, figures = self.run_cells("energy_of_an_impact")
         self.assertEqual(len(figures), 3)

@@ -41,6 +41,75 @@ end
 """
 
 
+# A block that falls on a floor with friction and hits another one, in a few milliseconds.
+SCENE = """set Program = ricochet
+set Dimension = 2
+subsection Body left
+  set Shape         = rectangle
+  set Size          = 1, 1
+  set Cells along   = 3, 3
+  set Translation   = 0, 0.004
+  set Velocity      = 3, -2
+  set Young modulus = 1e7
+end
+subsection Body right
+  set Like        = left
+  set Velocity    = 0, 0
+  set Translation = 1.01, 0.5
+end
+subsection Obstacle floor
+  set Shape = half space
+end
+subsection Contact floor
+  set Surface              = left: lower
+  set Against              = floor
+  set Treatment            = penalty
+  set Friction coefficient = 0.1
+end
+subsection Contact side
+  set Surface              = left: right
+  set Against              = right: left
+  set Treatment            = penalty
+end
+subsection Time
+  set Time step  = 5e-4
+  set Final time = 0.05
+end
+subsection Output
+  set Fields every = 0
+  set Log every    = 0
+end
+"""
+
+# It settles first: multipliers are for equilibria, and most treatments are not.
+PHASE_SCENE = SCENE.replace("  set Velocity      = 3, -2\n", "") + """
+subsection Condition hold
+  set Boundary = right: right
+end
+subsection Phase settle
+  subsection Time
+    set Scheme     = static
+    set Final time = 1
+    set Time step  = 1
+  end
+  subsection Contact floor
+    set Treatment = Signorini active set
+  end
+  subsection Condition lid
+    set Boundary = left: upper
+    set Kind     = displacement
+    set Value    = 0; -0.01*t
+  end
+end
+subsection Phase go
+  set Without = Contact side
+  subsection Time
+    set Final time = 2e-3
+  end
+end
+"""
+
+
 @unittest.skipIf(numpy is None, "NumPy or matplotlib (Debian's python3-matplotlib) is missing")
 class PythonPackage(ProgramTest):
 
@@ -75,6 +144,9 @@ class PythonPackage(ProgramTest):
         for name, unit in zip(ledger.names, ledger.units):
             self.assertEqual(list(self.ball.table[name]), list(ledger[name]))
             self.assertEqual(self.ball.units[name], unit)
+        self.assertEqual(list(self.ball.table), ledger.names)
+        self.assertIn("time", self.ball.table)
+        self.assertEqual(len(self.ball.table), len(ledger["time"]))
         summary = self.ball.summary()
         energy, force = ledger["energy"], ledger["contact_force_foundation"]
         self.assertEqual(self.ball.contacts, ["foundation"])
@@ -151,6 +223,61 @@ class PythonPackage(ProgramTest):
 
     # Fields and parameters
 
+    def test_restitution_of_scenes(self):
+        """The run has that of its only contact in summary.json; of several, each has its own."""
+        scene = self.folder / "scene.prm"
+        scene.write_text(SCENE)
+        os.environ["RICOCHET_PROGRAMS"] = program_path("")
+        # Friction on an obstacle: the table alone has none.
+        one = ricochet.run(scene, overrides={"Body right/Translation": "9, 1"},
+                           output=self.folder / "one")
+        found = one.result["contacts"]
+        self.assertIsNone(found["side"]["restitution"])
+        number = found["floor"]["restitution"]
+        self.assertTrue(0 < number < 1)
+        self.assertEqual(one.summary().restitution, number)
+        self.assertEqual(one.summary().contacts["floor"].restitution, number)
+        self.assertIsNone(one.summary().contacts["side"].restitution)
+        self.assertIn("restitution ", str(one.summary()))
+        code, out, error = self.script("ricochet-compare", scene, "--treatments",
+                                       "penalty,persistent contact", "-o", self.folder / "both")
+        self.assertEqual(code, 0, msg=out + error)
+        header, _, *lines = out.splitlines()
+        names = [cell.strip() for cell in header.split(" | ")]
+        for name in ("floor", "side"):
+            column = names.index(f"restitution of {name}")
+            for k, line in enumerate(lines[:2], start=1):
+                result = ricochet.Run(self.folder / "both" / "runs" / f"{k:02}").result
+                self.assertAlmostEqual(float(line.split(" | ")[column]),
+                                       result["contacts"][name]["restitution"], delta=1e-3)
+        self.assertIn("restitution of side", (self.folder / "both" / "index.html").read_text())
+        (one.folder / "summary.json").write_text('{"format": 1, "contacts": 3}')
+        with self.assertRaisesRegex(ricochet.NotARun, "is damaged"):
+            ricochet.Run(one.folder).summary()
+
+    def test_a_parameter_file_alone(self):
+        """It names its program; what stands at another place is refused by a sentence."""
+        os.environ["RICOCHET_PROGRAMS"] = program_path("")
+        self.assertEqual(ricochet.parameters_of(self.case)["Mesh/Nodes"], "200")
+        few = {"Time/Final time": 2e-3, "Output/Fields every": 0}
+        run = ricochet.run(self.case, overrides=few, output=self.folder / "alone")
+        self.assertEqual(run.program, "elastic_ball")
+        outcomes = ricochet.sweep(str(self.case), overrides={"Time/Time step": [1e-3, 2e-3]},
+                                  common=few, output=self.folder / "sweep")
+        self.assertEqual([len(one.run.table) for one in outcomes], [3, 2])
+        nameless = self.folder / "nameless.prm"
+        nameless.write_text("subsection Time\nend\n")
+        for call in (ricochet.run, ricochet.sweep, ricochet.parameters_of):
+            for words, sentence in (
+                    ((nameless,), "needs a line 'set Program = NAME'"),
+                    ((self.folder / "none.prm",), "does not exist"),
+                    ((self.case, self.case), "is a parameter file: it stands alone"),
+                    ((self.case, few), "Overrides stand behind the parameter file")):
+                with self.assertRaisesRegex(ricochet.RicochetError, sentence):
+                    call(*words)
+        with self.assertRaisesRegex(ricochet.RicochetError, "needs a line 'set Program = NAME'"):
+            ricochet.dataset(nameless, {"A/B": [1]}, 1, 1)
+
     def test_fields(self):
         entries = ElementTree.parse(self.ball.folder / "solution.pvd").findall(".//DataSet")
         self.assertEqual(list(self.ball.times), [float(e.get("timestep")) for e in entries])
@@ -158,6 +285,10 @@ class PythonPackage(ProgramTest):
         with self.assertRaisesRegex(ricochet.NotARun, "no fields of step 3; it has those of 0, 10"):
             self.ball.field_file(3)
         self.assertEqual(self.ball.field_file(0.019).step, 20)
+        self.assertEqual(self.ball.field_file(0.045).step, 40)
+        for time in (5., -.02, math.nan):
+            with self.assertRaisesRegex(ricochet.NotARun, "it has those from 0 to 0.04"):
+                self.ball.fields(time)
         try:
             import vtkmodules.vtkIOXML
         except ImportError:
@@ -587,6 +718,74 @@ class PythonPackage(ProgramTest):
             self.assertEqual(code, 2)
             self.assertIn(sentence, error)
 
+    def test_compare_of_phases(self):
+        """Treatments and schemes are those of phases in motion, of the contacts that are there."""
+        scene = self.folder / "phases.prm"
+        scene.write_text(PHASE_SCENE)
+        found = prm.read(scene)
+        self.assertEqual(prm.contact_sections(found), ["Phase go/Contact floor"])
+        self.assertEqual(prm.scheme_parameters(found), ["Phase go/Time/Scheme"])
+        folder = self.folder / "compared"
+        code, out, error = self.script(
+            "ricochet-compare", scene, "--treatments", "persistent contact,penalty", "--schemes",
+            "midpoint", "--set", "Phase go/Contact floor/Friction coefficient=0.2", "-o", folder)
+        self.assertEqual(code, 0, msg=out + error)
+        for number, treatment in enumerate(("persistent contact", "penalty"), start=1):
+            self.assertRegex(out, rf"(?m)^{treatment}, midpoint +\| +-?\d")
+            run = folder / "runs" / f"{number:02}"
+            settle, go = (prm.read(run / name / "parameters.prm").values
+                          for name in ("1_settle", "2_go"))
+            self.assertEqual(settle["Contact floor/Treatment"], "Signorini active set")
+            self.assertEqual(settle["Time/Scheme"], "static")
+            self.assertEqual(go["Contact floor/Treatment"], treatment)
+            self.assertEqual(go["Contact floor/Friction coefficient"], "0.2")
+        static = ["--set", "Phase go/Time/Scheme=static"]
+        for words, sentence in (
+                (["--treatments", "penalty", *static], "No phase of '.*' is in motion"),
+                (["--schemes", "midpoint", *static], "No phase of '.*' is in motion"),
+                (["--impact-positions", "2"], "the first phase of '.*' is static"),
+                (["--vary", "Phase og/Time/Time step=1,2"], "Is 'Phase go' meant"),
+                (["--vary", "Phase go/Time/Tim step=1,2"], "Is 'Phase go/Time/Time step' meant"),
+                (["--treatments", "penalty", "--vary", "Contact floor/Treatment=Nitsche,penalty"],
+                 "chosen twice, by --treatments and by --vary")):
+            code, _, error = self.script("ricochet-compare", scene, *words, "-o",
+                                         self.folder / "refused")
+            self.assertEqual(code, 2, msg=error)
+            self.assertRegex(error, sentence)
+
+    def test_compare_with_one_parameter_twice(self):
+        """One of two options would win, and rows be named after the other one."""
+        vary = ["--vary", "Time/Scheme=HHT,TR-BDF2"]
+        for words, names in (
+                (["--schemes", "midpoint", *vary], "'Time/Scheme' .* --schemes and by --vary"),
+                (["--treatments", "Nitsche", "--vary", "Contact/Treatment=penalty"],
+                 "'Contact/Treatment' .* --treatments and by --vary"),
+                (["--set", "Time/Scheme=HHT", *vary], "'Time/Scheme' .* --vary and by --set"),
+                (["--set", "Time/Scheme=HHT", "--schemes", "HHT"], "--schemes and by --set"),
+                (["--set", "Time/Scheme=HHT", "--set", "Time/Scheme=HHT"], "--set and by --set"),
+                (["--impact-positions", "2", "--vary", "Start/Initial gap=0.01,0.02"],
+                 "'Start/Initial gap' .* --impact-positions and by --vary")):
+            code, out, error = self.script("ricochet-compare", self.case, *words, "-o",
+                                           self.folder / "twice")
+            self.assertEqual((code, out), (2, ""))
+            self.assertRegex(error, f"{names}: leave one of them out")
+            self.assertFalse((self.folder / "twice").exists())
+
+    def test_compare_at_positions_of_each_step(self):
+        """Impacts are spread over the step of the row."""
+        folder = self.folder / "steps"
+        code, out, error = self.script(
+            "ricochet-compare", self.case, "--impact-positions", "2", "--vary",
+            "Time/Time step=8e-4,1.4e-3", "--vary", "Contact/Treatment=penalty,no treatment",
+            "-o", folder)
+        self.assertEqual(code, 0, msg=out + error)
+        self.assertEqual(out.count("'no treatment' of 'Contact/Treatment' is not allowed"), 2)
+        for number, step in ((1, 8e-4), (3, 1.4e-3)):
+            tables = [ricochet.Run(path).table
+                      for path in sorted((folder / "runs").glob(f"{number:02}-impact*"))]
+            self.assertEqual([round(table["smallest_gap_foundation"][0] / (10 * step) % 1, 6)
+                              for table in tables], [.25, .75])
+
     def test_compare_with_a_misspelt_method(self):
         """Nothing is run, and the nearest name is suggested."""
         scene = self.folder / "scene.prm"
@@ -608,11 +807,18 @@ end
                  "treatment 'persistant contact'", "persistent contact"),
                 (self.case, ["--treatments", "PENALTY"], "treatment 'PENALTY'", "penalty"),
                 (self.case, ["--schemes", "midpoint,TR-BFD2"], "scheme 'TR-BFD2'", "TR-BDF2"),
-                (scene, ["--treatments", "nitsche"], "treatment 'nitsche'", "Nitsche")):
+                (scene, ["--treatments", "nitsche"], "treatment 'nitsche'", "Nitsche"),
+                (self.case, ["--vary", "Time/Tim step=1e-3,2e-3"], "parameter 'Time/Tim step'",
+                 "Time/Time step"),
+                (self.case, ["--set", "Tme/Time step=1e-3"], "parameter 'Tme/Time step'",
+                 "Time/Time step"),
+                (scene, ["--finest", "Contact on floor/Stik=exact"],
+                 "parameter 'Contact on floor/Stik'", "Contact on floor/Stick")):
             code, out, error = self.script("ricochet-compare", case, *words, "-o",
                                            self.folder / "misspelt")
             self.assertEqual(code, 2, msg=out + error)
-            self.assertIn(f"There is no {wrong}. The nearest valid name is '{nearest}'", error)
+            self.assertRegex(error, f"There is no {wrong}. "
+                                    f"(The nearest valid name is|Is) '{nearest}'")
             self.assertEqual(out, "")
             self.assertFalse((self.folder / "misspelt").exists())
 

@@ -18,7 +18,7 @@ BROWSER = shutil.which("chromium")
 
 try:
     import make_cheat_sheet
-    from generate import figures, site, slides
+    from generate import figures, how_to, site, slides
     from matplotlib import pyplot
 except ImportError:
     pyplot = None
@@ -50,10 +50,14 @@ class Course(ProgramTest):
     def commands(self, unit):
         """The commands of a unit, with this test's folder for the output."""
         text = COURSE.read_text().split("\n## Unit ")[unit]
-        lines = re.findall(r"^(?:build/release|python/bin)/.*", text, re.MULTILINE)
+        lines = re.findall(r"^(?:build/release/|python/bin/|for \w+ in ).*", text, re.MULTILINE)
         self.assertGreater(len(lines), 1)
         for line in lines:
-            words = shlex.split(line.replace("output/course", str(self.folder)))
+            line = line.replace("output/course", str(self.folder))
+            if line.startswith("for "):
+                yield ["bash", "-ec", line.replace("build/release", program_path(""))]
+                continue
+            words = shlex.split(line)
             if words[0].startswith("build/"):
                 words[0] = program_path(pathlib.Path(words[0]).name)
             else:
@@ -104,6 +108,15 @@ class Course(ProgramTest):
         self.assertLess(largest(conserving["total_energy"][k] / .125 - 1.
                                 for k in range(len(conserving["time"]))), 1e-12)
 
+    def test_course_for_students(self):
+        """All questions and sheets, and no answer."""
+        course = COURSE.read_text()
+        students = how_to.without_answers(course)
+        for mark in ("## Unit ", "**Questions:**", "**Sheet:**", "\nbuild/release/"):
+            self.assertEqual(students.count(mark), course.count(mark))
+        for word in ("Answers", "2.6106", "0.3494", "keeps | 0.00", "set Probe ball"):
+            self.assertNotIn(word, students)
+
     def test_unit_2(self):
         self.run_unit(2)
         log = (self.folder / "orders" / "log.txt").read_text()
@@ -112,10 +125,14 @@ class Course(ProgramTest):
             errors, energies = [], []
             for h, mass in (("0.05", "consistent"), ("0.025", "consistent"),
                             ("0.0125", "consistent"), ("0.0125", "redistributed")):
-                ledger = self.run_program("bar_sd", [
-                    f"Time/Scheme={scheme}", f"Mesh/Mesh size={h}", f"Time/Time step={h}",
-                    f"Time/Mass={mass}", *NO_FIELDS])
-                said = (self.folder / "run" / "log.txt").read_text()
+                folder = self.folder / f"{scheme}_{h}"
+                if mass == "redistributed":
+                    folder = self.folder / "run"
+                    self.run_program("bar_sd", [
+                        f"Time/Scheme={scheme}", f"Mesh/Mesh size={h}", f"Time/Time step={h}",
+                        f"Time/Mass={mass}", *NO_FIELDS])
+                ledger = Ledger(folder)
+                said = (folder / "log.txt").read_text()
                 errors.append(float(re.search(r"H1\) error: ([^,]+)", said)[1]))
                 energy = ledger["modified_energy"]
                 energies.append(signed(100. * (energy[-1] / energy[0] - 1.), "+.2f") + " %")
@@ -173,6 +190,8 @@ class Course(ProgramTest):
         mass = momentum[first] / speed[first]
         impulse = momentum[-1] + mass * g * time[-1]
         self.assertAlmostEqual(run["impulse_y_floor"][-1], impulse, delta=1e-10)
+        self.assertLess(largest(energy - run["total_energy"][0] for energy in run["total_energy"]),
+                        2e-12)
         rows += [
             ["velocity of the disk at the floor", f"{math.sqrt(.4 * g):.3f} m/s",
              f"{-speed[first]:.3f} m/s"],

@@ -463,6 +463,37 @@ BOOST_AUTO_TEST_CASE(two_point_laws_dissipate)
 
 namespace
 {
+  /// The pressure tanh(penetration/length).
+  struct TanhLaw
+  {
+    double length;
+
+    static constexpr ContactLawTraits
+    traits()
+    {
+      return {};
+    }
+
+    template <typename Number>
+    ContactPointForce<Number>
+    force(const ContactPointState<Number> &state,
+          const ContactPointState<double> & /*old_state*/,
+          const double /*cell_diameter*/) const
+    {
+      if (!(state.gap < 0.))
+        return {};
+      return {Number(tanh(state.gap / length)), Number(0.), Number(0.)};
+    }
+
+    double
+    potential(const ContactPointState<> &state,
+              const double /*cell_diameter*/) const
+    {
+      return state.gap < 0. ? length * std::log(std::cosh(state.gap / length))
+                            : 0.;
+    }
+  };
+
   /// The pressure exp(penetration/length) - 1.
   struct ExponentialLaw
   {
@@ -510,6 +541,16 @@ BOOST_AUTO_TEST_CASE(steep_laws_close_along_the_gap)
       BOOST_CHECK_EQUAL(closing->test, (dealii::Tensor<1, 3>({1., 0., 0.})));
       BOOST_CHECK_EQUAL(closing->trial, (dealii::Tensor<1, 3>({1., 0., 0.})));
     }
+  // One that saturates has no slope there: in metres and in millimetres.
+  for (const double length : {1e-2, 1e-5})
+    for (const double cell_diameter : {1e-2, 1., 1e3})
+      {
+        const ContactLawImplementation<TanhLaw> law({length});
+        const auto closing = closing_directions(law, cell_diameter);
+        BOOST_REQUIRE(closing.has_value());
+        BOOST_CHECK_EQUAL(closing->test, (dealii::Tensor<1, 3>({1., 0., 0.})));
+        BOOST_CHECK_EQUAL(closing->trial, (dealii::Tensor<1, 3>({1., 0., 0.})));
+      }
   // One whose slope is never finite has none.
   BOOST_CHECK(
     !closing_directions(ContactLawImplementation<ExponentialLaw>({1e-18}), 1.));

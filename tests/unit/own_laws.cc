@@ -12,7 +12,9 @@
 #include "../../examples/own_step/limited_friction.h"
 
 #include <base/exceptions.h>
+#include <contact/laws/law_check.h>
 #include <contact/obstacles/half_space.h>
+#include <materials/law_check.h>
 #include <materials/material_parameters.h>
 #include <output/momenta.h>
 #include <problems/impact.h>
@@ -266,6 +268,177 @@ BOOST_AUTO_TEST_CASE(gent_from_its_energy)
 }
 
 // One table: names, parameters, defaults and notes are those of the laws' own files.
+namespace
+{
+  // Gent's law with the mistakes of a first attempt.
+  struct WithEnergyAtRest : Gent
+  {
+    template <typename Number>
+    Number
+    energy(const Invariants<Number> &i) const
+    {
+      return Gent::energy(i) + .1;
+    }
+  };
+
+  struct WithStressAtRest : Gent
+  {
+    template <typename Number>
+    Number
+    energy(const Invariants<Number> &i) const
+    {
+      return Gent::energy(i) + .1 * (i.first - 3.);
+    }
+
+    template <typename Number>
+    std::array<Number, 3>
+    gradient(const Invariants<Number> &i) const
+    {
+      auto result = Gent::gradient(i);
+      result[0] += .1;
+      return result;
+    }
+  };
+
+  struct WithTwiceTheGradient : Gent
+  {
+    template <typename Number>
+    std::array<Number, 3>
+    gradient(const Invariants<Number> &i) const
+    {
+      auto result = Gent::gradient(i);
+      for (Number &entry : result)
+        entry *= 2.;
+      return result;
+    }
+  };
+
+  struct WithoutAnEntry : Gent
+  {
+    template <typename Number>
+    std::array<std::array<Number, 3>, 3>
+    hessian(const Invariants<Number> &i) const
+    {
+      auto result  = Gent::hessian(i);
+      result[2][0] = Number(0.);
+      return result;
+    }
+  };
+
+  struct WithThreeTimesAnEntry : Gent
+  {
+    template <typename Number>
+    std::array<std::array<Number, 3>, 3>
+    hessian(const Invariants<Number> &i) const
+    {
+      auto result = Gent::hessian(i);
+      result[2][2] *= 3.;
+      return result;
+    }
+  };
+
+  // The exponential pressure, the same way.
+  struct WithWrongSign : ExponentialPressure
+  {
+    template <typename Number>
+    ContactPointForce<Number>
+    force(const ContactPointState<Number> &state,
+          const ContactPointState<double> &old_state,
+          const double                     cell_diameter) const
+    {
+      auto result = ExponentialPressure::force(state, old_state, cell_diameter);
+      result.gap *= -1.;
+      return result;
+    }
+  };
+
+  struct WithHalfThePotential : ExponentialPressure
+  {
+    double
+    potential(const ContactPointState<> &state,
+              const double               cell_diameter) const
+    {
+      return .5 * ExponentialPressure::potential(state, cell_diameter);
+    }
+  };
+
+  struct CalledLinear : ExponentialPressure
+  {
+    static constexpr ContactLawTraits
+    traits()
+    {
+      ContactLawTraits traits = ExponentialPressure::traits();
+      traits.piecewise_linear = true;
+      return traits;
+    }
+  };
+
+  struct WithSteepTangent : ExponentialPressure
+  {
+    ContactPointTangent
+    tangent(const ContactPointState<> &state,
+            const ContactPointState<> & /*old_state*/,
+            const double /*cell_diameter*/) const
+    {
+      ContactPointTangent result;
+      result[0][0] =
+        state.gap < 0. ? 5. * p_0 / d * std::exp(-state.gap / d) : 0.;
+      return result;
+    }
+  };
+
+  /// Whether the check of a law refuses it with these @p words.
+  template <typename Check>
+  bool
+  is_refused(const Check &check, const std::string &words)
+  {
+    try
+      {
+        check();
+      }
+    catch (const InputError &error)
+      {
+        BOOST_TEST_MESSAGE(error.what());
+        return std::string(error.what()).find(words) != std::string::npos;
+      }
+    return false;
+  }
+} // namespace
+
+// All laws of the library pass in every run.
+BOOST_AUTO_TEST_CASE(wrong_laws_are_refused)
+{
+  const auto of_material = [](const auto &law, const std::string &words) {
+    using Law = std::decay_t<decltype(law)>;
+    return is_refused(
+      [&]() { check_law(HyperelasticLawImplementation<Law>(law), "mine"); },
+      words);
+  };
+  check_law(HyperelasticLawImplementation<Gent>(gent), "Gent");
+  // Strains of some per cent are beyond its limit.
+  check_law(HyperelasticLawImplementation<Gent>({.8, 1e-3, 1.7}), "Gent");
+  BOOST_CHECK(
+    of_material(WithEnergyAtRest{gent}, "its energy at rest is 0.1 J"));
+  BOOST_CHECK(
+    of_material(WithStressAtRest{gent}, "its stress at rest is 0.2 Pa"));
+  BOOST_CHECK(of_material(WithTwiceTheGradient{gent}, "gradient()[0] is"));
+  BOOST_CHECK(of_material(WithoutAnEntry{gent}, "hessian()[2][0] is 0"));
+  BOOST_CHECK(of_material(WithThreeTimesAnEntry{gent}, "hessian()[2][2] is"));
+
+  const ExponentialPressure pressure{7., .03};
+  const auto of_contact = [](const auto &law, const std::string &words) {
+    using Law = std::decay_t<decltype(law)>;
+    return is_refused(
+      [&]() { check_law(ContactLawImplementation<Law>(law), "mine", 1.); },
+      words);
+  };
+  check_law(ContactLawImplementation<ExponentialPressure>(pressure), "", 1.);
+  BOOST_CHECK(of_contact(WithWrongSign{pressure}, "force() is "));
+  BOOST_CHECK(of_contact(WithHalfThePotential{pressure}, "potential() is "));
+  BOOST_CHECK(of_contact(CalledLinear{pressure}, "piecewise linear"));
+  BOOST_CHECK(of_contact(WithSteepTangent{pressure}, "tangent() is "));
+}
+
 BOOST_AUTO_TEST_CASE(registered_laws_are_as_all_others)
 {
   register_all();

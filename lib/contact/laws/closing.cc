@@ -20,7 +20,8 @@ namespace Ricochet
   {
     ContactPointState<> open, closed;
     open.gap = cell_diameter;
-    // A steep law may overflow where it has penetrated by h_T: less is enough.
+    // Where it has penetrated by h_T, a steep law may overflow, and one that saturates may
+    // have no slope any more: less is enough.
     ContactPointTangent change;
     double              depth = cell_diameter;
     do
@@ -29,7 +30,8 @@ namespace Ricochet
         change     = law.tangent(closed, open, cell_diameter) -
           open_tangent(law, cell_diameter);
         depth /= 16.;
-    } while (!std::isfinite(change.norm()) && depth > 1e-12 * cell_diameter);
+    } while ((!std::isfinite(change.norm()) || change.norm() == 0.) &&
+             depth > 1e-12 * cell_diameter);
     if (!std::isfinite(change.norm()))
       return {};
     Closing closing;

@@ -199,7 +199,14 @@ namespace Ricochet
     FrictionLimit
     limit(const double pressure, const dealii::Tensor<1, 3> &slip_rate) const
     {
-      return law->limit(pressure, slip_rate.norm());
+      const double        slip_speed = slip_rate.norm();
+      const FrictionLimit own        = law->limit(pressure, slip_speed);
+      if (!(own.value >= 0.))
+        throw ComputationError(
+          "The friction law has the limit " + to_text(own.value) +
+          " at the pressure " + to_text(pressure) + " and the slip speed " +
+          to_text(slip_speed) + "; it must not be negative.");
+      return own;
     }
 
     const std::shared_ptr<const FrictionLaw> law;

@@ -8,6 +8,7 @@
 #include <contact/laws/augmentation.h>
 #include <contact/laws/augmented_lagrangian.h>
 #include <contact/laws/coulomb_friction.h>
+#include <contact/laws/law_check.h>
 #include <contact/laws/nitsche.h>
 #include <contact/laws/nitsche_two_point.h>
 #include <contact/laws/normal_compliance.h>
@@ -22,6 +23,8 @@
 #include <contact/treatments/pointwise_contact.h>
 
 #include <deal.II/base/utilities.h>
+
+#include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -665,6 +668,35 @@ namespace Ricochet
 
 
 
+  namespace
+  {
+    /// The law for the scheme.
+    std::unique_ptr<ContactLaw>
+    make_law(const ContactParameters &parameters, const SchemeTraits &scheme)
+    {
+      const Treatment &treatment = find(parameters);
+      return (scheme.contact_over_step && treatment.make_midpoint_law
+                ? treatment.make_midpoint_law
+                : treatment.make_law)(parameters.values);
+    }
+
+    /// Check that the law, which may be a user's, is what it says. @throws InputError Collective.
+    template <int dim>
+    void
+    check_law_of(const ContactParameters &parameters,
+                 const SchemeTraits      &scheme,
+                 const Body<dim>         &body)
+    {
+      if (find(parameters).make_law)
+        check_law(*make_law(parameters, scheme),
+                  parameters.treatment,
+                  GridTools::minimal_cell_diameter(
+                    body.dof_handler().get_triangulation()));
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::unique_ptr<PairContact<dim>>
   make_pair_contact(const ContactParameters        &parameters,
@@ -673,16 +705,17 @@ namespace Ricochet
                     const std::vector<ContactPair> &pairs)
   {
     const Treatment &treatment = find(parameters);
-    auto             contact   = std::make_unique<PairContact<dim>>(
+    check_law_of(parameters, scheme, body);
+    auto contact = std::make_unique<PairContact<dim>>(
       body,
       pairs,
       PairMethod{
-        parameters.coupling == "mortar" ? PairCoupling::mortar
-                        : parameters.coupling == "dual mortar" ? PairCoupling::dual_mortar
-                                                               : PairCoupling::points,
+        parameters.coupling == "mortar"          ? PairCoupling::mortar
+          : parameters.coupling == "dual mortar" ? PairCoupling::dual_mortar
+                                                 : PairCoupling::points,
         treatment.make_law ? treatment.make_law(parameters.values) : nullptr,
         treatment.make_law ? nullptr
-                                         : make_corner_law(10. * augmentation(parameters),
+                           : make_corner_law(10. * augmentation(parameters),
                                              scheme.contact_over_step),
         treatment.condition,
         augmentation(parameters),
@@ -776,16 +809,6 @@ namespace Ricochet
       if (!reason.empty())
         throw InputError(parameters.section + "/" + reason);
     }
-
-    /// The law for the scheme.
-    std::unique_ptr<ContactLaw>
-    make_law(const ContactParameters &parameters, const SchemeTraits &scheme)
-    {
-      const Treatment &treatment = find(parameters);
-      return (scheme.contact_over_step && treatment.make_midpoint_law
-                ? treatment.make_midpoint_law
-                : treatment.make_law)(parameters.values);
-    }
   } // namespace
 
 
@@ -849,6 +872,7 @@ namespace Ricochet
                const Obstacles                             &obstacles)
   {
     const Treatment &treatment = find(parameters);
+    check_law_of(parameters, scheme, body);
     if (treatment.traits.uses_stress)
       check_stability(parameters,
                       nitsche_trace_constant(body, stress, obstacles));
@@ -915,7 +939,12 @@ namespace Ricochet
   {
     for (const OwnParameter &parameter : all_parameters())
       if (parameter.scale_rule && values[parameter.name] == 0.)
-        values[parameter.name] = parameter.scale_rule(scales, values);
+        {
+          values[parameter.name] = parameter.scale_rule(scales, values);
+          // Without finite moduli it is not finite, which the caller reports.
+          if (std::isfinite(values[parameter.name]))
+            parameter.check_bounds(values[parameter.name]);
+        }
   }
 
 

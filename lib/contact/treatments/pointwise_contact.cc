@@ -257,7 +257,10 @@ namespace Ricochet
   {
     // Closing changes one direction or not, whatever h_T.
     const auto closing = closing_directions(*law, 1.);
-    if (!closing)
+    for (const ContactPoint &point : evaluator.contact_points())
+      if (const auto own = closing_directions(*law, point.cell_diameter); own)
+        closings.push_back(*own);
+    if (!closing || closings.size() < evaluator.contact_points().size())
       return;
     // Directions are fewer than unknowns; but not with friction in points of faces,
     // each of which has three. With rows along directions, the forces of a multiplier
@@ -269,9 +272,6 @@ namespace Ricochet
                   : traits.needs_multiplier && closing->test != closing->trial;
     rows_have_directions =
       kinematics->has_constant_rows() && !prefers_observables;
-    for (const ContactPoint &point : evaluator.contact_points())
-      closings.push_back(closing_directions(*law, point.cell_diameter).value());
-
     if (rows_have_directions)
       {
         rows.emplace(evaluator.coefficients());
