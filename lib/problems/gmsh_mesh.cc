@@ -789,6 +789,12 @@ namespace Ricochet
     // Also that it is a file, and not a pipe whose end never comes.
     check_mesh_file(file_name);
     refuse_options_beside(file_name);
+    const std::string script =
+      ending_of(file_name) == ".geo" ? read_file(file_name) : "";
+    if (!script.empty() && script.back() != '\n')
+      throw InputError("The geometry '" + file_name +
+                       "' does not end with a new line, without which Gmsh "
+                       "leaves out statements of the last one. Add one.");
     std::string   &mesh         = converted(file_name, mesh_size);
     const MPI_Comm communicator = OneRank::communicator();
     on_first_rank(communicator, [&]() {

@@ -58,6 +58,9 @@ class Certificate(ProgramTest):
             self.assertIn(f"{cells} cells", (folder / "log.txt").read_text())
             self.assertEqual(summaries[k]["steps"]["number"], steps)
             self.assertAlmostEqual(summaries[k]["steps"]["end"], 0.25, 12)
+            # Each run counts its own.
+            run = summaries[k]["run"]
+            self.assertLess(run["processor_seconds"], 1.5 * run["wall_seconds"] + 0.05)
 
         def number(summary, name):
             for key in name.split("."):
@@ -73,7 +76,11 @@ class Certificate(ProgramTest):
             self.assertAlmostEqual(entry["change_by_halved_steps"], values[4] - values[0], 12)
             d1, d2 = values[1] - values[0], values[2] - values[1]
             if entry["order"] is not None:
-                self.assertAlmostEqual(entry["order"], math.log2(abs(d1) / abs(d2)), 9)
+                self.assertAlmostEqual(entry["order"], math.log2(d1 / d2), 9)
+            elif min(abs(d1), abs(d2)) > max(0.01, 0.01 * abs(values[0])) and "touch" not in name:
+                self.assertLess(d1 * d2, 0, msg=name)
+            if entry["error_bar"] is not None and values[0]:
+                self.assertIn(f"finest {values[2]:.6g})", out)
             least = 0.01 if "touch" in name else 0
             if entry["error_bar"] is not None and max(abs(d1), abs(d2)) > max(least, 1e-5):
                 ratio = abs(d1) / abs(d2)

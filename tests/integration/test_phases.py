@@ -311,6 +311,10 @@ class Phases(ProgramTest):
                 (["Phase hit/Time/Until=rand() > .5"], "random numbers"),
                 # Before the first phase is made.
                 (["Phase hit/Body block/Young modulus=-1"], "Phase hit: "),
+                (["Phase hit/Body block/Translation=0, 0.06"],
+                 "Phase hit: its bodies have another mesh or place"),
+                (["Phase press/Body block/Cells along=8, 2"],
+                 "Phase release: its bodies have another mesh or place"),
                 (["Phase press/Time/Until=kinetic_enrgy > 1"], "Is 'kinetic_energy' meant?")):
             with self.subTest(parameters[0]):
                 self.assertIn(message, refused(text, parameters))

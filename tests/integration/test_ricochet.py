@@ -1068,6 +1068,63 @@ end
                      "turns by 2 rad if nothing stops it"):
             self.assertIn(text, result.stdout)
 
+    def test_notes_of_what_is_forgotten(self):
+        """Units, a body without contact, a mesh in pieces; where boundaries are, by hand."""
+        self.refused_at_once()
+        (self.folder / "two.geo").write_text(
+            'SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 10, 20};'
+            "Rectangle(2) = {0, 21, 0, 10, 5};\n")
+        text = """
+set Program = ricochet
+set Dimension = 2
+set Units = mm, t, s
+subsection Body part
+  set File = two.geo
+  set Mesh size = 5
+  set Translation = 0, 1
+  set Density = 7850
+  set Young modulus = 2.1e5
+end
+subsection Body other
+  set Shape = rectangle
+  set Cells = triangles or tetrahedra
+  set Translation = 30, 1
+  set Density = 7.85e-9
+end
+subsection Obstacle floor
+  set Shape = half space
+end
+subsection Contact floor
+  set Surface = part
+  set Against = floor
+end
+subsection Time
+  set Final time = 1e-4
+  set Time step = 1e-5
+end
+"""
+        result = self.validate(self.write(text))
+        self.assertEqual(result.returncode, 0, msg=result.stderr)
+        out = result.stdout
+        for words in ("the density of 'part' is 7.85e+15 kg/m^3 in Units = mm, t, s, in which that "
+                      "of steel is 7.85e-09.",
+                      "the mesh of the body 'part' has 2 pieces",
+                      "the body 'other' touches nothing",
+                      "(right): length 1, middle (31, 1.5), normal (1, 0)"):
+            self.assertIn(words, out)
+        self.assertNotIn("density of 'other'", out)
+        # One of the two; in units of its own the density is right, and too much for the waves.
+        text = text.replace("set File = two.geo", "set File = two.geo\n  set Group = 2")
+        out = self.validate(self.write(text.replace("set Units = mm, t, s\n", ""))).stdout
+        self.assertIn("area 50, mass", out)
+        self.assertNotIn("pieces", out)
+        self.assertIn("Are its density and Young's modulus in consistent units?", out)
+        self.assertNotIn("steel", out)
+        # Gmsh would leave out the second rectangle.
+        geometry = self.folder / "two.geo"
+        geometry.write_text(geometry.read_text().rstrip("\n"))
+        self.assertIn("does not end with a new line", self.validate(self.write(text)).stderr)
+
     def test_validate(self):
         self.refused_at_once()
         result = self.validate(self.write(scene(steps=1)))
@@ -1089,7 +1146,7 @@ end
                                  "--output-dir", str(look)],
                                 capture_output=True, text=True, cwd=ROOT)
         self.assertEqual(result.returncode, 0, msg=result.stderr)
-        self.assertIn("(lower): length 1, number 3 in setup.vtk",
+        self.assertIn("(lower): length 1, middle (1.7, -0.59), normal (0, -1), number 3 in setup.vtk",
                       (look / "setup.txt").read_text())
         result = subprocess.run([sys.executable, ROOT / "python/bin/ricochet-plot", look],
                                 capture_output=True, text=True)

@@ -71,6 +71,39 @@ class RunData(ProgramTest):
                                   prm=file, **kwargs)
         return Run(folder), ledger
 
+    def test_restitution_needs_bodies_that_come(self):
+        """Two bars that touch, with one velocity, meet a wall: that of the bar and the wall exists,
+        that of the two bars would be a quotient of round-off."""
+        text = "set Program = ricochet\nset Dimension = 2\n"
+        for name, place in (("a", 0.), ("b", 1.)):
+            text += (f"subsection Body {name}\n  set Shape = rectangle\n  set Cells along = 4, 2\n"
+                     f"  set Translation = {place}, 0\n  set Velocity = 1, 0\nend\n")
+        text += """
+subsection Obstacle wall
+  set Shape     = half space
+  set Centre    = 2.01, 0
+  set Direction = -1, 0
+end
+subsection Contact ab
+  set Surface = a: right
+  set Against = b: left
+end
+subsection Contact wall
+  set Surface = b: right
+  set Against = wall
+end
+subsection Time
+  set Final time = 0.3
+  set Time step  = 0.002
+end
+"""
+        file = self.folder / "scene.prm"
+        file.write_text(text)
+        self.run_program("ricochet", NO_FIELDS, self.folder / "run", prm=file)
+        contacts = Run(self.folder / "run").result["contacts"]
+        self.assertGreater(contacts["ab"]["largest_force"]["value"], 0)
+        self.assertIsNone(contacts["ab"]["restitution"])
+
     def test_points_and_nodes_of_contacts(self):
         """Sums over points and nodes are the columns of the table; the smallest gap is the
         column's; forces between two bodies cancel."""

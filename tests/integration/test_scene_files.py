@@ -212,6 +212,9 @@ end
         self.refused(FALLING_IN_SHORT + many + "subsection Body b300\nend\n", "too many in a row")
         self.refused(FALLING_IN_SHORT, "no variable 'hight'",
                      parameters=["Variables/hight=1"])
+        # A mistake in a model is found there, and not in a section that is like it.
+        self.refused(FALLING_IN_SHORT, "of 'Body first/Velocity' is not allowed",
+                     parameters=["Body first/Velocity=1"])
 
     def test_forces_and_moments(self):
         """A moment M bends a beam of length L into M L^2/(2 E I); supports take what is

@@ -13,6 +13,7 @@
 
 #include <base/exceptions.h>
 #include <contact/laws/law_check.h>
+#include <contact/laws/regularised_friction.h>
 #include <contact/obstacles/half_space.h>
 #include <materials/law_check.h>
 #include <materials/material_parameters.h>
@@ -437,6 +438,26 @@ BOOST_AUTO_TEST_CASE(wrong_laws_are_refused)
   BOOST_CHECK(of_contact(WithHalfThePotential{pressure}, "potential() is "));
   BOOST_CHECK(of_contact(CalledLinear{pressure}, "piecewise linear"));
   BOOST_CHECK(of_contact(WithSteepTangent{pressure}, "tangent() is "));
+}
+
+// A limit that is below zero would add energy; defaults are within users' bounds.
+BOOST_AUTO_TEST_CASE(limits_and_defaults_with_a_wrong_sign)
+{
+  const RegularisedFriction friction(
+    std::make_shared<FrictionLawImplementation<LimitedFriction>>(
+      LimitedFriction{-.3, 2.}),
+    1.);
+  const Tensor<1, 3> slip({1., 0., 0.});
+  BOOST_CHECK_THROW(friction.choose_branch(friction.creep(), 4., slip, slip),
+                    ComputationError);
+  dealii::ParameterHandler handler;
+  ParameterValues          values;
+  BOOST_CHECK_THROW(values.add_parameters({OwnParameter("Stiffness", -1.)
+                                             .means("Stiffness", "Pa", "")
+                                             .at_least(1e-30)
+                                             .belongs_to("mine")},
+                                          handler),
+                    InputError);
 }
 
 BOOST_AUTO_TEST_CASE(registered_laws_are_as_all_others)

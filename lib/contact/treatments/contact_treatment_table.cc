@@ -941,8 +941,8 @@ namespace Ricochet
       if (parameter.scale_rule && values[parameter.name] == 0.)
         {
           values[parameter.name] = parameter.scale_rule(scales, values);
-          // Without finite moduli it is not finite, which the caller reports.
-          if (std::isfinite(values[parameter.name]))
+          // Moduli that are too large or too small are reported by the caller.
+          if (values[parameter.name] < 0.)
             parameter.check_bounds(values[parameter.name]);
         }
   }
