@@ -3,6 +3,7 @@
 checked by figures/make.py itself."""
 
 import collections
+import csv
 import pathlib
 import tempfile
 import unittest.mock
@@ -15,7 +16,8 @@ sys.path.insert(0, str(FIGURES))
 try:
     import matplotlib
     matplotlib.use("Agg")
-    from shared import finding, measures, numbers_table, paper_numbers, report
+    import matplotlib.pyplot
+    from shared import finding, keeping, measures, numbers_table, paper_numbers, report
     from ricochet import RicochetError
 except ImportError:
     matplotlib = None
@@ -118,6 +120,47 @@ class Figures(unittest.TestCase):
         self.assertEqual(met.verdict, "equal within 1 %")
         self.assertEqual(differs.verdict, "differs: another machine")
         self.assertEqual(statement.verdict, "holds")
+
+    def test_kept_figures(self):
+        """Each figure that takes no quiet machine has a small picture or a table, date and commit,
+        and all numbers that are written down for it; there is nothing else."""
+        wanted = {name: figure for name, figure in self.figures.items() if not figure.timed}
+        made = keeping.made()
+        self.assertEqual(set(made), set(wanted))
+        for date, commit in made.values():
+            self.assertRegex(f"{date} {commit}", r"^20\d\d-\d\d-\d\d [0-9a-f]{10}$")
+        files = {file for figure in wanted.values()
+                 for file in (figure.image, figure.table_file) if file}
+        kept = {path.name for path in keeping.FOLDER.iterdir()}
+        self.assertEqual(kept, files | {"made.csv", "checks.csv"})
+        for file in files:
+            self.assertLessEqual((keeping.FOLDER / file).stat().st_size, keeping.LARGEST)
+        with open(keeping.FOLDER / "checks.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual({row["ok?"] for row in rows}, {"yes", "differs"})
+        checked = {(row["figure"], row["quantity"]) for row in rows}
+        for number in paper_numbers.everything().values():
+            if number.figure in wanted:
+                self.assertIn((number.figure, number.quantity), checked)
+
+    def test_small_copies(self):
+        """A picture of noise, which nothing makes small, is refused; a drawing fits, at its size on
+        paper."""
+        from PIL import Image
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            plot, small = folder / "plot.png", folder / "small.png"
+            figure, axes = matplotlib.pyplot.subplots(figsize=(6.8, 4))
+            axes.plot([0, 1, 4, 9])
+            figure.savefig(plot, dpi=300)
+            matplotlib.pyplot.close(figure)
+            keeping.small_copy(plot, small)
+            self.assertLessEqual(small.stat().st_size, keeping.LARGEST)
+            with Image.open(small) as image:
+                self.assertAlmostEqual(image.width / image.info["dpi"][0], 6.8, places=1)
+            Image.effect_noise((1600, 1600), 100).save(plot)
+            with self.assertRaisesRegex(RicochetError, "no copy of 40000 bytes"):
+                keeping.small_copy(plot, small)
 
     def test_table_of_numbers(self):
         """doc/benchmarks.md has the table that figures/make.py --table would write."""
