@@ -17,7 +17,7 @@ FOLDER = CHECKOUT / "figures" / "kept"
 LARGEST = 40_000
 
 #: Widths in pixels and numbers of colours of small pictures: the first that is small enough is taken.
-SIZES = [(1000, 64), (1000, 32), (820, 48), (820, 24), (680, 32), (680, 16), (520, 16), (520, 8), (400, 8)]
+SIZES = [(1000, 48), (1000, 32), (820, 32), (680, 32), (680, 24), (520, 32), (520, 24), (400, 16)]
 
 #: The columns of `made.csv`.
 MADE = ("figure", "date", "commit")
@@ -52,7 +52,8 @@ def small_copy(source, target):
         width = min(width, image.width)
         size = (width, round(image.height * width / image.width))
         small = image.resize(size, Image.Resampling.LANCZOS)
-        small = small.quantize(colours, dither=Image.Dither.NONE)
+        # An octree keeps the hues of thin lines, of which there are few pixels.
+        small = small.quantize(colours, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
         data = io.BytesIO()
         small.save(data, "PNG", optimize=True, dpi=(width / inches,) * 2)
         if data.tell() <= LARGEST:
