@@ -5,6 +5,7 @@ pictures, the tables, and the checks, each with the date and the commit of the p
 import csv
 import datetime
 import io
+import re
 import subprocess
 
 from ricochet import RicochetError
@@ -30,15 +31,21 @@ def _git(*words):
     return answer.stdout.strip()
 
 
-def commit():
+def commit(build_dir):
     """The commit of the checkout, short.
 
     Raises:
-        RicochetError: files differ from it, so that the figures would not be those of the commit.
+        RicochetError: files differ from it, or programs are those of another one, so that the figures
+            would not be those of the commit.
     """
     if _git("status", "--porcelain", "--", ".", ":!figures/kept"):
         raise RicochetError("Figures to keep have to be those of a commit, but files differ from it.")
-    return _git("rev-parse", "--short=10", "HEAD")
+    head = _git("rev-parse", "HEAD")
+    said = subprocess.run([build_dir / "bar_sd", "--version"], capture_output=True, text=True).stdout
+    built = re.search(r"commit ([0-9a-f]+)", said)
+    if not built or not head.startswith(built[1]):
+        raise RicochetError(f"The programs in '{build_dir}' are not of the commit {head[:10]}: build.")
+    return head[:10]
 
 
 def small_copy(source, target):

@@ -66,7 +66,7 @@ def make(figures, build_dir, jobs, force, keep=False):
     With `keep` they go into the repository, too, if so.
     """
     start = time.monotonic()
-    commit = keeping.commit() if keep else None
+    commit = keeping.commit(build_dir) if keep else None
     folder = runs.OUTPUT / "figures"
     folder.mkdir(parents=True, exist_ok=True)
 

@@ -83,7 +83,7 @@ namespace Ricochet
 
     ParameterText result;
     result.sections = text.sections;
-    // Settings of models come first, so that a mistake in them is found there.
+    // Settings of sections that are like none come first, so that a mistake in them is found there.
     for (const Assignment &assignment : text.assignments)
       if (models.count(assignment.path[0]) == 0)
         result.assignments.push_back(assignment);

@@ -25,8 +25,8 @@ namespace Ricochet
     double density;
     /// Mean diameter of the cells at the surface (m).
     double cell_diameter;
-    /// Mean depth of the cells below the surface (m), as the diameter of a cube of that depth: the
-    /// cell_diameter, unless cells are more than twice as wide as deep.
+    /// Mean of the cell's diameter and of twice the diameter of a cube as deep as the cell, where that is
+    /// smaller (m): the cell_diameter, unless cells are more than twice as wide as deep.
     double cell_depth;
     /// Degree of the displacement.
     unsigned int degree;

@@ -48,7 +48,7 @@ namespace Ricochet
                 const unsigned int        k,
                 const std::string        &output_dir);
 
-  /// Do what may refuse the input of the phase @p name, which is then said.
+  /// Do what may refuse the input of the phase @p name, naming the phase in the refusal.
   /// @throws InputError
   void
   in_phase(const std::string &name, const std::function<void()> &action);

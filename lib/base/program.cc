@@ -147,17 +147,17 @@ namespace Ricochet
               return;
             }
           notes = checked->validate(program);
-          if (phases.size() > 1)
+          if (phases.size() > 1 && program.checksum_of_bodies)
             {
               const std::uint32_t bodies = program.checksum_of_bodies();
               if (k == 0)
                 bodies_of_all = bodies;
               if (bodies != bodies_of_all)
                 throw InputError(
-                  "its bodies have another mesh or place than those of the first phase, "
-                  "while it goes on from where the phase before it ends. Set what makes "
-                  "or moves a body (Shape, Size, Translation, ...) outside of the "
-                  "phases; a Condition moves it within one.");
+                  "it has other bodies than the first phase, or bodies with another mesh "
+                  "or place, while it goes on from where the phase before it ends. Set "
+                  "what makes or moves a body (Shape, Size, Translation, ...) outside of "
+                  "the phases; a Condition moves it within one.");
             }
           if (phases.size() > 1 &&
               checked->parameters.get({"Output"}, "Checkpoint every") == "0")
@@ -167,13 +167,13 @@ namespace Ricochet
               "checkpoint of the one before.");
           if (!command_line.validate_only)
             return;
-          const std::string text =
+          const std::string lines =
             description(program, notes, command_line.output_dir);
-          answer += text;
+          answer += lines;
           json_answer.begin_object(phases[k].name.empty() ? program.name
                                                           : phases[k].name);
           json_answer.add("lines",
-                          dealii::Utilities::split_string_list(text, '\n'));
+                          dealii::Utilities::split_string_list(lines, '\n'));
           json_answer.add("notes", notes);
           json_answer.end_object();
         });

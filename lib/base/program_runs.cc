@@ -3,7 +3,6 @@
 #include <base/exceptions.h>
 #include <base/files.h>
 #include <base/json_writer.h>
-#include <base/last_meeting.h>
 #include <base/one_rank.h>
 #include <base/program_runs.h>
 #include <base/refinement.h>
@@ -11,7 +10,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <filesystem>
-#include <memory>
 
 namespace Ricochet
 {

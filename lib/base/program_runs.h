@@ -8,6 +8,7 @@
 #include <base/run_folder.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Ricochet

@@ -11,9 +11,8 @@ namespace Ricochet
   /**
    * Check a hyperelastic law that somebody has written: energy and stress are zero at rest, where
    * shear and bulk moduli are positive; gradient and Hessian are the derivatives of
-   * energy and gradient, by quotients of differences at two strains of some per cent; the
-   * Hessian is symmetric. A law that fails would compute, with a balance of energy that
-   * closes.
+   * energy and gradient, by quotients of differences at two strains of some per cent. Without
+   * this check a wrong law would run, while its balance of energy closes.
    *
    * @param name of the law, for messages.
    * @throws InputError that says which of its functions is wrong, and by how much.

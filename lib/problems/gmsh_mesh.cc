@@ -792,9 +792,10 @@ namespace Ricochet
     const std::string script =
       ending_of(file_name) == ".geo" ? read_file(file_name) : "";
     if (!script.empty() && script.back() != '\n')
-      throw InputError("The geometry '" + file_name +
-                       "' does not end with a new line, without which Gmsh "
-                       "leaves out statements of the last one. Add one.");
+      throw InputError(
+        "The geometry '" + file_name +
+        "' does not end with a new line, without which Gmsh "
+        "leaves out statements of the last line. Add one at its end.");
     std::string   &mesh         = converted(file_name, mesh_size);
     const MPI_Comm communicator = OneRank::communicator();
     on_first_rank(communicator, [&]() {

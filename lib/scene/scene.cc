@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
-#include <base/files.h>
 #include <base/expressions.h>
+#include <base/files.h>
 #include <base/units.h>
 #include <base/unknown_name.h>
 #include <problems/clearance.h>
@@ -296,21 +296,23 @@ namespace Ricochet
   std::uint32_t
   Scene<dim>::checksum_of_bodies() const
   {
-    std::ostringstream bytes;
-    const auto         put = [&](const auto &value) {
-      bytes.write(reinterpret_cast<const char *>(&value), sizeof(value));
-    };
+    std::uint32_t result = 0;
     for (const auto &mesh : meshes)
       for (const auto &cell : mesh->cells.active_cell_iterators())
         {
+          std::ostringstream bytes;
+          const auto         put = [&](const auto &value) {
+            bytes.write(reinterpret_cast<const char *>(&value), sizeof(value));
+          };
           put(cell->material_id());
           for (const unsigned int v : cell->vertex_indices())
             for (unsigned int c = 0; c < dim; ++c)
               put(cell->vertex(v)[c]);
           for (const auto &face : cell->face_iterators())
             put(face->boundary_id());
+          result = checksum(bytes.str(), result);
         }
-    return checksum(bytes.str());
+    return result;
   }
 
 
@@ -543,8 +545,6 @@ namespace Ricochet
 
   namespace
   {
-    /// Mean diameter of the cells of @p mesh at the boundaries @p ids (m), and their
-    /// number.
     /// Sums over the faces of a surface.
     struct CellSizes
     {
@@ -553,6 +553,7 @@ namespace Ricochet
       unsigned int n         = 0;
     };
 
+    /// Add those of the faces of @p mesh with @p ids.
     template <int dim>
     void
     add_sizes(const Triangulation<dim>           &mesh,

@@ -58,7 +58,8 @@ namespace Ricochet
     void
     run(RunFolder &folder);
 
-    /// Checksum of meshes, places and boundaries of the bodies, after validate().
+    /// Checksum of the bodies' cells, with places, materials' numbers and boundaries, after validate().
+    /// Nodes of curved cells are left to the checkpoint.
     std::uint32_t
     checksum_of_bodies() const;
 

@@ -22,6 +22,7 @@
 #include <fstream>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 // Description of a scene before its run.
@@ -71,7 +72,10 @@ namespace Ricochet
   {
     const Units  units(units_text);
     const double density = units.in_si(part.material.density, "kg/m^3");
-    // Consistent numbers without a meaning in the SI are common in SI units only.
+    // Without inertia it has no meaning, and numbers without dimension are usually given without
+    // Units.
+    if (!scheme_traits(impact.scheme.name).has_inertia)
+      return "";
     if (!units.are_si() && (density < 1. || density > 3e4))
       return "the density of '" + part.name + "' is " + to_text(density) +
         " kg/m^3 in Units = " + units_text + ", in which that of steel is " +
@@ -79,10 +83,9 @@ namespace Ricochet
     const double speed =
       std::sqrt((elastic.lambda + 2. * elastic.mu) / part.material.density);
     const double across = std::pow(part.measure, 1. / dim) / speed;
-    if (scheme_traits(impact.scheme.name).has_inertia &&
-        across > 100. * impact.time.final_time)
-      return "waves need " + units.text(three_digits(across), "s") +
-        " through '" + part.name + "', and the run ends after " +
+    if (across > 100. * impact.time.final_time)
+      return "a wave takes " + units.text(three_digits(across), "s") +
+        " to cross '" + part.name + "', and the run ends after " +
         units.text(impact.time.final_time, "s") +
         ". Are its density and Young's modulus in consistent units?";
     return "";
@@ -105,12 +108,16 @@ namespace Ricochet
         lines.push_back("note: " + obstacles[i].first.where +
                         ": nothing can touch the obstacle '" +
                         obstacles[i].first.name + "': no contact names it.");
-    std::set<unsigned int> touching_bodies;
+    std::set<unsigned int> touching_bodies, touching_themselves;
     for (const ContactSection &contact : contacts)
       {
         const Touching touching = find_touching(contact);
         for (const auto &surface : touching.slave)
-          touching_bodies.insert(surface.body);
+          {
+            touching_bodies.insert(surface.body);
+            if (touching.is_self)
+              touching_themselves.insert(surface.body);
+          }
         if (touching.obstacles.empty() && !touching.is_self)
           for (const auto &surface :
                surfaces.find(contact.against, contact.name_of("Against")))
@@ -124,13 +131,15 @@ namespace Ricochet
                           section.name +
                           "' touches nothing: no contact names it.");
         const unsigned int n_pieces = number_of_pieces(meshes[b]->cells);
-        if (n_pieces > 1)
+        if (n_pieces > 1 && touching_themselves.count(b) == 0)
           lines.push_back("note: " + section.where +
                           ": the mesh of the body '" + section.name + "' has " +
                           std::to_string(n_pieces) +
                           " pieces without a common vertex, which move by "
                           "themselves and pass through each other. A body for "
-                          "each of them (Group) may touch the others.");
+                          "each of them" +
+                          (bodies[b].file.empty() ? "" : " (Group)") +
+                          " may touch the others.");
       }
     for (const auto &material : materials)
       if (std::none_of(parts.begin(), parts.end(), [&](const auto &part) {
@@ -380,7 +389,7 @@ namespace Ricochet
       return text + ")";
     }
 
-    /// Area, middle and mean normal of a boundary, by which a user knows it.
+    /// Area, middle and mean normal of a boundary, by which a user recognises it.
     /// @param extent size of the body (m).
     template <int dim>
     std::string

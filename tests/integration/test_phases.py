@@ -312,9 +312,9 @@ class Phases(ProgramTest):
                 # Before the first phase is made.
                 (["Phase hit/Body block/Young modulus=-1"], "Phase hit: "),
                 (["Phase hit/Body block/Translation=0, 0.06"],
-                 "Phase hit: its bodies have another mesh or place"),
+                 "Phase hit: it has other bodies than the first phase"),
                 (["Phase press/Body block/Cells along=8, 2"],
-                 "Phase release: its bodies have another mesh or place"),
+                 "Phase release: it has other bodies than the first phase"),
                 (["Phase press/Time/Until=kinetic_enrgy > 1"], "Is 'kinetic_energy' meant?")):
             with self.subTest(parameters[0]):
                 self.assertIn(message, refused(text, parameters))

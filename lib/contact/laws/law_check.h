@@ -9,12 +9,12 @@
 namespace Ricochet
 {
   /**
-   * Check a contact law that somebody has written, at some penetrations between a thousandth and a tenth
-   * of @p cell_diameter (m): the force is the derivative of the potential, by a quotient of
-   * differences, where the law depends on the gap alone; it presses, if friction takes its
-   * pressure; the tangent is the derivative of the force, and is the same within a branch
-   * where the law says so. A law that fails would compute, with another energy or without
-   * quadratic convergence.
+   * Check a contact law that somebody has written, at some penetrations and gaps between a thousandth and a
+   * tenth of @p cell_diameter (m): the force is the derivative of the potential, by quotients of
+   * differences, where the law depends on the gap alone; it presses, where the traits need
+   * that; the tangent is the derivative of the force, and is the same within a branch
+   * where the law says so. Without this check a wrong law would run, with another energy or
+   * without quadratic convergence.
    *
    * @param name of the law, for messages.
    * @throws InputError that says what is wrong, and by how much.

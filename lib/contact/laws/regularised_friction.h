@@ -201,11 +201,12 @@ namespace Ricochet
     {
       const double        slip_speed = slip_rate.norm();
       const FrictionLimit own        = law->limit(pressure, slip_speed);
-      if (!(own.value >= 0.))
-        throw ComputationError(
-          "The friction law has the limit " + to_text(own.value) +
-          " at the pressure " + to_text(pressure) + " and the slip speed " +
-          to_text(slip_speed) + "; it must not be negative.");
+      // An iterate that is not finite is no mistake of the law.
+      if (own.value < 0.)
+        throw NewtonFailure("The friction law has the limit " +
+                            to_text(own.value) + " at the pressure " +
+                            to_text(pressure) + " and the slip speed " +
+                            to_text(slip_speed) + "; it must not be negative.");
       return own;
     }
 

@@ -681,17 +681,25 @@ namespace Ricochet
     }
 
     /// Check that the law, which may be a user's, is what it says. @throws InputError Collective.
+    ///
+    /// With the length of the smallest cell of all bodies, as the order is what matters.
     template <int dim>
     void
     check_law_of(const ContactParameters &parameters,
                  const SchemeTraits      &scheme,
                  const Body<dim>         &body)
     {
-      if (find(parameters).make_law)
-        check_law(*make_law(parameters, scheme),
+      const Treatment &treatment = find(parameters);
+      const double     length    = GridTools::minimal_cell_diameter(
+        body.dof_handler().get_triangulation());
+      if (treatment.make_law)
+        check_law(*treatment.make_law(parameters.values),
                   parameters.treatment,
-                  GridTools::minimal_cell_diameter(
-                    body.dof_handler().get_triangulation()));
+                  length);
+      if (scheme.contact_over_step && treatment.make_midpoint_law)
+        check_law(*treatment.make_midpoint_law(parameters.values),
+                  parameters.treatment,
+                  length);
     }
   } // namespace
 
@@ -821,6 +829,7 @@ namespace Ricochet
                         const std::vector<LinearElastic> &materials,
                         const std::vector<ContactPair>   &pairs)
   {
+    check_law_of(parameters, scheme, body);
     const CutFaces<dim> cut_faces(body, materials, pairs);
     if (find(parameters).traits.uses_stress)
       {
@@ -941,7 +950,8 @@ namespace Ricochet
       if (parameter.scale_rule && values[parameter.name] == 0.)
         {
           values[parameter.name] = parameter.scale_rule(scales, values);
-          // Moduli that are too large or too small are reported by the caller.
+          // A wrong sign is the rule's mistake; values beyond the bounds by the user's moduli are
+          // reported by the caller.
           if (values[parameter.name] < 0.)
             parameter.check_bounds(values[parameter.name]);
         }

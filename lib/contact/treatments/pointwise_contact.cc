@@ -255,12 +255,15 @@ namespace Ricochet
   void
   PointwiseContact::make_rows()
   {
-    // Closing changes one direction or not, whatever h_T.
+    // Rows need a closing in each point of all ranks; a law with a length of its own may have none for
+    // some h_T.
     const auto closing = closing_directions(*law, 1.);
     for (const ContactPoint &point : evaluator.contact_points())
       if (const auto own = closing_directions(*law, point.cell_diameter); own)
         closings.push_back(*own);
-    if (!closing || closings.size() < evaluator.contact_points().size())
+    const bool all_close =
+      closing && closings.size() == evaluator.contact_points().size();
+    if (Utilities::MPI::min(all_close ? 1U : 0U, evaluator.communicator) == 0)
       return;
     // Directions are fewer than unknowns; but not with friction in points of faces,
     // each of which has three. With rows along directions, the forces of a multiplier
