@@ -514,9 +514,9 @@ BOOST_AUTO_TEST_CASE(wrong_laws_are_refused)
                   {7., part * cell_diameter}),
                 "",
                 cell_diameter);
-  check_law(ContactLawImplementation<WithAKink>({{7., .03}}), "", 1.);
-  check_law(ContactLawImplementation<Barrier<1>>({{7., .03}}), "", 1.);
-  BOOST_CHECK(of_contact(Barrier<-1>{{7., .03}}, "force() is "));
+  check_law(ContactLawImplementation<WithAKink>(WithAKink{pressure}), "", 1.);
+  check_law(ContactLawImplementation<Barrier<1>>(Barrier<1>{pressure}), "", 1.);
+  BOOST_CHECK(of_contact(Barrier<-1>{pressure}, "force() is "));
   BOOST_CHECK(of_contact(WithWrongSign{pressure}, "force() is "));
   BOOST_CHECK(of_contact(WithHalfThePotential{pressure}, "potential() is "));
   BOOST_CHECK(of_contact(CalledLinear{pressure}, "piecewise linear"));

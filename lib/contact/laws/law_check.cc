@@ -25,21 +25,24 @@ namespace Ricochet
       return !(std::abs(a - b) <= 1e-3 * (std::abs(a) + std::abs(b)));
     }
 
-    /// The derivative of a @p function of the gap, by a quotient of differences; nothing where two
-    /// steps do not agree, as at a kink, or where it is not finite.
+    /// The derivative of a @p function of the gap, by a quotient of differences; nothing at a kink,
+    /// where both sides differ, where a larger step says something else, and where it is not
+    /// finite.
     std::optional<double>
     derivative_of(const std::function<double(const double)> &function,
                   const double                               gap)
     {
-      const auto by_step = [&](const double step) {
-        return (function(gap + step) - function(gap - step)) / (2. * step);
+      const double step = 1e-4 * std::abs(gap), here = function(gap);
+      const auto   by_step = [&](const double h) {
+        return (function(gap + h) - function(gap - h)) / (2. * h);
       };
-      const double large = by_step(1e-3 * std::abs(gap)),
-                   small = by_step(1e-4 * std::abs(gap));
-      if (!std::isfinite(large) || !std::isfinite(small) ||
-          differ(large, small))
-        return {};
-      return small;
+      const double left  = (here - function(gap - step)) / step,
+                   right = (function(gap + step) - here) / step,
+                   small = by_step(step), large = by_step(10. * step);
+      const bool is_known = std::isfinite(small) && std::isfinite(large) &&
+        std::abs(right - left) <= 1e-2 * (std::abs(right) + std::abs(left)) &&
+        !differ(small, large);
+      return is_known ? std::optional<double>(small) : std::nullopt;
     }
   } // namespace
 
