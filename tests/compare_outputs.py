@@ -6,7 +6,7 @@
 
 Words and whole numbers are the same, except for the number of Newton iterations of a step: where
 the residual comes near the tolerance, round-off decides whether another one follows, so that it may
-differ by a quarter or by two. Other numbers agree to 1e-7 of the largest number of
+differ by a quarter or by two, and whether its stage begins again from the last state. Other numbers agree to 1e-7 of the largest number of
 their column or to one in their last digit, plus 1e-9 for round-off: residuals and drifts. A column
 is the same place in lines with the same words. The first line, with versions, is not compared.
 """
@@ -19,6 +19,9 @@ RELATIVE, ROUND_OFF = 1e-7, 1e-9
 NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*(?:[eE][-+]?\d+)?|nan|inf)(?![\w.])")
 
 
+# What round-off decides in the line of how steps were solved.
+BEGUN_AGAIN = re.compile(r", stage begun again from the last state \d+$")
+
 # A step in the log: the last number is that of the iterations.
 STEP = re.compile(r"\s*\d+/\d+ .* \d+  \S+$")
 
@@ -27,7 +30,7 @@ def read(name):
     """For each line its words, without numbers and blanks, its numbers, and whether it is a
     step."""
     with open(name) as file:
-        lines = file.read().splitlines()[1:]
+        lines = [BEGUN_AGAIN.sub("", line) for line in file.read().splitlines()[1:]]
     return [("".join(NUMBER.sub("#", line).split()), NUMBER.findall(line),
              bool(STEP.match(line))) for line in lines]
 

@@ -264,8 +264,10 @@ class CoveringArray(ProgramTest):
                     if "two-step" in row["treatment"]:
                         stages = 2
                     if "Stick = exact" in folder.with_suffix(".prm").read_text():
-                        # Passes after the first one take one to three iterations each.
-                        stages *= 2
+                        # Passes after the first one take one to three iterations each. Round-off
+                        # decides on how many there are: 84 and 87 iterations of one row with the
+                        # kernels of two processors.
+                        stages *= 2.5
                     self.assertLess(max(ledger["newton_iterations"]), 40 * stages)
 
     def test_what_is_refused(self):
