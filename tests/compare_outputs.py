@@ -19,7 +19,7 @@ RELATIVE, ROUND_OFF = 1e-7, 1e-9
 NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*(?:[eE][-+]?\d+)?|nan|inf)(?![\w.])")
 
 
-# What round-off decides in the line of how steps were solved.
+# Part of the line of how steps were solved on which round-off decides.
 BEGUN_AGAIN = re.compile(r", stage begun again from the last state \d+$")
 
 # A step in the log: the last number is that of the iterations.

@@ -17,7 +17,7 @@
 // $(U_0, V_0)$ to $(U_1, V_1)$ is (A (3.2), (3.9))
 //
 // $$ \frac{U_1 - U_0}{\Delta t} = \frac{V_0 + V_1}{2}, \qquad
-//    M \frac{V_1 - V_0}{\Delta t} + K \frac{U_0 + U_1}{2} + F_c(U_0, U_1) = 0, \qquad
+//    M \frac{V_1 - V_0}{\Delta t} + K \frac{U_0 + U_1}{2} + F_c = 0, \qquad
 //    F_c = - \sum_j w_j\, p_j N_j . $$
 //
 // The sum goes over the nodes of the circle: $w_j$ is the length of circle that belongs to the

@@ -32,7 +32,7 @@
 // ## Weak form
 //
 // $$ \int \rho\, \ddot u \cdot v \, dx + \int F S : \nabla v \, dx
-//    - \sum_j w_j \big( p_j\, \delta g_j(v) + t_j\, \delta s_j(v) \big)
+//    - \sum_j w_j (p_j \delta g_j(v) + t_j \delta s_j(v))
 //    = \int \rho\, b \cdot v \, dx . $$
 //
 // ## One step of this program
