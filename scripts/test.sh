@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # From a fresh Debian 12 to all tests passed: install, build, test.
 #
-#   test.sh           what has to pass before anything is merged (below 30 minutes
-#                     on 2 cores): the debug build with all assertions of deal.II,
+#   test.sh           what has to pass before anything is merged (35 to 55 minutes on
+#                     2 cores, of which 11 are builds): the debug build with all assertions of deal.II,
 #                     and the release build, which also compares with stored outputs
 #                     and makes the short ones of the figures, whose numbers are
 #                     checked; the site in short
