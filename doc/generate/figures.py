@@ -301,7 +301,7 @@ def make(made: site.Site, gallery: Gallery, runs: dict[str, str]) -> None:
             for name in programs
             if name in site.steps()
         ] + [
-            text.anchor(site.link(page, runs[name]), "a run to turn and play")
+            text.anchor(site.link(page, runs[name]), f"a run of {name} to turn and play")
             for name in programs
             if name in runs
         ]
