@@ -6,6 +6,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <functional>
@@ -160,17 +162,13 @@ namespace Ricochet
       else if (name != "pi")
         {
           std::vector<std::string> known;
-          std::string              list;
           for (const auto &[one, number] : values)
-            {
-              known.push_back(one);
-              list += (list.empty() ? "" : ", ") + one;
-            }
+            known.push_back(one);
           throw unknown_name(what + ": there is no '" + name + "' in it",
                              name,
                              known,
                              "\nIt may have the columns of energy.csv: " +
-                               list + ".");
+                               boost::algorithm::join(known, ", ") + ".");
         }
     return value_of(text,
                     constants,

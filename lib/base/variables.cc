@@ -5,6 +5,8 @@
 #include <base/unknown_name.h>
 #include <base/variables.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -117,10 +119,9 @@ namespace Ricochet
       std::string
       list() const
       {
-        std::string text;
-        for (const std::string &name : names())
-          text += (text.empty() ? " There is: " : ", ") + name;
-        return text.empty() ? text : text + ".";
+        return definitions.empty()
+          ? ""
+          : " There is: " + boost::algorithm::join(names(), ", ") + ".";
       }
 
       std::map<std::string, const Assignment *> definitions;

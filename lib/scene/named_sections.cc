@@ -5,6 +5,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <map>
 
@@ -22,15 +24,6 @@ namespace Ricochet
 
   namespace
   {
-    std::string
-    join(const std::vector<std::string> &words)
-    {
-      std::string text;
-      for (const std::string &word : words)
-        text += (text.empty() ? "" : ", ") + word;
-      return text;
-    }
-
     /// The name of the file in "file.prm, line 3".
     std::string
     file_of(const std::string &where)
@@ -77,9 +70,10 @@ namespace Ricochet
                                  full.substr(0, 100) + "'",
                                full,
                                candidates,
-                               "\nSections are " + join(plain) +
+                               "\nSections are " +
+                                 boost::algorithm::join(plain, ", ") +
                                  ", and with a name of your own: " +
-                                 join(kinds) + ".",
+                                 boost::algorithm::join(kinds, ", ") + ".",
                                "unknown_section");
           }
         const std::string name =

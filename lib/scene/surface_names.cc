@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <base/exceptions.h>
-#include <base/parameter_file.h>
 #include <base/unknown_name.h>
 #include <scene/surface_names.h>
 
 #include <deal.II/base/utilities.h>
+
+#include <boost/algorithm/string/join.hpp>
 
 namespace Ricochet
 {
@@ -80,10 +81,8 @@ namespace Ricochet
     std::string
     list_of(const std::vector<std::string> &names)
     {
-      std::string list;
-      for (const std::string &name : names)
-        list += (list.empty() ? "" : ", ") + name;
-      return "\nThere is: " + (list.empty() ? "nothing" : list) + ".";
+      return "\nThere is: " +
+        (names.empty() ? "nothing" : boost::algorithm::join(names, ", ")) + ".";
     }
   } // namespace
 

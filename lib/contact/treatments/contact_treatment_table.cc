@@ -26,6 +26,8 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -348,22 +350,13 @@ namespace Ricochet
   namespace
   {
     std::string
-    join(const std::vector<std::string> &words)
-    {
-      std::string text;
-      for (const std::string &word : words)
-        text += (text.empty() ? "" : ", ") + word;
-      return text;
-    }
-
-    std::string
     names_of_treatments(const std::function<bool(const Treatment &)> &good)
     {
       std::vector<std::string> names;
       for (const Treatment &treatment : table())
         if (good(treatment))
           names.push_back(treatment.name);
-      return join(names);
+      return boost::algorithm::join(names, ", ");
     }
 
     /// The names of all treatments whose traits satisfy the condition.
@@ -409,7 +402,7 @@ namespace Ricochet
     for (const Treatment &treatment : table())
       if (treatment.make_law && !treatment.traits.needs_multiplier)
         names.push_back(treatment.name);
-    return join(names);
+    return boost::algorithm::join(names, ", ");
   }
 
 
@@ -517,7 +510,7 @@ namespace Ricochet
       "'" + choices + " and the " +
       (redistributed_mass ? "redistributed" : "consistent") +
       " mass cannot be combined with the time scheme '" + scheme.name +
-      "'.\nAllowed with them: " + join(allowed) + ".\n";
+      "'.\nAllowed with them: " + boost::algorithm::join(allowed, ", ") + ".\n";
     if (scheme.needs_potential)
       message += scheme.name +
         " integrates ordinary differential equations with a "
@@ -690,12 +683,13 @@ namespace Ricochet
                  const Body<dim>         &body)
     {
       const Treatment &treatment = find(parameters);
-      const double     length    = GridTools::minimal_cell_diameter(
+      if (!treatment.make_law)
+        return;
+      const double length = GridTools::minimal_cell_diameter(
         body.dof_handler().get_triangulation());
-      if (treatment.make_law)
-        check_law(*treatment.make_law(parameters.values),
-                  parameters.treatment,
-                  length);
+      check_law(*treatment.make_law(parameters.values),
+                parameters.treatment,
+                length);
       if (scheme.contact_over_step && treatment.make_midpoint_law)
         check_law(*treatment.make_midpoint_law(parameters.values),
                   parameters.treatment,
